@@ -1,0 +1,29 @@
+# Everything Shoal builds on comes from the system's packages; `./dev` installs them.
+find_package(PkgConfig REQUIRED)
+find_package(PNG REQUIRED)
+find_package(GLEW REQUIRED)
+find_package(glfw3 3.3 REQUIRED)
+find_package(assimp REQUIRED)
+find_package(Eigen3 REQUIRED NO_MODULE)
+
+find_package(glm QUIET)
+if(NOT TARGET glm::glm)
+  add_library(glm::glm INTERFACE IMPORTED)
+endif()
+
+# Header-only packages without a usable CMake package on every system that we support.
+find_path(RAPIDJSON_INCLUDE rapidjson/reader.h REQUIRED)
+add_library(RapidJSON INTERFACE IMPORTED)
+target_include_directories(RapidJSON SYSTEM INTERFACE ${RAPIDJSON_INCLUDE})
+
+# Headers of EGL and OSMesa only: the libraries are opened at run time.
+find_path(EGL_INCLUDE EGL/egl.h REQUIRED)
+add_library(GLHeaders INTERFACE IMPORTED)
+target_include_directories(GLHeaders SYSTEM INTERFACE ${EGL_INCLUDE})
+
+find_path(CLI11_INCLUDE CLI/CLI.hpp REQUIRED)
+add_library(CLI11Headers INTERFACE IMPORTED)
+target_include_directories(CLI11Headers SYSTEM INTERFACE ${CLI11_INCLUDE})
+
+# Dear ImGui with its GLFW and OpenGL 3 backends.
+pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)

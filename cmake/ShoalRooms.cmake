@@ -1,0 +1,55 @@
+# shoal_room(NAME [ROOMS ...] [LIBRARIES ...] [PRIVATE_LIBRARIES ...])
+# Makes the library shoal_NAME (alias Shoal::NAME) of every src/NAME/*.cpp.
+# Files named forward*.cpp define symbols that other shared libraries look up (OpenGL forwarding): they
+# become an object library, so that the linker cannot leave them out of whoever links the room.
+
+add_library(shoal_options INTERFACE)
+target_compile_options(shoal_options INTERFACE
+    $<BUILD_INTERFACE:-Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion
+    -Wnon-virtual-dtor -Woverloaded-virtual>
+    $<BUILD_INTERFACE:$<$<BOOL:${SHOAL_WERROR}>:-Werror>>)
+if(SHOAL_SANITIZE)
+  target_compile_options(shoal_options INTERFACE -fsanitize=address,undefined
+      -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)
+  target_link_options(shoal_options INTERFACE -fsanitize=address,undefined)
+endif()
+
+set(SHOAL_ROOMS "" CACHE INTERNAL "")
+
+function(shoal_room name)
+  cmake_parse_arguments(ROOM "" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  set(directory ${CMAKE_CURRENT_SOURCE_DIR}/src/${name})
+  file(GLOB sources CONFIGURE_DEPENDS ${directory}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${directory}/*.h)
+  set(forwarders ${sources})
+  list(FILTER forwarders INCLUDE REGEX "/forward[^/]*\\.cpp$")
+  list(FILTER sources EXCLUDE REGEX "/forward[^/]*\\.cpp$")
+  list(TRANSFORM ROOM_ROOMS PREPEND shoal_)
+
+  if(sources)
+    set(scope PUBLIC)
+    add_library(shoal_${name} STATIC ${sources} ${headers})
+    target_link_libraries(shoal_${name} PRIVATE $<BUILD_INTERFACE:shoal_options>)
+    foreach(library ${ROOM_PRIVATE_LIBRARIES})
+      target_link_libraries(shoal_${name} PRIVATE ${library})
+    endforeach()
+  else()
+    set(scope INTERFACE)
+    add_library(shoal_${name} INTERFACE)
+  endif()
+  add_library(Shoal::${name} ALIAS shoal_${name})
+  set_target_properties(shoal_${name} PROPERTIES EXPORT_NAME ${name})
+  target_include_directories(shoal_${name} ${scope}
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/shoal>)
+  target_link_libraries(shoal_${name} ${scope} ${ROOM_ROOMS} ${ROOM_LIBRARIES})
+
+  if(forwarders)
+    add_library(shoal_${name}_forward OBJECT ${forwarders})
+    target_include_directories(shoal_${name}_forward PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
+    target_link_libraries(shoal_${name}_forward PRIVATE $<BUILD_INTERFACE:shoal_options>
+        ${ROOM_LIBRARIES})
+    target_sources(shoal_${name} INTERFACE
+        $<BUILD_INTERFACE:$<TARGET_OBJECTS:shoal_${name}_forward>>)
+  endif()
+  set(SHOAL_ROOMS ${SHOAL_ROOMS} ${name} CACHE INTERNAL "")
+endfunction()

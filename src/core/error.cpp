@@ -1,0 +1,69 @@
+#include "core/error.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace shoal {
+
+std::string prefix(const Location& location) {
+    if (location.file.empty()) return {};
+    std::string out = location.file + ":";
+    if (location.line > 0) out += std::to_string(location.line) + ":";
+    if (location.line > 0 && location.column > 0) out += std::to_string(location.column) + ":";
+    return out + " ";
+}
+
+static std::string located(const Location& location, const std::string& message) {
+    std::string out = prefix(location) + message;
+    if (!location.path.empty()) out += " (at " + location.path + ")";
+    return out;
+}
+
+Error::Error(Location location, std::string message)
+    : std::runtime_error(located(location, message)),
+      location_(std::move(location)),
+      message_(std::move(message)) {}
+
+std::string text(const Warning& warning) {
+    return located(warning.location, warning.message);
+}
+
+// Levenshtein's distance, one row at a time.
+static size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), size_t{0});
+    for (size_t i = 0; i < a.size(); ++i) {
+        size_t diagonal = row[0];
+        row[0] = i + 1;
+        for (size_t j = 0; j < b.size(); ++j) {
+            const size_t substituted = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, substituted});
+        }
+    }
+    return row.back();
+}
+
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates) {
+    if (word.size() > 64) return {};
+    std::string best;
+    size_t bestDistance = std::max<size_t>(1, word.size() / 3) + 1;
+    for (const std::string& candidate : candidates) {
+        const size_t distance = editDistance(word, candidate);
+        if (distance < bestDistance) {
+            best = candidate;
+            bestDistance = distance;
+        }
+    }
+    return best;
+}
+
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
+    const std::string near = nearest(word, candidates);
+    if (!near.empty()) return " (did you mean \"" + near + "\"?)";
+    std::string out;
+    for (const std::string& candidate : candidates) out += (out.empty() ? "" : ", ") + candidate;
+    return out.empty() ? out : " (expected one of " + out + ")";
+}
+
+}  // namespace shoal

@@ -1,0 +1,62 @@
+// Errors that a user can cause: one exception type that knows where in which file the mistake is.
+//
+// What the user can get wrong throws `Error`; what only we can get wrong is an `assert`. Errors are
+// exceptions rather than return values so that a handle's constructor can fail like everything else.
+// Nothing half-built survives: every writer finishes under a temporary name first (core/file.h).
+#pragma once
+
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace shoal {
+
+// A place in a file. Lines and columns count from 1; 0 means "not known".
+struct Location {
+    std::string file;
+    int line = 0;
+    int column = 0;
+    std::string path;  // JSON path such as $.springs[3].a, empty outside JSON
+
+    bool empty() const { return file.empty(); }
+};
+
+// "file:line:column: " with the parts that are known; empty for an empty location.
+std::string prefix(const Location& location);
+
+// what() is "file:line:column: message (at $.json.path)".
+class Error : public std::runtime_error {
+  public:
+    explicit Error(std::string message) : Error(Location{}, std::move(message)) {}
+    Error(Location location, std::string message);
+
+    const Location& location() const { return location_; }
+    const std::string& message() const { return message_; }
+
+  private:
+    Location location_;
+    std::string message_;
+};
+
+// Something worth telling that does not stop the work.
+struct Warning {
+    Location location;
+    std::string message;
+};
+std::string text(const Warning& warning);
+
+// Puts its arguments behind one another: concat("expected ", 3, " values").
+template <typename... Parts>
+std::string concat(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+}
+
+// The candidate nearest to `word` by edit distance, or empty when none is near enough to be a misspelling.
+std::string nearest(const std::string& word, const std::vector<std::string>& candidates);
+// " (did you mean "x"?)" or, when nothing is near, " (expected one of a, b, c)".
+std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+
+}  // namespace shoal

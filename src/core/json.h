@@ -1,0 +1,125 @@
+// Strict JSON (RFC 8259) that remembers where each value stands and in which order keys came.
+//
+// `parseJson` gives a tree of `JsonValue`s; `JsonReader` takes an object's keys one by one, converts and
+// checks them, and reports the first that is missing, mistyped or unknown as a located Error. A key
+// "comment" is allowed in every object. Duplicate keys, NaN and infinities are refused.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "core/error.h"
+
+namespace shoal {
+
+class JsonValue {
+  public:
+    enum class Kind { null, boolean, number, string, array, object };
+
+    Kind kind = Kind::null;
+    int line = 0, column = 0;  // where the value begins, from 1
+    bool boolean = false;
+    double number = 0;
+    std::string text;  // a string's characters, or a number as it was written
+    std::vector<JsonValue> items;                            // array
+    std::vector<std::pair<std::string, JsonValue>> members;  // object, in the file's order
+
+    const JsonValue* find(std::string_view key) const;
+
+    // Builders for what we write.
+    static JsonValue makeNumber(double value);
+    static JsonValue makeString(std::string value);
+    static JsonValue makeBoolean(bool value);
+    static JsonValue makeArray();
+    static JsonValue makeObject();
+    template <int N, typename T>
+    static JsonValue makeVector(const glm::vec<N, T>& v) {
+        JsonValue array = makeArray();
+        for (int i = 0; i < N; ++i) array.items.push_back(makeNumber(static_cast<double>(v[i])));
+        return array;
+    }
+    JsonValue& add(std::string key, JsonValue value);  // returns *this, for chains
+};
+
+const char* name(JsonValue::Kind kind);  // "a number", "an object", ...
+
+// Error: not JSON (with line and column), nested deeper than 64, or a repeated key.
+JsonValue parseJson(const std::string& text, const std::string& file);
+JsonValue readJson(const std::string& file);
+// Indented by two; arrays of plain numbers stay on one line; ends with a newline. Numbers are written in
+// the shortest form that reads back as the same double.
+std::string writeJson(const JsonValue& value);
+
+// Limits of a number, inclusive unless `above`.
+struct Range {
+    double least = -std::numeric_limits<double>::infinity();
+    double most = std::numeric_limits<double>::infinity();
+    bool aboveLeast = false;  // strictly above `least`
+
+    static Range any() { return {}; }
+    static Range positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
+    static Range atLeast(double value) { return {value, std::numeric_limits<double>::infinity(), false}; }
+    static Range between(double least, double most) { return {least, most, false}; }
+};
+
+// Reads one object. Call a getter per key, then `finish()`, which refuses whatever was not asked for.
+// A getter leaves its target alone when an optional key is absent and returns whether it was there.
+class JsonReader {
+  public:
+    JsonReader(const JsonValue& object, std::string file, std::string path = "$");
+
+    bool has(const std::string& key) const { return object_->find(key) != nullptr; }
+    Location at(const std::string& key) const;  // of the key's value, or of the object if it is absent
+    Location here() const;
+    const std::string& file() const { return file_; }
+    const std::string& path() const { return path_; }
+
+    bool get(const std::string& key, double& out, Range range = {});
+    bool get(const std::string& key, int& out, Range range = {});
+    bool get(const std::string& key, uint64_t& out);
+    bool get(const std::string& key, bool& out);
+    bool get(const std::string& key, std::string& out);
+    bool get(const std::string& key, glm::dvec2& out, Range range = {});
+    bool get(const std::string& key, glm::dvec3& out, Range range = {});
+    bool get(const std::string& key, std::vector<double>& out, Range range = {});
+    bool get(const std::string& key, std::vector<int>& out, Range range = {});
+    bool get(const std::string& key, std::vector<std::string>& out);
+    // One of a fixed set of words; `out` becomes its index.
+    bool choose(const std::string& key, const std::vector<std::string>& words, int& out);
+    template <typename T>
+    void need(const std::string& key, T& out) {
+        require(key);
+        get(key, out);
+    }
+    template <typename T>
+    void need(const std::string& key, T& out, Range range) {
+        require(key);
+        get(key, out, range);
+    }
+    void require(const std::string& key);  // Error when the key is absent
+
+    // The value of a key as an object or as the objects of an array; marks the key as used.
+    std::optional<JsonReader> object(const std::string& key);
+    std::vector<JsonReader> objects(const std::string& key);
+    const JsonValue* raw(const std::string& key);
+
+    // Error for the first key that no getter asked for, with the nearest known key.
+    void finish();
+
+  private:
+    const JsonValue* take(const std::string& key, JsonValue::Kind kind);
+    double checked(const JsonValue& value, const std::string& path, Range range) const;
+    Location locate(const JsonValue& value, const std::string& path) const;
+
+    const JsonValue* object_;
+    std::string file_, path_;
+    std::vector<std::string> known_;
+};
+
+}  // namespace shoal

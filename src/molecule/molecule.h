@@ -1,0 +1,76 @@
+// A molecule: the small mass-spring mesh that every instance of a group shares (Decker, section 3.2).
+// SI units throughout: metres, kilograms, seconds, newtons. Right-handed, +Y up.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "core/error.h"
+
+namespace shoal {
+
+struct Vertex {
+    glm::dvec3 position{0};  // m, in the rest shape
+    glm::dvec2 uv{0};        // texture coordinates, (0,0) at the lower left
+    double mass = 1;         // kg, above 0
+    bool pinned = false;     // held where it was placed until the scene releases it
+};
+
+// A muscle: L(t) = L (1 + amplitude sin(2 pi frequency t + phase)).
+struct Actuation {
+    double amplitude = 0;  // share of the rest length, in [0, 1)
+    double frequency = 0;  // Hz
+    double phase = 0;      // rad
+};
+
+// Force on a: -[stiffness (l - L) + damping n.(va - vb)] n, with n from b to a, l their distance.
+struct Spring {
+    int a = 0, b = 0;
+    double stiffness = 0;              // N/m
+    double damping = 0;                // N s/m
+    std::optional<double> restLength;  // m; the distance in the rest shape when absent
+    std::optional<Actuation> actuation;
+};
+
+struct Triangle {
+    int a = 0, b = 0, c = 0;  // anticlockwise seen from the front
+};
+
+// How a molecule looks. Colours are linear RGB in [0, 1].
+struct Material {
+    glm::dvec3 color{0.8};
+    std::optional<glm::dvec3> secondColor;  // instances vary between color and this one
+    std::string texture;                    // PNG beside the molecule file; alpha cuts the shape out
+    double alphaCut = 0.5;                  // texels below this alpha are not drawn
+    double translucency = 0;                // share of light that shines through from behind, in [0, 1]
+    double roughness = 0.7;                 // in [0, 1]
+    double pointSize = 0.02;                // m, the diameter of a molecule without triangles
+};
+
+struct Molecule {
+    std::string name;
+    std::string comment;
+    std::vector<Vertex> vertices;
+    std::vector<Spring> springs;
+    std::vector<Triangle> triangles;
+    Material material;
+    std::string file;  // where it was read from; empty when made in code
+
+    // Where each element stands in the file, for messages; empty when made in code.
+    struct Places {
+        std::vector<Location> vertices, springs, triangles;
+    } places;
+
+    double restLength(const Spring& spring) const {
+        if (spring.restLength) return *spring.restLength;
+        return glm::length(vertices[size_t(spring.a)].position - vertices[size_t(spring.b)].position);
+    }
+    // The largest rest distance between two vertices: the length that relative errors refer to. 1 for a point.
+    double size() const;
+    bool hasPins() const;
+};
+
+}  // namespace shoal
