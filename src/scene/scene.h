@@ -1,0 +1,274 @@
+// A scene: everything a run needs, in the words of the scene file. Anything left out is not simulated.
+// SI units, radians, right-handed, +Y up. Every default below is the file's default.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "core/error.h"
+#include "molecule/molecule.h"
+#include "scene/mesh.h"
+
+namespace shoal {
+
+struct Box {
+    glm::dvec3 low{-1}, high{1};  // m
+};
+
+// ---- Vector fields: fluid velocity u(x, t) in m/s. They add up, each times its weight, inside its box.
+
+struct UniformField {
+    glm::dvec3 velocity{0};  // m/s
+};
+
+// Direction constant, strength varied in space and time: fronts of size length x width travel along the
+// direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
+// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q / width)
+// with s along the direction and p, q across it.
+struct GustField {
+    glm::dvec3 direction{1, 0, 0};  // any length above 0; normalised
+    double speed = 5;               // m/s, mean
+    double strength = 0.6;          // relative variation, at least 0
+    double length = 8;              // m, of a front along the direction
+    double width = 6;               // m, of a front across it
+    double frontSpeed = 5;          // m/s
+    uint32_t seed = 0;
+};
+
+struct ShearField {
+    glm::dvec3 origin{0};
+    glm::dvec3 velocity{0};  // m/s at the origin
+    glm::dmat3 gradient{0};  // 1/s; rows in the file: u = velocity + gradient (x - origin)
+};
+
+// Scully's vortex: turns about the axis with peak speed at the core radius,
+// speed * 2 (r/R) / (1 + (r/R)^2), plus `lift` along the axis times the same profile's core 1/(1+(r/R)^2).
+struct VortexField {
+    glm::dvec3 origin{0};
+    glm::dvec3 axis{0, 1, 0};
+    double speed = 3;   // m/s at r = radius
+    double radius = 1;  // m
+    double lift = 0;    // m/s on the axis
+};
+
+// Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi / wavelength.
+struct AbcField {
+    glm::dvec3 origin{0};
+    double a = 1, b = 1, c = 1;  // m/s
+    double wavelength = 6.283185307179586;  // m
+};
+
+// Taylor-Green: u = speed (cos kx sin ky, -sin kx cos ky, 0) cos kz.
+struct TaylorGreenField {
+    glm::dvec3 origin{0};
+    double speed = 1;                       // m/s
+    double wavelength = 6.283185307179586;  // m
+};
+
+// Curl of three gradient noises in (x / length, t / period): divergence-free and unbiased because it
+// evolves in time instead of being scrolled (Bridson et al. 2007).
+struct CurlNoiseField {
+    double speed = 1;   // m/s, about the RMS of u
+    double length = 2;  // m, of the largest eddies
+    double period = 2;  // s, in which they change
+    int octaves = 1;    // 1 to 4, each half the length, period and 2^(-1/3) of the speed
+    uint32_t seed = 0;
+};
+
+// A regular grid of velocities, trilinear between cell centres.
+struct GridField {
+    std::string file;
+    glm::ivec3 resolution{0};
+    glm::dvec3 low{0}, high{0};      // m, in the scene's axes: the outer faces of the outer cells
+    std::vector<glm::vec3> values;   // m/s, x fastest, then y, then z
+    bool wrap = false;               // repeat outside the bounds, else clamp to the border
+};
+
+using FieldShape = std::variant<UniformField, GustField, ShearField, VortexField, AbcField, TaylorGreenField,
+                                CurlNoiseField, GridField>;
+
+struct Field {
+    std::string name;
+    FieldShape shape;
+    double weight = 1;
+    std::optional<Box> box;  // no effect outside
+};
+
+// ---- Colliders
+
+struct PlaneCollider {
+    glm::dvec3 point{0};
+    glm::dvec3 normal{0, 1, 0};  // free side
+};
+
+struct SphereCollider {
+    glm::dvec3 center{0};
+    double radius = 1;  // m
+};
+
+// Heights over a rectangle in x and z; beyond it there is nothing.
+struct HeightFieldCollider {
+    int columns = 0, rows = 0;   // samples along x and z, at least 2
+    glm::dvec2 low{0}, high{0};  // m: x and z of the first and last sample
+    std::vector<float> heights;  // m, x fastest
+    bool sampledNormals = false; // normal from three height samples (Latta 3.4.2) instead of stored ones
+};
+
+using ColliderShape = std::variant<PlaneCollider, SphereCollider, HeightFieldCollider>;
+
+struct Collider {
+    std::string name;
+    ColliderShape shape;
+    double restitution = 0.2;  // in [0, 1]
+    double friction = 0.5;     // Coulomb's mu, at least 0
+    double thickness = 0.002;  // m: vertices rest this far from the surface
+    bool draw = true;          // planes and spheres are drawn; height fields show as their model
+    glm::dvec3 color{0.4, 0.42, 0.38};
+};
+
+// ---- Models
+
+struct Model {
+    std::string name, file;
+    glm::dvec3 position{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    double scale = 1;
+    bool draw = true;
+    glm::dvec3 color{1};  // multiplies the vertex colours
+    double roughness = 0.9;
+    Mesh mesh;  // in scene coordinates: position, rotation and scale applied
+};
+
+// ---- Groups of molecules
+
+// Which vertices or triangles of a model may carry molecules. All conditions that are given must hold.
+struct Selection {
+    std::optional<double> thinnest;      // the thinnest share of the vertices, in (0, 1]: smallest branches
+    std::optional<double> maxThickness;  // m: local thickness (shape diameter) at most this
+    std::string object;                  // name of an object of the model; empty: all
+    std::optional<glm::dvec3> color;     // vertex colour within colorTolerance per channel
+    double colorTolerance = 0.1;
+    std::optional<double> minHeight, maxHeight;  // m, along y
+};
+
+struct Placement {
+    enum class Kind { vertices, surface, volume, grid, list };
+    Kind kind = Kind::volume;
+    int model = -1;  // index of the scene's model, for vertices and surface
+    Selection select;
+    Box box;                                    // volume
+    glm::dvec3 origin{0}, spacing{1};           // grid
+    glm::ivec3 cells{1};                        // grid: counts along x, y, z
+    struct Item {
+        glm::dvec3 position{0};
+        glm::dquat rotation{1, 0, 0, 0};
+        double scale = 1;
+    };
+    std::vector<Item> items;  // list
+
+    enum class Align { none, up, normal };  // where the molecule's +Y points before turning
+    Align align = Align::none;
+    enum class Turn { none, yaw, any };  // random turn about that axis, or any rotation
+    Turn turn = Turn::yaw;
+    double tilt = 0;              // rad: then tipped by up to this much in a random direction
+    double droop = 0;             // in [0, 1]: the axis is bent this share of the way to straight down
+    glm::dvec2 scale{1, 1};       // random between the two
+    double offset = 0;            // m along the axis
+};
+
+// Stokes drag rate in 1/s (gamma = 6 pi eta r / m for a sphere of radius r and mass m).
+struct Drag {
+    double normal = 0;   // across the surface
+    double tangent = 0;  // along it; equal to `normal` for plain drag
+    bool directional() const { return normal != tangent; }
+    bool any() const { return normal != 0 || tangent != 0; }
+};
+
+// Pins let go when the springs pull on one by more than `force`, or at random at `rate`.
+struct Release {
+    std::optional<double> force;  // N
+    std::optional<double> rate;   // 1/s, per molecule
+    double after = 0;             // s: not before this time
+};
+
+struct Group {
+    std::string name;
+    Molecule molecule;
+    int count = 0;
+    Placement place;
+    Drag drag;
+    bool held = true;  // pinned vertices hold; false: they are free from the start
+    std::optional<Release> release;
+    double stiffness = 1, damping = 1;  // factors on every spring of the molecule
+    glm::dvec3 velocity{0};             // m/s at the start
+    glm::dvec3 spin{0};                 // rad/s at the start, about the molecule's placed origin
+    double phaseSpread = 0;             // rad: actuation phase varies by up to this between instances
+    bool collide = true;
+    std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
+    Location location;  // of the group in the file, for messages
+};
+
+// ---- The rest
+
+enum class SolverKind { euler, leapfrog };
+
+struct SolverSettings {
+    SolverKind kind = SolverKind::leapfrog;
+    int substeps = 4;  // per frame
+    Location location;
+};
+
+struct Camera {
+    glm::dvec3 eye{0, 2, 8}, target{0, 1, 0};
+    double fieldOfView = 0.8;  // rad, vertical
+    double exposure = 1;
+};
+
+struct Light {
+    glm::dvec3 direction{-0.4, -1, -0.3};  // in which sunlight travels
+    glm::dvec3 color{1, 0.95, 0.85};
+    double intensity = 3.2;
+    bool shadows = true;
+};
+
+struct Sky {
+    glm::dvec3 zenith{0.18, 0.36, 0.72}, horizon{0.74, 0.82, 0.88}, ground{0.22, 0.2, 0.16};
+    double intensity = 1;
+    double fog = 0;  // 1/m: how fast the horizon's colour covers things
+};
+
+struct Scene {
+    std::string name, comment, file;
+    uint64_t seed = 1;
+    double frameRate = 60;  // Hz: one frame simulates 1 / frameRate seconds
+    glm::dvec3 gravity{0};  // m/s^2
+    SolverSettings solver;
+    std::vector<Field> fields;
+    std::vector<Collider> colliders;
+    std::vector<Model> models;
+    std::vector<Group> groups;
+    Camera camera;
+    Light light;
+    Sky sky;
+    std::vector<Warning> warnings;  // found while reading
+};
+
+// Where one molecule of a group starts.
+struct Instance {
+    glm::dvec3 position{0};
+    glm::dquat rotation{1, 0, 0, 0};
+    double scale = 1;
+    uint32_t seed = 0;
+};
+
+// Deterministic in (scene.seed, the group's index): group.count instances.
+// Error (located at the group): nothing matches the selection.
+std::vector<Instance> place(const Scene& scene, size_t group);
+
+}  // namespace shoal
