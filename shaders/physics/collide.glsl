@@ -1,0 +1,62 @@
+// Contact of a vertex with a collider: restitution and Coulomb friction whose result does not depend on the
+// step. Replaces Latta's (4) and (5): normal part (v.n) n, and friction bounded by the normal impulse instead
+// of a factor (1 - mu) per step. Read as C++ through GLM by the tests.
+
+struct Contact {
+    vec3 position;
+    vec3 velocity;
+};
+
+// What the solver's last drift was like.
+//   step       h of the substep, s
+//   kickDrift  how long the velocity that the step's acceleration added has moved the position: h for euler, h/2
+//              for leapfrog
+//   lag        how far the stored velocity lags behind the position: h/2 for euler (its positions lie on the
+//              exact parabola of the velocity half a step later), 0 for leapfrog
+struct Drift {
+    float step;
+    float kickDrift;
+    float lag;
+};
+
+// The vertex at x with velocity v lies `distance` from the surface (negative: inside); n is the unit normal.
+//
+// The speed at the moment of impact follows from energy, v_i^2 = v_n^2 - 2 |g_n| depth, and the time since
+// from the depth, so that a bounce keeps its height whatever the phase of the impact within the step. The
+// vertex flies back from the surface for that time; if gravity brings it down again within it, it rests.
+// Friction changes the velocity by at most mu times the normal change, never past a stop, and takes back the
+// part of the drift that the lost velocity had made: a vertex that sticks does not creep.
+Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+                Drift drift)
+{
+    if (distance >= 0.0f) return Contact(x, v);
+    float depth = -distance;
+    float vn = dot(v, n);
+    vec3 surface = x + n * depth;
+    if (vn >= 0.0f) return Contact(surface, v);  // already on its way out
+
+    float gn = dot(gravity, n);
+    float synchronised = vn + gn * drift.lag;
+    float impact = sqrt(max(synchronised * synchronised + 2.0f * gn * depth, 0.0f));
+    float since = min(depth / max(0.5f * (impact - synchronised), 1e-20f), drift.step);
+    float rebound = restitution * impact;
+    // pressed down by more than half a step's gravity can undo: it bounces; otherwise it rests
+    bool bounces = rebound > 0.5f * abs(gn) * drift.step && rebound + 0.5f * gn * since > 0.0f;
+    float newNormal = bounces ? rebound + gn * (since - drift.lag) : 0.0f;
+    float height = bounces ? (rebound + 0.5f * gn * since) * since : 0.0f;
+    float frictionTime = bounces ? since : drift.kickDrift;
+
+    vec3 tangential = v - n * vn;
+    float speed = sqrt(dot(tangential, tangential));
+    // the impulse acts over the whole resting step, or at the impact
+    float normalChange = bounces ? rebound + impact : -vn;
+    float lost = min(friction * normalChange, speed);
+    vec3 lostVelocity = speed > 0.0f ? tangential * (lost / speed) : vec3(0.0f);
+    return Contact(surface + n * height - lostVelocity * frictionTime, tangential - lostVelocity + n * newNormal);
+}
+
+// Height field cell: bilinear height from the four corner heights, fractions f in [0, 1].
+float bilinear(float h00, float h10, float h01, float h11, vec2 f)
+{
+    return mix(mix(h00, h10, f.x), mix(h01, h11, f.x), f.y);
+}

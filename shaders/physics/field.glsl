@@ -1,0 +1,54 @@
+// Fluid velocities u(x, t) of the analytic fields, in m/s. `x` is relative to the field's origin, which the
+// caller subtracted from the molecule's anchor exactly. Formulas and units: src/scene/scene.h.
+// Read as C++ through GLM by the tests. Needs physics/noise.glsl.
+#include "physics/noise.glsl"
+
+// along, across1, across2: an orthonormal frame; size = (length, width); frozen turbulence that travels.
+// n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of about 0.4.
+vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, float strength, float frontSpeed,
+                  vec2 size, uint seed)
+{
+    vec3 third = cross(along, across);
+    vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x, dot(x, across) / size.y, dot(x, third) / size.y);
+    float n = 1.2f * (gradientNoise(p, seed) + 0.5f * gradientNoise(2.0f * p + 17.31f, seed + 1u));
+    return along * (speed * (1.0f + strength * n));
+}
+
+vec3 shearVelocity(vec3 x, vec3 velocity, vec3 row0, vec3 row1, vec3 row2)
+{
+    return velocity + vec3(dot(row0, x), dot(row1, x), dot(row2, x));
+}
+
+// Scully's vortex: peak `speed` at r = radius; `lift` along the axis on the axis.
+vec3 vortexVelocity(vec3 x, vec3 axis, float speed, float radius, float lift)
+{
+    vec3 r = (x - axis * dot(x, axis)) / radius;
+    float core = 1.0f / (1.0f + dot(r, r));
+    return cross(axis, r) * (2.0f * speed * core) + axis * (lift * core);
+}
+
+vec3 abcVelocity(vec3 x, float a, float b, float c, float wavenumber)
+{
+    vec3 p = x * wavenumber;
+    return vec3(a * sin(p.z) + c * cos(p.y), b * sin(p.x) + a * cos(p.z), c * sin(p.y) + b * cos(p.x));
+}
+
+vec3 taylorGreenVelocity(vec3 x, float speed, float wavenumber)
+{
+    vec3 p = x * wavenumber;
+    return vec3(cos(p.x) * sin(p.y), -sin(p.x) * cos(p.y), 0.0f) * (speed * cos(p.z));
+}
+
+// Octave i has length and period 2^-i and speed 2^(-i/3) (Kolmogorov's spectrum) of the first.
+vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period, int octaves, uint seed)
+{
+    vec3 sum = vec3(0.0f);
+    float scale = 1.0f;
+    float amplitude = speed;
+    for (int i = 0; i < octaves; ++i) {
+        sum += amplitude * curlNoise(x * (scale / size), time * (scale / period), seed + uint(i));
+        scale *= 2.0f;
+        amplitude *= 0.79370053f;
+    }
+    return sum;
+}

@@ -1,0 +1,15 @@
+// Vertex normals: the sum of the area vectors of the triangles around a vertex (Decker, section 3.5).
+// Read as C++ through GLM by the tests.
+
+// Area vector of the triangle whose other corners, anticlockwise, lie at b and c relative to the vertex.
+vec3 areaVector(vec3 b, vec3 c)
+{
+    return cross(b, c);
+}
+
+// Unit normal of a sum of area vectors; `fallback` where the sum vanishes.
+vec3 unitNormal(vec3 sum, vec3 fallback)
+{
+    float squared = dot(sum, sum);
+    return squared > 1e-30f ? sum / sqrt(squared) : fallback;
+}
