@@ -1,0 +1,62 @@
+// Vertex, index and uniform data that is written once or rarely, and how shaders read it.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "gpu/context.h"
+#include "gpu/handle.h"
+
+namespace shoal::gpu {
+
+class Buffer {
+  public:
+    enum class Use { vertex, index, uniform };
+
+    Buffer() = default;
+    // Counted as parameters. `data` may be null: contents undefined, nothing counted.
+    // Error: out of memory; says how much it would take.
+    Buffer(Context& context, Use use, const void* data, size_t bytes, const char* label);
+    template <typename T>
+    Buffer(Context& context, Use use, std::span<const T> data, const char* label)
+        : Buffer(context, use, data.data(), data.size_bytes(), label) {}
+
+    void update(Traffic::Kind kind, size_t offset, const void* data, size_t bytes);
+    void bindUniform(int binding) const;  // uniform buffers: all of it
+
+    GLuint id() const { return handle_.id(); }
+    size_t bytes() const { return bytes_; }
+    Use use() const { return use_; }
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    Handle<deleteBuffer> handle_;
+    Traffic* traffic_ = nullptr;
+    Use use_ = Use::vertex;
+    size_t bytes_ = 0;
+};
+
+// Borrows its buffers, which must outlive it. One without attributes is what a draw needs that makes its
+// vertices from gl_VertexID.
+class VertexArray {
+  public:
+    VertexArray() = default;
+    explicit VertexArray(Context& context, const char* label = "");
+
+    // Floats. stride and offset in bytes; divisor 1: one value an instance.
+    void attribute(int location, const Buffer& buffer, int components, int stride, int offset,
+                   int divisor = 0);
+    void integerAttribute(int location, const Buffer& buffer, int components, int stride, int offset,
+                          int divisor = 0);  // uint32
+    void indices(const Buffer& buffer);
+    void bind() const;
+
+    GLuint id() const { return handle_.id(); }
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    Handle<deleteVertexArray> handle_;
+};
+
+}  // namespace shoal::gpu

@@ -1,0 +1,79 @@
+// An OpenGL core context of 3.3 or newer: in a window (GLFW), on EGL without a display, or on OSMesa.
+//
+// One binary holds all three and none is linked: libEGL and libOSMesa are opened when they are asked for.
+// One thread uses OpenGL: GLEW's function pointers belong to the process, so contexts of different kinds may
+// live side by side, but only the one made current last may be used. Textures, buffers and the like must be
+// destroyed before their context and while it is current.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "gpu/traffic.h"
+
+struct GLFWwindow;
+
+namespace shoal::gpu {
+
+enum class ContextKind { automatic, window, egl, osmesa };
+
+// "auto", "window", "egl" or "osmesa". Error: anything else, with the nearest of them.
+ContextKind contextKind(const std::string& word);
+const char* name(ContextKind kind);
+
+struct ContextOptions {
+    ContextKind kind = ContextKind::automatic;
+    int width = 1280, height = 720;  // of the window, in screen units; the others draw into framebuffers
+    std::string title = "Shoal";
+    bool visible = true;        // window: shown at once
+    bool preferWindow = false;  // automatic: a window where there is a display, else headless
+    bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
+};
+
+struct ContextInfo {
+    ContextKind kind = ContextKind::automatic;  // never automatic once there is a context
+    std::string platform;                       // such as "EGL surfaceless", for people
+    std::string renderer, vendor, version, glslVersion;
+    int major = 0, minor = 0;
+    bool software = false;  // a CPU rasteriser
+
+    int maxTextureSize = 0, maxColorAttachments = 0, maxSamples = 0, maxVertexTextureUnits = 0;
+    int max3DTextureSize = 0;
+    int64_t maxBufferTexels = 0;
+    int64_t maxStorageBlockBytes = 0;  // 0 below 4.3
+    bool computeShaders = false;       // 4.3+: by version, never by extension
+
+    bool atLeast(int wantedMajor, int wantedMinor) const {
+        return major > wantedMajor || (major == wantedMajor && minor >= wantedMinor);
+    }
+};
+
+class Context {
+  public:
+    // The context is current afterwards. Error: none to be had; says what was tried, why each way failed and
+    // what to install.
+    explicit Context(const ContextOptions& options = {});
+    ~Context();
+    Context(Context&&) noexcept;
+    Context& operator=(Context&&) noexcept;
+
+    void makeCurrent();
+    bool isCurrent() const;
+    const ContextInfo& info() const;
+    Traffic& traffic();
+    const Traffic& traffic() const;
+    GLFWwindow* window() const;  // null unless this is a window
+    // Error: OpenGL reports a mistake since the last call; `where` names the work that was done.
+    void checkErrors(const char* where);
+
+    struct State;
+    // Of the context that is current in this process, or null.
+    static State* current();
+    static void restore(State* state);
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace shoal::gpu

@@ -1,0 +1,48 @@
+// What passes draw into. Borrows its textures, which must outlive it; owns its renderbuffers.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/handle.h"
+#include "gpu/texture.h"
+
+namespace shoal::gpu {
+
+class Framebuffer {
+  public:
+    Framebuffer() = default;
+    // Colour textures become draw buffers 0, 1, … in order; `depth` may be null; there may be no colours.
+    // Error: this driver cannot draw into such a set; says into which.
+    Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth = nullptr,
+                const char* label = "");
+    // Renderbuffers with several samples a pixel (reduced to what the context has), to be blitted.
+    static Framebuffer multisampled(Context& context, Format color, bool depth, int samples, int width,
+                                    int height, const char* label);
+
+    void bind() const;  // viewport: all of it
+    void bind(int x, int y, int width, int height) const;
+    // The window's own framebuffer.
+    static void bindDefault(int width, int height);
+
+    // Copies the first colour, resolving samples. Sizes must be equal.
+    void blitTo(const Framebuffer& other) const;
+    void blitToDefault(int width, int height) const;  // LINEAR where the sizes differ and there is 1 sample
+
+    GLuint id() const { return handle_.id(); }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    int samples() const { return samples_; }  // 1: not multisampled
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    void checkComplete(const std::string& attachments) const;
+
+    Handle<deleteFramebuffer> handle_;
+    Handle<deleteRenderbuffer> colorStorage_, depthStorage_;
+    int width_ = 0, height_ = 0, samples_ = 1;
+    std::string label_;
+};
+
+}  // namespace shoal::gpu

@@ -1,0 +1,102 @@
+// How long each named pass takes. The name of a pass is its timer, its debug group and its row in the panel.
+//
+// A value is the seconds that all calls under one name took together in one frame. In query mode the results
+// are read back a few frames later, when they are there, so that nothing waits; and a frame reads at most
+// 4 + 24 * 8 = 196 bytes, which leaves 60 of the frame's 256 bytes of control to others: when there are more
+// calls than 24, a window of 24 that moves on with every frame is timed and scaled to the number of calls.
+#pragma once
+
+#include <chrono>
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/debug_group.h"
+#include "gpu/handle.h"
+
+namespace shoal::gpu {
+
+struct PassTime {
+    std::string name;
+    double last = 0, min = 0, median = 0;  // seconds a frame, over the frames that are kept
+    int calls = 0;                         // in the last frame
+    int frames = 0;                        // with a value so far
+};
+
+class PassTimers {
+  public:
+    enum class Mode {
+        off,
+        query,   // GL_TIME_ELAPSED: right for a GPU, costs next to nothing
+        finish,  // glFinish and a clock: right for a CPU rasteriser, whose queries are not
+    };
+    static constexpr int queriesPerFrame = 24;
+    static constexpr int keptFrames = 1024;  // of history, for each name
+
+    PassTimers(Context& context, Mode mode);
+    static Mode suitedTo(const ContextInfo& info);  // finish on a CPU rasteriser, else query
+    Mode mode() const { return mode_; }
+
+    class Scope {
+      public:
+        ~Scope();
+        Scope(const Scope&) = delete;
+        Scope& operator=(const Scope&) = delete;
+
+      private:
+        friend class PassTimers;
+        Scope(PassTimers& timers, const char* name);
+        PassTimers& timers_;
+        DebugGroup group_;
+        int call_ = -1;  // of this frame; -1: not timed
+        std::chrono::steady_clock::time_point start_;
+    };
+    // auto t = timers.time("advect"); until the end of the block. Passes do not nest (assert). Outside a
+    // frame, and when off, this is a debug group only.
+    [[nodiscard]] Scope time(const char* name) { return Scope(*this, name); }
+
+    void beginFrame();
+    void endFrame();
+    void drain();  // query: waits for all results; for the end of a benchmark, not for frames
+    void reset();  // forgets the history, such as after warming up
+
+    std::vector<PassTime> report() const;                        // in the order of first use
+    std::vector<double> history(const std::string& name) const;  // oldest first
+
+  private:
+    struct Pass {
+        std::string name;
+        std::vector<double> values;  // a ring of keptFrames
+        size_t written = 0;
+        int calls = 0;  // in the last frame
+    };
+    struct Call {
+        int pass = 0;
+        int query = -1;  // index into the frame's queries
+        double seconds = 0;
+    };
+    struct Frame {
+        std::vector<Call> calls;
+        std::vector<Handle<deleteQuery>> queries;
+        int used = 0;
+    };
+
+    int passIndex(const char* name);
+    bool sampled(int call) const;
+    bool collectOldest(bool wait);
+    void record(const std::vector<Call>& calls);
+
+    Context* context_;
+    Mode mode_;
+    bool inFrame_ = false, inPass_ = false;
+    std::vector<Pass> passes_;
+    Frame frame_;
+    std::deque<Frame> pending_;
+    std::vector<Frame> spare_;
+    int callsLastFrame_ = 0, windowStart_ = 0;
+};
+
+}  // namespace shoal::gpu

@@ -1,0 +1,67 @@
+// A vertex and a fragment shader, compiled and linked, with their uniforms by name.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "gpu/handle.h"
+#include "gpu/texture.h"
+
+namespace shoal::gpu {
+
+struct ProgramOptions {
+    std::string vertex, fragment;                  // files below the root of the shaders
+    std::vector<std::string> defines;              // "NAME" or "NAME value"
+    std::map<std::string, std::string> generated;  // files that exist only in memory, by include name
+    std::string label;
+};
+
+class Program {
+  public:
+    Program() = default;
+    // Error: a file is missing, or the driver refuses; located in our file and line, with the driver's log.
+    Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options);
+
+    void use() const;
+
+    // The program must be in use. A name that the shader declares but that the compiler dropped is ignored; a
+    // name that it does not declare is a mistake of ours (assert). Arrays: the name without [0].
+    void set(const char* name, int value) const;
+    void set(const char* name, uint32_t value) const;
+    void set(const char* name, float value) const;
+    void set(const char* name, const glm::ivec2& value) const;
+    void set(const char* name, const glm::ivec4& value) const;
+    void set(const char* name, const glm::vec2& value) const;
+    void set(const char* name, const glm::vec3& value) const;
+    void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, const glm::mat3& value) const;
+    void set(const char* name, const glm::mat4& value) const;
+    void set(const char* name, std::span<const float> values) const;
+    void set(const char* name, std::span<const glm::vec4> values) const;
+
+    // Binds the texture to the unit and the sampler to it.
+    void texture(const char* sampler, int unit, const Texture& texture) const;
+    void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
+    bool uses(const char* name) const;  // the compiler kept it
+
+    GLuint id() const { return handle_.id(); }
+    const std::string& label() const { return label_; }
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    GLint location(const char* name) const;
+
+    Handle<deleteProgram> handle_;
+    std::map<std::string, GLint, std::less<>> locations_;
+    std::set<std::string, std::less<>> declared_;
+    std::string label_;
+};
+
+}  // namespace shoal::gpu

@@ -1,0 +1,48 @@
+// Shader files with includes, and a line table. Pure text: no OpenGL, testable without a context.
+//
+// Shader files have no #version line: `header` goes in front, then one #define a line, then the file with
+// every #include "folder/file.glsl" replaced by that file, once each, from the root of the shaders. #include
+// is resolved whatever #if surrounds it. There is no #line in the result, because drivers disagree on what
+// it means; instead the driver's log is rewritten with the table.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/error.h"
+
+namespace shoal::gpu {
+
+struct ShaderSource {
+    struct Line {
+        int file = 0;  // index into `files`
+        int line = 0;  // from 1
+    };
+    std::string text;
+    std::vector<Line> lines;         // one for each line of `text`
+    std::vector<std::string> files;  // as they are named in messages; [0] is the header
+
+    // Every "0:12(5): error:" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:" (Intel, AMD, Apple) becomes
+    // "file:line[:column]: …"; other lines stay as they are.
+    std::string rewriteLog(const std::string& driverLog) const;
+    // Where the first message of the log points; empty when none does.
+    Location firstLocation(const std::string& driverLog) const;
+};
+
+// `defines`: "NAME" or "NAME value". `generated`: files that exist only in memory, by the name they are
+// included under; they go before files on disk. Error: no such file, located at the #include that asks.
+ShaderSource resolveShader(const std::string& root, const std::string& file,
+                           const std::vector<std::string>& defines,
+                           const std::map<std::string, std::string>& generated, const std::string& header);
+
+const char* header330();    // #version 330 core
+const char* header300es();  // #version 300 es, and the precisions that it demands
+
+// Names that the text declares as uniforms, whether or not the compiler will keep them. Blocks count with
+// their own name and those of their members.
+std::set<std::string, std::less<>> declaredUniforms(std::string_view text);
+
+}  // namespace shoal::gpu
