@@ -8,7 +8,8 @@ namespace shoal::gpu {
 
 class DebugGroup {
   public:
-    DebugGroup(const Context& context, const char* name);
+    DebugGroup(const ContextInfo& info, const char* name);
+    DebugGroup(const Context& context, const char* name) : DebugGroup(context.info(), name) {}
     ~DebugGroup();
     DebugGroup(const DebugGroup&) = delete;
     DebugGroup& operator=(const DebugGroup&) = delete;

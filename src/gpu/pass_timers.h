@@ -89,7 +89,8 @@ class PassTimers {
     bool collectOldest(bool wait);
     void record(const std::vector<Call>& calls);
 
-    Context* context_;
+    const ContextInfo* info_;  // the context's, which outlives the timers and does not move
+    Traffic* traffic_;
     Mode mode_;
     bool inFrame_ = false, inPass_ = false;
     std::vector<Pass> passes_;

@@ -1,0 +1,247 @@
+#include "gpu/context.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <vector>
+
+#include "core/error.h"
+#include "gpu/gl.h"
+#include "gpu/platform.h"
+
+namespace shoal::gpu {
+
+// On the heap, so that whoever borrows it need not care where the Context has moved.
+struct Context::State {
+    std::unique_ptr<Platform> platform;
+    ContextInfo info;
+    Traffic traffic;
+    ~State();
+};
+
+// Globals, because OpenGL's current context and GLEW's function pointers are.
+static Context::State* currentState = nullptr;
+static Loader glewLoader = nullptr;  // whose functions GLEW's pointers are
+
+static void leaveCurrent() {
+    if (currentState != nullptr) currentState->platform->release();
+    currentState = nullptr;
+    setCurrentLoader(nullptr, false);
+}
+
+Context::State::~State() {
+    if (currentState == this) leaveCurrent();
+}
+
+static void initGlew(Loader loader) {
+    glewExperimental = GL_TRUE;
+    const GLenum result = glewInit();
+    // GLEW loads OpenGL first and GLX last. Under EGL it then finds no GLX display, under OSMesa no GLX at
+    // all; OpenGL's pointers are valid in both cases.
+    if (result != GLEW_OK && result != GLEW_ERROR_NO_GLX_DISPLAY &&
+        result != GLEW_ERROR_GLX_VERSION_11_ONLY) {
+        glewLoader = nullptr;
+        throw Error(concat("OpenGL's functions cannot be loaded: ",
+                           reinterpret_cast<const char*>(glewGetErrorString(result))));
+    }
+    glewLoader = loader;
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+        // What GLEW asked is not our mistake.
+    }
+}
+
+// `fresh`: a context that was never current may come from another driver behind the same loader.
+static void enter(Context::State& state, bool fresh) {
+    // Two kinds must not be current at once: GLX, EGL and OSMesa share Mesa's per-thread state.
+    if (currentState != &state) leaveCurrent();
+    state.platform->makeCurrent();
+    currentState = &state;
+    const Loader loader = state.platform->loader();
+    setCurrentLoader(loader, state.platform->window() != nullptr);
+    if (fresh || glewLoader != loader) initGlew(loader);
+}
+
+bool isSoftwareRenderer(const std::string& renderer) {
+    for (const char* word : {"llvmpipe", "softpipe", "swrast", "Software Rasterizer", "SwiftShader", "SWR",
+                             "Microsoft Basic Render", "GDI Generic"}) {
+        if (renderer.find(word) != std::string::npos) return true;
+    }
+    return false;
+}
+
+static std::string getString(GLenum what) {
+    const GLubyte* text = glGetString(what);
+    return text != nullptr ? reinterpret_cast<const char*>(text) : "";
+}
+
+static int getInteger(GLenum what) {
+    GLint value = 0;
+    glGetIntegerv(what, &value);
+    return value;
+}
+
+static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
+    ContextInfo info;
+    info.kind = kind;
+    info.platform = platform.description();
+    info.renderer = getString(GL_RENDERER);
+    info.vendor = getString(GL_VENDOR);
+    info.version = getString(GL_VERSION);
+    info.glslVersion = getString(GL_SHADING_LANGUAGE_VERSION);
+    info.software = isSoftwareRenderer(info.renderer);
+    if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3)) {
+        throw Error(concat("found OpenGL ",
+                           info.version.empty() ? "of unknown version" : info.version.c_str(), " (",
+                           info.renderer, "), 3.3 or newer is needed"));
+    }
+    info.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
+    info.maxColorAttachments = getInteger(GL_MAX_COLOR_ATTACHMENTS);
+    info.maxSamples = getInteger(GL_MAX_SAMPLES);
+    info.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
+    info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);
+    info.maxBufferTexels = getInteger(GL_MAX_TEXTURE_BUFFER_SIZE);
+    info.computeShaders = info.atLeast(4, 3);
+    if (info.computeShaders) {
+        GLint64 bytes = 0;
+        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+        info.maxStorageBlockBytes = bytes;
+    }
+    return info;
+}
+
+static void GLAPIENTRY printMessage(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text,
+                                    const void*) {
+    if (severity != GL_DEBUG_SEVERITY_NOTIFICATION) std::fprintf(stderr, "OpenGL: %s\n", text);
+}
+
+static std::unique_ptr<Platform> createPlatform(ContextKind kind, const ContextOptions& options) {
+    switch (kind) {
+    case ContextKind::window:
+        return createWindowPlatform(options);
+    case ContextKind::egl:
+        return createEglPlatform(options);
+    default:
+        return createOsmesaPlatform(options);
+    }
+}
+
+static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptions& options) {
+    auto state = std::make_unique<Context::State>();
+    state->platform = createPlatform(kind, options);
+    enter(*state, true);
+    state->info = readInfo(kind, *state->platform);
+    if (options.debug && state->info.atLeast(4, 3)) {
+        glEnable(GL_DEBUG_OUTPUT);
+        glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);  // so that a debugger stops at the call that is wrong
+        glDebugMessageCallback(&printMessage, nullptr);
+    }
+    return state;
+}
+
+static std::vector<ContextKind> kindsToTry(const ContextOptions& options) {
+    if (options.kind != ContextKind::automatic) return {options.kind};
+    if (options.preferWindow) return {ContextKind::window, ContextKind::egl, ContextKind::osmesa};
+    return {ContextKind::egl, ContextKind::osmesa};
+}
+
+static const char* advice(ContextKind kind) {
+    switch (kind) {
+    case ContextKind::window:
+        return "for a window: start it from a graphical session (or under xvfb-run), and install "
+               "libgl1-mesa-dri or the driver of your GPU";
+    case ContextKind::egl:
+        return "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU";
+    default:
+        return "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)";
+    }
+}
+
+ContextKind contextKind(const std::string& word) {
+    for (const ContextKind kind :
+         {ContextKind::automatic, ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
+        if (word == name(kind)) return kind;
+    }
+    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
+}
+
+const char* name(ContextKind kind) {
+    switch (kind) {
+    case ContextKind::window:
+        return "window";
+    case ContextKind::egl:
+        return "egl";
+    case ContextKind::osmesa:
+        return "osmesa";
+    default:
+        return "auto";
+    }
+}
+
+Context::Context(const ContextOptions& options) {
+    State* before = currentState;
+    std::string tried, help;
+    for (const ContextKind kind : kindsToTry(options)) {
+        leaveCurrent();
+        try {
+            state_ = open(kind, options);
+            return;
+        } catch (const Error& error) {
+            tried += concat("\n  ", name(kind), ": ", error.message());
+            help += concat("\n  ", advice(kind));
+        }
+    }
+    restore(before);
+    throw Error("no OpenGL context of 3.3 or newer can be had\ntried:" + tried + "\nwhat helps:" + help);
+}
+
+Context::~Context() = default;
+Context::Context(Context&&) noexcept = default;
+Context& Context::operator=(Context&&) noexcept = default;
+
+void Context::makeCurrent() {
+    if (currentState != state_.get()) enter(*state_, false);
+}
+bool Context::isCurrent() const {
+    return state_ != nullptr && currentState == state_.get();
+}
+const ContextInfo& Context::info() const {
+    return state_->info;
+}
+Traffic& Context::traffic() {
+    return state_->traffic;
+}
+const Traffic& Context::traffic() const {
+    return state_->traffic;
+}
+GLFWwindow* Context::window() const {
+    return state_->platform->window();
+}
+
+void Context::checkErrors(const char* where) {
+    std::string found;
+    for (int i = 0; i < 16; ++i) {  // bounded: a lost context reports errors for ever
+        const GLenum code = glGetError();
+        if (code == GL_NO_ERROR) break;
+        const char* word = code == GL_INVALID_ENUM                    ? "GL_INVALID_ENUM"
+                           : code == GL_INVALID_VALUE                 ? "GL_INVALID_VALUE"
+                           : code == GL_INVALID_OPERATION             ? "GL_INVALID_OPERATION"
+                           : code == GL_INVALID_FRAMEBUFFER_OPERATION ? "GL_INVALID_FRAMEBUFFER_OPERATION"
+                           : code == GL_OUT_OF_MEMORY                 ? "GL_OUT_OF_MEMORY"
+                                                                      : "an unknown error";
+        found += concat(found.empty() ? "" : ", ", word);
+    }
+    if (!found.empty()) throw Error(concat("OpenGL reports ", found, " (", where, ")"));
+}
+
+Context::State* Context::current() {
+    return currentState;
+}
+
+void Context::restore(State* state) {
+    if (state == nullptr) {
+        leaveCurrent();
+    } else if (state != currentState) {
+        enter(*state, false);
+    }
+}
+
+}  // namespace shoal::gpu

@@ -1,0 +1,97 @@
+// A context in a window, through GLFW (X11 or Wayland, whichever GLFW was built for).
+#include <cstdlib>
+
+#include "core/error.h"
+#include "gpu/platform.h"
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+namespace shoal::gpu {
+namespace {
+
+// GLFW is one per process and does not count its users; so we do.
+int windowCount = 0;
+
+std::string lastGlfwError() {
+    const char* text = nullptr;
+    glfwGetError(&text);
+    return text != nullptr ? text : "no reason given";
+}
+
+class GlfwSession {
+  public:
+    GlfwSession() {
+        if (glfwInit() != GLFW_TRUE) throw Error("GLFW does not start: " + lastGlfwError());
+        ++windowCount;
+    }
+    ~GlfwSession() {
+        if (--windowCount == 0) glfwTerminate();
+    }
+    GlfwSession(const GlfwSession&) = delete;
+    GlfwSession& operator=(const GlfwSession&) = delete;
+};
+
+class WindowPlatform final : public Platform {
+  public:
+    explicit WindowPlatform(const ContextOptions& options) {
+        std::string reason;
+        for (const AskedVersion version : askedVersions) {
+            window_ = create(options, version);
+            if (window_ != nullptr) break;
+            const char* text = nullptr;
+            const int code = glfwGetError(&text);
+            if (reason.empty() && text != nullptr) reason = text;
+            if (code != GLFW_VERSION_UNAVAILABLE && code != GLFW_API_UNAVAILABLE) break;
+        }
+        if (window_ == nullptr) throw Error("no window: " + (reason.empty() ? "no reason given" : reason));
+    }
+    ~WindowPlatform() override {
+        if (glfwGetCurrentContext() == window_) glfwMakeContextCurrent(nullptr);
+        glfwDestroyWindow(window_);
+    }
+
+    void makeCurrent() override {
+        glfwMakeContextCurrent(window_);
+        if (glfwGetCurrentContext() != window_) {
+            throw Error("the window's context cannot be made current: " + lastGlfwError());
+        }
+    }
+    void release() override { glfwMakeContextCurrent(nullptr); }
+    Loader loader() const override { return &glfwGetProcAddress; }
+    std::string description() const override { return concat("window, GLFW ", glfwGetVersionString()); }
+    GLFWwindow* window() const override { return window_; }
+
+  private:
+    static GLFWwindow* create(const ContextOptions& options, AskedVersion version) {
+        glfwDefaultWindowHints();
+        glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+        glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+        if (!version.any()) {
+            glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, version.major);
+            glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, version.minor);
+            glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+            glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+        }
+        return glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    }
+
+    GlfwSession session_;
+    GLFWwindow* window_ = nullptr;
+};
+
+bool isSet(const char* variable) {
+    const char* value = std::getenv(variable);
+    return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+std::unique_ptr<Platform> createWindowPlatform(const ContextOptions& options) {
+    if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY")) {
+        throw Error("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
+    }
+    return std::make_unique<WindowPlatform>(options);
+}
+
+}  // namespace shoal::gpu

@@ -1,0 +1,157 @@
+#include "gpu/framebuffer.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "core/error.h"
+#include "gpu/debug_group.h"
+
+namespace shoal::gpu {
+
+static const char* word(Format format) {
+    static constexpr const char* words[] = {"rgba32f", "rgba16f", "rgba8",   "srgb8a8",
+                                            "r32f",    "depth24", "depth32f"};
+    return words[static_cast<size_t>(format)];
+}
+
+static const char* statusWord(GLenum status) {
+    switch (status) {
+    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+        return "an attachment that cannot be drawn into";
+    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+        return "nothing to draw into";
+    case GL_FRAMEBUFFER_UNSUPPORTED:
+        return "a combination of formats that this driver does not support";
+    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+        return "different numbers of samples";
+    default:
+        return "an incomplete framebuffer";
+    }
+}
+
+static Handle<deleteFramebuffer> makeFramebuffer() {
+    GLuint id = 0;
+    glGenFramebuffers(1, &id);
+    glBindFramebuffer(GL_FRAMEBUFFER, id);
+    return Handle<deleteFramebuffer>(id);
+}
+
+Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth,
+                         const char* label)
+    : label_(label) {
+    assert(!colors.empty() || depth != nullptr);
+    if (static_cast<int>(colors.size()) > context.info().maxColorAttachments) {
+        throw Error(concat("framebuffer \"", label, "\" draws into ", colors.size(),
+                           " textures at once: this context allows ", context.info().maxColorAttachments));
+    }
+    const Texture& first = colors.empty() ? *depth : *colors.front();
+    width_ = first.width();
+    height_ = first.height();
+    handle_ = makeFramebuffer();
+    std::string attachments;
+    std::vector<GLenum> drawBuffers;
+    for (const Texture* color : colors) {
+        assert(color->width() == width_ && color->height() == height_ && !isDepth(color->format()));
+        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
+        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
+        drawBuffers.push_back(attachment);
+        attachments += concat(attachments.empty() ? "" : " + ", word(color->format()));
+    }
+    if (depth != nullptr) {
+        assert(depth->width() == width_ && depth->height() == height_ && isDepth(depth->format()));
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->id(), 0);
+        attachments += concat(attachments.empty() ? "" : " + ", word(depth->format()));
+    }
+    if (drawBuffers.empty()) {
+        glDrawBuffer(GL_NONE);
+        glReadBuffer(GL_NONE);
+    } else {
+        glDrawBuffers(static_cast<GLsizei>(drawBuffers.size()), drawBuffers.data());
+    }
+    checkComplete(attachments);
+    labelObject(context, GL_FRAMEBUFFER, id(), label);
+}
+
+static GLuint makeStorage(GLenum attachment, Format format, int samples, int width, int height) {
+    GLuint id = 0;
+    glGenRenderbuffers(1, &id);
+    glBindRenderbuffer(GL_RENDERBUFFER, id);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, internalFormat(format), width, height);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, id);
+    return id;
+}
+
+Framebuffer Framebuffer::multisampled(Context& context, Format color, bool depth, int samples, int width,
+                                      int height, const char* label) {
+    assert(width > 0 && height > 0 && samples > 0 && !isDepth(color));
+    const int largest = context.info().maxTextureSize;
+    if (width > largest || height > largest) {
+        throw Error(concat("a picture of ", width, " x ", height, " is too large: this context allows ",
+                           largest, " x ", largest));
+    }
+    context.checkErrors("before a framebuffer is made");
+    Framebuffer out;
+    out.label_ = label;
+    out.width_ = width;
+    out.height_ = height;
+    out.samples_ = std::clamp(samples, 1, std::max(1, context.info().maxSamples));
+    out.handle_ = makeFramebuffer();
+    const int stored = out.samples_ > 1 ? out.samples_ : 0;  // 0 is OpenGL's word for not multisampled
+    out.colorStorage_ =
+        Handle<deleteRenderbuffer>(makeStorage(GL_COLOR_ATTACHMENT0, color, stored, width, height));
+    if (depth) {
+        out.depthStorage_ = Handle<deleteRenderbuffer>(
+            makeStorage(GL_DEPTH_ATTACHMENT, Format::depth24, stored, width, height));
+    }
+    if (glGetError() == GL_OUT_OF_MEMORY) {
+        const double bytes =
+            double(width) * height * out.samples_ * double(texelBytes(color) + (depth ? 4 : 0));
+        throw Error(concat("a picture of ", width, " x ", height, " with ", out.samples_,
+                           " samples does not fit into memory: it takes ", bytes / (1 << 20), " MiB"));
+    }
+    out.checkComplete(concat(word(color), depth ? " + depth24" : "", " with ", out.samples_, " samples"));
+    labelObject(context, GL_FRAMEBUFFER, out.id(), label);
+    return out;
+}
+
+void Framebuffer::checkComplete(const std::string& attachments) const {
+    const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
+    if (status == GL_FRAMEBUFFER_COMPLETE) return;
+    throw Error(concat("framebuffer \"", label_, "\" (", attachments, ", ", width_, " x ", height_,
+                       ") cannot be had: ", statusWord(status)));
+}
+
+void Framebuffer::bind() const {
+    bind(0, 0, width_, height_);
+}
+
+void Framebuffer::bind(int x, int y, int width, int height) const {
+    assert(x >= 0 && y >= 0 && x + width <= width_ && y + height <= height_);
+    glBindFramebuffer(GL_FRAMEBUFFER, id());
+    glViewport(x, y, width, height);
+}
+
+void Framebuffer::bindDefault(int width, int height) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+}
+
+void Framebuffer::blitTo(const Framebuffer& other) const {
+    assert(width_ == other.width_ && height_ == other.height_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, other.id());
+}
+
+void Framebuffer::blitToDefault(int width, int height) const {
+    const bool same = width == width_ && height == height_;
+    assert(same || samples_ == 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
+                      same ? GL_NEAREST : GL_LINEAR);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+}  // namespace shoal::gpu

@@ -1,0 +1,38 @@
+// What the three ways to a context have in common; inside `gpu` only.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "gpu/context.h"
+#include "gpu/loader.h"
+
+namespace shoal::gpu {
+
+class Platform {
+  public:
+    virtual ~Platform() = default;  // also releases
+    virtual void makeCurrent() = 0;
+    virtual void release() = 0;  // afterwards nothing is current on this thread
+    virtual Loader loader() const = 0;
+    virtual std::string description() const = 0;
+    virtual GLFWwindow* window() const { return nullptr; }
+};
+
+// Error: cannot be had, and why. Nothing may be current when they are called.
+std::unique_ptr<Platform> createWindowPlatform(const ContextOptions& options);
+std::unique_ptr<Platform> createEglPlatform(const ContextOptions& options);
+std::unique_ptr<Platform> createOsmesaPlatform(const ContextOptions& options);
+
+// Asked for in this order: drivers may refuse a version above theirs, and some give exactly what was asked.
+// The last asks for anything at all, so that a context that is too old can be named.
+struct AskedVersion {
+    int major, minor;
+    bool any() const { return major == 0; }
+};
+inline constexpr AskedVersion askedVersions[] = {{4, 6}, {4, 5}, {4, 4}, {4, 3}, {4, 2},
+                                                 {4, 1}, {4, 0}, {3, 3}, {0, 0}};
+
+bool isSoftwareRenderer(const std::string& renderer);
+
+}  // namespace shoal::gpu

@@ -1,0 +1,148 @@
+#include "gpu/texture.h"
+
+#include <cassert>
+
+#include "core/error.h"
+#include "gpu/debug_group.h"
+
+namespace shoal::gpu {
+namespace {
+
+struct FormatRow {
+    Format format;
+    GLenum internal, layout, type;
+    size_t bytes;
+};
+
+constexpr FormatRow formatTable[] = {
+    {Format::rgba32f, GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+    {Format::rgba16f, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+    {Format::rgba8, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {Format::srgb8a8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {Format::r32f, GL_R32F, GL_RED, GL_FLOAT, 4},
+    {Format::depth24, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
+    {Format::depth32f, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
+};
+
+const FormatRow& row(Format format) {
+    const FormatRow& found = formatTable[static_cast<size_t>(format)];
+    assert(found.format == format);
+    return found;
+}
+
+// A framebuffer for one download; the one that was bound comes back.
+class ReadingFramebuffer {
+  public:
+    ReadingFramebuffer() {
+        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before_);
+        glGenFramebuffers(1, &id_);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
+    }
+    ~ReadingFramebuffer() {
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before_));
+        glDeleteFramebuffers(1, &id_);
+    }
+    ReadingFramebuffer(const ReadingFramebuffer&) = delete;
+    ReadingFramebuffer& operator=(const ReadingFramebuffer&) = delete;
+
+  private:
+    GLint before_ = 0;
+    GLuint id_ = 0;
+};
+
+}  // namespace
+
+size_t texelBytes(Format format) {
+    return row(format).bytes;
+}
+bool isDepth(Format format) {
+    return row(format).layout == GL_DEPTH_COMPONENT;
+}
+GLenum internalFormat(Format format) {
+    return row(format).internal;
+}
+
+Texture::Texture(Context& context, Format format, int width, int height, const char* label)
+    : traffic_(&context.traffic()), format_(format), width_(width), height_(height), label_(label) {
+    assert(width > 0 && height > 0);
+    const double mebibytes = double(width) * double(height) * double(texelBytes(format)) / (1 << 20);
+    const std::string what =
+        concat("texture \"", label, "\" of ", width, " x ", height, " texels (", mebibytes, " MiB)");
+    const int largest = context.info().maxTextureSize;
+    if (width > largest || height > largest) {
+        throw Error(concat(what, " is too large: this context allows ", largest, " x ", largest));
+    }
+    context.checkErrors("before a texture is made");
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    handle_ = Handle<deleteTexture>(id);
+    glBindTexture(GL_TEXTURE_2D, id);
+    const FormatRow& storage = row(format);
+    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(storage.internal), width, height, 0, storage.layout,
+                 storage.type, nullptr);
+    if (glGetError() != GL_NO_ERROR) throw Error(what + " does not fit into the memory of this context");
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    labelObject(context, GL_TEXTURE, id, label);
+}
+
+void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes) {
+    assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
+    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_));
+    const FormatRow& storage = row(format_);
+    glBindTexture(GL_TEXTURE_2D, id());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, w, h, storage.layout, storage.type, data);
+    traffic_->countUpload(kind, bytes);
+}
+
+void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes) const {
+    assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
+    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_));
+    const FormatRow& storage = row(format_);
+    const ReadingFramebuffer framebuffer;
+    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, isDepth(format_) ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
+                           GL_TEXTURE_2D, id(), 0);
+    glReadBuffer(isDepth(format_) ? GL_NONE : GL_COLOR_ATTACHMENT0);
+    if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        throw Error("texture \"" + label_ +
+                    "\" cannot be read back: this driver does not draw into its format");
+    }
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(x, y, w, h, storage.layout, storage.type, data);
+    traffic_->countReadBack(kind, bytes);
+}
+
+void Texture::setLinear(bool mipmaps, bool repeat) {
+    glBindTexture(GL_TEXTURE_2D, id());
+    const GLint wrap = repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, mipmaps ? 1000 : 0);
+    if (mipmaps) glGenerateMipmap(GL_TEXTURE_2D);
+}
+
+void Texture::setShadowCompare() {
+    assert(isDepth(format_));
+    glBindTexture(GL_TEXTURE_2D, id());
+    const GLfloat lit[] = {1, 1, 1, 1};
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
+    glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit);
+}
+
+void Texture::bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_2D, id());
+}
+
+}  // namespace shoal::gpu
