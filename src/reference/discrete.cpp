@@ -1,0 +1,79 @@
+#include "reference/discrete.h"
+
+#include <cmath>
+
+#include "reference/fields.h"
+
+namespace shoal::reference {
+
+namespace {
+
+// The linear part, dv/dt = g + gamma (u - v), solved over h along one direction or all.
+glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& gravity, double rate,
+                   double h) {
+    if (rate == 0) return v + h * gravity;
+    const double decay = -std::expm1(-rate * h);
+    return v + decay * (u - v) + decay / rate * gravity;
+}
+
+// The same with a rate along the unit normal n and another across it.
+glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
+                      double h) {
+    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h);
+    if (!problem.drag.directional()) return plain;
+    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h);
+    return plain + glm::dot(across - plain, n) * n;
+}
+
+void applyLinearPart(const Problem& problem, Vectors& velocity, const Vectors& position, double time,
+                     double h) {
+    Vectors normal(position.size(), glm::dvec3(0));
+    if (problem.drag.directional()) normal = normals(problem, position);
+    for (size_t i = 0; i < position.size(); ++i) {
+        if (problem.pinned(i)) continue;
+        glm::dvec3 u(0);
+        if (problem.drag.any()) u = fluidVelocity(problem.fields, position[i], time);
+        velocity[i] = linearPart(problem, velocity[i], u, normal[i], h);
+    }
+}
+
+void add(const Problem& problem, Vectors& to, const Vectors& rate, double h) {
+    for (size_t i = 0; i < to.size(); ++i) {
+        if (!problem.pinned(i)) to[i] += h * rate[i];
+    }
+}
+
+}  // namespace
+
+void eulerStep(const Problem& problem, State& state, double h) {
+    add(problem, state.velocity, springAcceleration(problem, state.position, state.velocity, state.time), h);
+    applyLinearPart(problem, state.velocity, state.position, state.time, h);
+    add(problem, state.position, state.velocity, h);
+    state.time += h;
+}
+
+void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h) {
+    add(problem, state.velocity, springs, h / 2);
+    add(problem, state.position, state.velocity, h / 2);
+    applyLinearPart(problem, state.velocity, state.position, state.time + h / 2, h);
+    add(problem, state.position, state.velocity, h / 2);
+    state.time += h;
+    Vectors predicted = state.velocity;
+    add(problem, predicted, springs, h / 2);
+    springs = springAcceleration(problem, state.position, predicted, state.time);
+    add(problem, state.velocity, springs, h / 2);
+}
+
+void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps) {
+    const double h = duration / substeps;
+    if (kind == SolverKind::euler) {
+        for (int i = 0; i < substeps; ++i)
+            eulerStep(problem, state, h);
+        return;
+    }
+    Vectors springs = springAcceleration(problem, state.position, state.velocity, state.time);
+    for (int i = 0; i < substeps; ++i)
+        leapfrogStep(problem, state, springs, h);
+}
+
+}  // namespace shoal::reference

@@ -1,0 +1,22 @@
+// The two explicit methods of the GPU, step for step, in double precision: what the passes would compute if
+// floats had no rounding. `euler` is symplectic Euler (Latta 2004, 3 and 8), `leapfrog` its second-order
+// relative. Both take gravity and drag exactly over the step they are given:
+//   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma.
+#pragma once
+
+#include "reference/problem.h"
+
+namespace shoal::reference {
+
+// v += h F(x, v, t) / m;  exact drag and gravity with u(x, t) and the normal at x;  x += h v.
+void eulerStep(const Problem& problem, State& state, double h);
+
+// v1 = v + a h/2;  x1 = x + v1 h/2;  v2 = exact drag and gravity over h with u(x1, t + h/2) and the normal at
+// x1; x' = x1 + v2 h/2;  a' = F(x', v2 + a h/2, t + h) / m;  v' = v2 + a' h/2. `springs` is a on entry and a'
+// on return.
+void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h);
+
+// A frame of `substeps` equal steps; leapfrog evaluates a anew at its start.
+void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps);
+
+}  // namespace shoal::reference

@@ -1,0 +1,129 @@
+#include "reference/fields.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/noise.h"
+
+namespace shoal::reference {
+
+namespace {
+
+constexpr double twoPi = 6.283185307179586;
+
+glm::dvec3 velocity(const UniformField& field, const glm::dvec3&, double) {
+    return field.velocity;
+}
+
+glm::dvec3 velocity(const GustField& field, const glm::dvec3& x, double time) {
+    const glm::dvec3 along = glm::normalize(field.direction);
+    const glm::dvec3 across = gustAcross(along);
+    const glm::dvec3 p{(glm::dot(x, along) - field.frontSpeed * time) / field.length,
+                       glm::dot(x, across) / field.width,
+                       glm::dot(x, glm::cross(along, across)) / field.width};
+    const double noise = gradientNoise(p, field.seed) + gradientNoise(p * 2.0 + 17.31, field.seed + 1) / 2;
+    return along * field.speed * (1 + field.strength * 1.2 * noise);
+}
+
+glm::dvec3 velocity(const ShearField& field, const glm::dvec3& x, double) {
+    const glm::dvec3 d = x - field.origin;
+    glm::dvec3 u = field.velocity;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column)
+            u[row] += field.gradient[column][row] * d[column];
+    }
+    return u;
+}
+
+glm::dvec3 velocity(const VortexField& field, const glm::dvec3& x, double) {
+    const glm::dvec3 axis = glm::normalize(field.axis);
+    const glm::dvec3 d = x - field.origin;
+    const glm::dvec3 turn = glm::cross(axis, d);  // its length is the distance from the axis
+    const double s = glm::length(turn) / field.radius;
+    return (turn / field.radius * (2 * field.speed) + axis * field.lift) / (1 + s * s);
+}
+
+glm::dvec3 velocity(const AbcField& field, const glm::dvec3& x, double) {
+    const glm::dvec3 p = (x - field.origin) * (twoPi / field.wavelength);
+    return {field.a * std::sin(p.z) + field.c * std::cos(p.y),
+            field.b * std::sin(p.x) + field.a * std::cos(p.z),
+            field.c * std::sin(p.y) + field.b * std::cos(p.x)};
+}
+
+glm::dvec3 velocity(const TaylorGreenField& field, const glm::dvec3& x, double) {
+    const glm::dvec3 p = (x - field.origin) * (twoPi / field.wavelength);
+    const double layer = field.speed * std::cos(p.z);
+    return {layer * std::cos(p.x) * std::sin(p.y), -layer * std::sin(p.x) * std::cos(p.y), 0};
+}
+
+glm::dvec3 velocity(const CurlNoiseField& field, const glm::dvec3& x, double time) {
+    glm::dvec3 sum(0);
+    for (int octave = 0; octave < field.octaves; ++octave) {
+        const double fine = std::exp2(octave);
+        sum += field.speed * std::exp2(-octave / 3.0) *
+               curlNoise(x * fine / field.length, time * fine / field.period, field.seed + uint32_t(octave));
+    }
+    return sum;
+}
+
+glm::dvec3 velocity(const GridField& field, const glm::dvec3& x, double) {
+    glm::ivec3 low, high;
+    glm::dvec3 share;
+    for (int d = 0; d < 3; ++d) {
+        const int cells = field.resolution[d];
+        // cell i's centre is at i + 1/2 cells from the low face
+        double s = (x[d] - field.low[d]) / (field.high[d] - field.low[d]) * cells - 0.5;
+        if (field.wrap) {
+            s -= std::floor(s / cells) * cells;
+        } else {
+            s = std::min(std::max(s, 0.0), double(cells - 1));
+        }
+        low[d] = std::min(int(s), cells - 1);
+        share[d] = s - low[d];
+        high[d] = field.wrap ? (low[d] + 1) % cells : std::min(low[d] + 1, cells - 1);
+    }
+    glm::dvec3 sum(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        glm::ivec3 cell;
+        double weight = 1;
+        for (int d = 0; d < 3; ++d) {
+            const bool upper = (corner >> d) & 1;
+            cell[d] = upper ? high[d] : low[d];
+            weight *= upper ? share[d] : 1 - share[d];
+        }
+        const size_t index =
+            (size_t(cell.z) * size_t(field.resolution.y) + size_t(cell.y)) * size_t(field.resolution.x) +
+            size_t(cell.x);
+        sum += weight * glm::dvec3(field.values[index]);
+    }
+    return sum;
+}
+
+bool holds(const Box& box, const glm::dvec3& x) {
+    for (int d = 0; d < 3; ++d) {
+        if (x[d] < box.low[d] || x[d] > box.high[d]) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+glm::dvec3 gustAcross(const glm::dvec3& along) {
+    const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    return glm::normalize(glm::cross(up, along));
+}
+
+glm::dvec3 fieldVelocity(const FieldShape& shape, const glm::dvec3& x, double time) {
+    return std::visit([&](const auto& field) { return velocity(field, x, time); }, shape);
+}
+
+glm::dvec3 fluidVelocity(const std::vector<Field>& fields, const glm::dvec3& x, double time) {
+    glm::dvec3 sum(0);
+    for (const Field& field : fields) {
+        if (field.box && !holds(*field.box, x)) continue;
+        sum += field.weight * fieldVelocity(field.shape, x, time);
+    }
+    return sum;
+}
+
+}  // namespace shoal::reference

@@ -1,0 +1,143 @@
+#include "reference/problem.h"
+
+#include <cmath>
+
+#include "reference/fields.h"
+
+namespace shoal::reference {
+
+namespace {
+
+// Ends closer than this have no direction between them.
+constexpr double coincident = 1e-12;
+
+double restLength(const Problem& problem, const Spring& spring, double time) {
+    double length = problem.scale * problem.molecule->restLength(spring);
+    if (const auto& muscle = spring.actuation) {
+        const double turns = 2 * std::acos(-1.0) * muscle->frequency * time;
+        length *= 1 + muscle->amplitude * std::sin(turns + muscle->phase + problem.phase);
+    }
+    return length;
+}
+
+glm::dvec3 freeVelocity(const Problem& problem, const Vectors& velocity, size_t vertex) {
+    return problem.pinned(vertex) ? glm::dvec3(0) : velocity[vertex];
+}
+
+}  // namespace
+
+State restState(const Problem& problem, const Instance& instance, const glm::dvec3& velocity,
+                const glm::dvec3& spin) {
+    State state;
+    for (size_t i = 0; i < problem.molecule->vertices.size(); ++i) {
+        const glm::dvec3 arm = instance.rotation * (instance.scale * problem.molecule->vertices[i].position);
+        state.position.push_back(instance.position + arm);
+        state.velocity.push_back(problem.pinned(i) ? glm::dvec3(0) : velocity + glm::cross(spin, arm));
+    }
+    return state;
+}
+
+Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
+                           double time) {
+    Vectors out(position.size(), glm::dvec3(0));
+    for (const Spring& spring : problem.molecule->springs) {
+        const size_t a = size_t(spring.a), b = size_t(spring.b);
+        const glm::dvec3 d = position[a] - position[b];
+        const double length = glm::length(d);
+        if (length < coincident) continue;
+        const glm::dvec3 n = d / length;
+        const glm::dvec3 approach = freeVelocity(problem, velocity, a) - freeVelocity(problem, velocity, b);
+        const double pull =
+            problem.stiffness * spring.stiffness * (length - restLength(problem, spring, time)) +
+            problem.damping * spring.damping * glm::dot(n, approach);
+        out[a] -= pull * n;
+        out[b] += pull * n;
+    }
+    for (size_t i = 0; i < out.size(); ++i) {
+        out[i] = problem.pinned(i) ? glm::dvec3(0) : out[i] / problem.molecule->vertices[i].mass;
+    }
+    return out;
+}
+
+Vectors normals(const Problem& problem, const Vectors& position) {
+    Vectors sum(position.size(), glm::dvec3(0));
+    for (const Triangle& triangle : problem.molecule->triangles) {
+        const size_t a = size_t(triangle.a), b = size_t(triangle.b), c = size_t(triangle.c);
+        const glm::dvec3 area = glm::cross(position[b] - position[a], position[c] - position[a]);
+        sum[a] += area;
+        sum[b] += area;
+        sum[c] += area;
+    }
+    for (glm::dvec3& n : sum) {
+        const double length = glm::length(n);
+        n = length > 0 ? n / length : glm::dvec3(0);
+    }
+    return sum;
+}
+
+Vectors acceleration(const Problem& problem, const State& state) {
+    Vectors out = springAcceleration(problem, state.position, state.velocity, state.time);
+    const Drag& drag = problem.drag;
+    Vectors normal;
+    if (drag.directional()) normal = normals(problem, state.position);
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (problem.pinned(i)) continue;
+        out[i] += problem.gravity;
+        if (!drag.any()) continue;
+        const glm::dvec3 slip =
+            fluidVelocity(problem.fields, state.position[i], state.time) - state.velocity[i];
+        out[i] += drag.tangent * slip;
+        if (drag.directional()) {
+            out[i] += (drag.normal - drag.tangent) * glm::dot(slip, normal[i]) * normal[i];
+        }
+    }
+    return out;
+}
+
+double kineticEnergy(const Problem& problem, const State& state) {
+    double sum = 0;
+    for (size_t i = 0; i < state.velocity.size(); ++i) {
+        const glm::dvec3 v = freeVelocity(problem, state.velocity, i);
+        sum += 0.5 * problem.molecule->vertices[i].mass * glm::dot(v, v);
+    }
+    return sum;
+}
+
+double springEnergy(const Problem& problem, const State& state) {
+    double sum = 0;
+    for (const Spring& spring : problem.molecule->springs) {
+        const double stretch =
+            glm::length(state.position[size_t(spring.a)] - state.position[size_t(spring.b)]) -
+            restLength(problem, spring, state.time);
+        sum += 0.5 * problem.stiffness * spring.stiffness * stretch * stretch;
+    }
+    return sum;
+}
+
+double energy(const Problem& problem, const State& state) {
+    double height = 0;
+    for (size_t i = 0; i < state.position.size(); ++i) {
+        if (problem.pinned(i)) continue;
+        height -= problem.molecule->vertices[i].mass * glm::dot(problem.gravity, state.position[i]);
+    }
+    return kineticEnergy(problem, state) + springEnergy(problem, state) + height;
+}
+
+glm::dvec3 momentum(const Problem& problem, const State& state) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < state.velocity.size(); ++i) {
+        sum += problem.molecule->vertices[i].mass * freeVelocity(problem, state.velocity, i);
+    }
+    return sum;
+}
+
+glm::dvec3 angularMomentum(const Problem& problem, const State& state) {
+    glm::dvec3 sum(0);
+    for (size_t i = 0; i < state.velocity.size(); ++i) {
+        sum += problem.molecule->vertices[i].mass *
+               glm::cross(state.position[i], freeVelocity(problem, state.velocity, i));
+    }
+    return sum;
+}
+
+}  // namespace shoal::reference

@@ -1,0 +1,60 @@
+// One molecule's equations of motion in double precision (NUMERICS: the yardstick for every error).
+//
+//   m dv/dt = sum of spring forces + m g + m drag(u(x, t) - v),   dx/dt = v
+//
+// A spring's force on its end a is -[k (l - L(t)) + c n.(va - vb)] n, n = (xa - xb) / l; none where l
+// vanishes. Drag is gamma (u - v), or with two rates gamma_n across and gamma_t along the surface at the
+// vertex. A pinned vertex has infinite mass: it neither moves nor accelerates, and its velocity counts as 0.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include "scene/scene.h"
+
+namespace shoal::reference {
+
+struct Problem {
+    const Molecule* molecule = nullptr;  // borrowed
+    double scale = 1;                    // of the rest lengths
+    double stiffness = 1, damping = 1;   // factors on every spring
+    double phase = 0;                    // rad, added to every actuation
+    bool held = true;                    // pinned vertices hold
+    glm::dvec3 gravity{0};               // m/s^2
+    Drag drag{};
+    std::vector<Field> fields{};
+
+    bool pinned(size_t vertex) const { return held && molecule->vertices[vertex].pinned; }
+};
+
+// World coordinates, one entry per vertex.
+struct State {
+    double time = 0;  // s
+    std::vector<glm::dvec3> position, velocity;
+};
+
+using Vectors = std::vector<glm::dvec3>;
+
+// The rest shape, scaled, turned and moved to the instance, with velocity + spin x (x - placed origin) where
+// free.
+State restState(const Problem& problem, const Instance& instance = {}, const glm::dvec3& velocity = {},
+                const glm::dvec3& spin = {});
+
+// Spring forces divided by the mass, 0 at pinned vertices.
+Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
+                           double time);
+// Unit normals: the sum of the area vectors of the triangles around a vertex; 0 where that vanishes.
+Vectors normals(const Problem& problem, const Vectors& position);
+// Everything: springs, gravity, drag.
+Vectors acceleration(const Problem& problem, const State& state);
+
+double kineticEnergy(const Problem& problem, const State& state);  // J
+double springEnergy(const Problem& problem, const State& state);   // J, with rest lengths of that moment
+// Kinetic + spring + gravity (0 at the origin), in J.
+double energy(const Problem& problem, const State& state);
+glm::dvec3 momentum(const Problem& problem, const State& state);         // kg m/s
+glm::dvec3 angularMomentum(const Problem& problem, const State& state);  // kg m^2/s, about the origin
+
+}  // namespace shoal::reference

@@ -1,0 +1,34 @@
+// shaders/physics as C++: the text that the GPU runs, compiled through GLM, so that a test can call it.
+#pragma once
+
+#include <glm/glm.hpp>
+
+// GLSL converts and shadows as it likes; the project's own C++ does not.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wfloat-conversion"
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wmissing-declarations"
+
+namespace shoal::shader {
+
+using namespace glm;
+
+namespace {
+
+// clang-format off: field.glsl includes noise.glsl itself
+#include "physics/anchor.glsl"
+#include "physics/collide.glsl"
+#include "physics/drag.glsl"
+#include "physics/field.glsl"
+#include "physics/normal.glsl"
+#include "physics/random.glsl"
+#include "physics/spring.glsl"
+// clang-format on
+
+}  // namespace
+
+}  // namespace shoal::shader
+
+#pragma GCC diagnostic pop

@@ -1,0 +1,83 @@
+// Molecules and problems made in code for the tests. NUMERICS.md, section 7, turned to +Y up.
+#pragma once
+
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/problem.h"
+
+namespace shoal::test {
+
+inline Molecule point(double mass) {
+    Molecule out;
+    out.name = "point";
+    out.vertices.push_back({.position = {0, 0, 0}, .mass = mass});
+    return out;
+}
+
+// Two vertices 1 m apart along x with the masses given.
+inline Molecule pair(double first, double second, double stiffness, double damping) {
+    Molecule out;
+    out.name = "pair";
+    out.vertices.push_back({.position = {0, 0, 0}, .mass = first});
+    out.vertices.push_back({.position = {1, 0, 0}, .mass = second});
+    out.springs.push_back({0, 1, stiffness, damping, {}, {}});
+    return out;
+}
+
+// The folded leaf: a unit square folded by 0.12 at every corner, all six pairs sprung, masses 1.
+inline Molecule leaf(double stiffness, double damping) {
+    Molecule out;
+    out.name = "leaf";
+    const double x[] = {-0.5, 0.5, 0.5, -0.5}, z[] = {0.5, 0.5, -0.5, -0.5}, y[] = {0.12, -0.12, 0.12, -0.12};
+    for (int i = 0; i < 4; ++i)
+        out.vertices.push_back({.position = {x[i], y[i], z[i]}});
+    for (int a = 0; a < 4; ++a) {
+        for (int b = a + 1; b < 4; ++b) {
+            out.springs.push_back({a, b, stiffness, damping, {}, {}});
+        }
+    }
+    out.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return out;
+}
+
+// By 0.7 rad about (1, 2, 3), written with z up.
+inline glm::dquat turned() {
+    return glm::angleAxis(0.7, glm::normalize(glm::dvec3(1, 3, -2)));
+}
+
+// (x, y, z) with z up is (x, z, -y) with y up.
+inline glm::dvec3 yUp(double x, double y, double z) {
+    return {x, z, -y};
+}
+
+// u = (2 + 0.8 z, 0.5 x - 0.1 x z, 0.3 y) with z up, without its product x z, which no shear has.
+inline ShearField shear() {
+    ShearField out;
+    out.velocity = {2, 0, 0};
+    out.gradient = glm::dmat3(0);
+    out.gradient[1][0] = 0.8;   // d ux / d y
+    out.gradient[0][2] = -0.5;  // d uz / d x
+    out.gradient[2][1] = -0.3;  // d uy / d z
+    return out;
+}
+
+inline Field field(FieldShape shape) {
+    Field out;
+    out.shape = std::move(shape);
+    return out;
+}
+
+inline reference::Problem fallInShear(const Molecule& molecule) {
+    reference::Problem out{.molecule = &molecule, .gravity = {0, -9.81, 0}, .drag = {1, 1}};
+    out.fields.push_back(field(shear()));
+    return out;
+}
+
+inline reference::State fallInShearStart(const reference::Problem& problem) {
+    return restState(problem, {.rotation = turned()}, {0.5, 0, 0}, yUp(0.6, -0.9, 0.4));
+}
+
+}  // namespace shoal::test

@@ -1,0 +1,193 @@
+// The shaders' physics, compiled as C++, against the double reference. Both are written from the same
+// definitions; what may differ is float rounding: 6e-8 of the largest number in a formula, times its length.
+#include <cmath>
+#include <numbers>
+
+#include "reference/discrete.h"
+#include "reference/fields.h"
+#include "reference/noise.h"
+#include "support/catch.h"
+#include "support/shader_physics.h"
+#include "support/shapes.h"
+
+namespace shoal {
+
+using glm::dvec3;
+using glm::vec3;
+
+namespace {
+
+// Points within 8 m, that float holds exactly so that both sides see the same one.
+vec3 sample(int i) {
+    const vec3 p(float(std::fmod(i * 7.31, 16.0)) - 8, float(std::fmod(i * 3.77, 16.0)) - 8,
+                 float(std::fmod(i * 5.23, 16.0)) - 8);
+    return glm::floor(p * 1024.0f) / 1024.0f + 1.0f / 4096;
+}
+
+float timeOf(int i) {
+    return float(i % 37) * 0.125f + 0.0625f;
+}
+
+// The largest difference over many points and times between a shader field and its reference.
+template <typename Shader>
+double worst(const FieldShape& shape, Shader&& shader) {
+    double most = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 x = sample(i);
+        const dvec3 expected = reference::fieldVelocity(shape, dvec3(x), double(timeOf(i)));
+        most = std::max(most, glm::length(dvec3(shader(x, timeOf(i))) - expected));
+    }
+    return most;
+}
+
+}  // namespace
+
+TEST_CASE("the shader's hash is the reference's", "[physics]") {
+    for (uint32_t i = 0; i < 1000; ++i) {
+        const glm::uvec4 v = shader::pcg4d(glm::uvec4(i, 7 * i, ~i, 0x80000000u + i));
+        const auto w = reference::pcg4d({i, 7 * i, ~i, 0x80000000u + i});
+        REQUIRE(v == glm::uvec4(w[0], w[1], w[2], w[3]));
+    }
+}
+
+TEST_CASE("shader noise agrees with the reference on both sides of 0", "[physics]") {
+    for (int i = 0; i < 2000; ++i) {
+        const vec3 p = sample(i);
+        // weights add up to 1 and ramps are below 3: a few rounding steps
+        REQUIRE(std::abs(shader::gradientNoise(p, 11u) - reference::gradientNoise(dvec3(p), 11)) < 1e-6);
+        const vec3 curl = shader::curlNoise(p, timeOf(i) - 2, 5u);
+        REQUIRE(glm::length(dvec3(curl) - reference::curlNoise(dvec3(p), double(timeOf(i)) - 2, 5)) < 1e-5);
+    }
+}
+
+TEST_CASE("shader fields agree with the reference", "[physics]") {
+    ShearField shear = test::shear();
+    const glm::mat3 rows = glm::transpose(glm::mat3(shear.gradient));
+    CHECK(worst(shear, [&](vec3 x, float) {
+              return shader::shearVelocity(x, vec3(shear.velocity), rows[0], rows[1], rows[2]);
+          }) < 3e-6);  // numbers up to 8
+
+    VortexField vortex;
+    vortex.axis = glm::normalize(dvec3(1, 2, 0.5));
+    vortex.lift = 0.7;
+    CHECK(worst(vortex, [&](vec3 x, float) {
+              return shader::vortexVelocity(x, vec3(vortex.axis), 3, 1, 0.7f);
+          }) < 3e-6);
+
+    // sines of arguments up to 8: the argument's rounding, 5e-7, times the amplitudes
+    CHECK(worst(AbcField{.a = 1, .b = 0.75, .c = 0.5},
+                [&](vec3 x, float) { return shader::abcVelocity(x, 1, 0.75f, 0.5f, 1); }) < 2e-6);
+    CHECK(worst(TaylorGreenField{.speed = 2},
+                [&](vec3 x, float) { return shader::taylorGreenVelocity(x, 2, 1); }) < 4e-6);
+
+    GustField gust;
+    gust.direction = glm::normalize(dvec3(2, 0.3, -1));
+    gust.seed = 3;
+    const vec3 along(gust.direction), across(reference::gustAcross(gust.direction));
+    // 5 m/s of noise whose argument, up to 20 at the second octave, has lost 2e-6
+    CHECK(worst(gust, [&](vec3 x, float time) {
+              return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 3u);
+          }) < 3e-5);
+
+    CurlNoiseField curl{.speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77};
+    CHECK(worst(curl, [&](vec3 x, float time) {
+              return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 77u);
+          }) < 3e-5);
+}
+
+TEST_CASE("shader springs agree with the reference", "[physics]") {
+    const Molecule molecule = test::pair(1, 1, 300, 2);
+    const reference::Problem problem{.molecule = &molecule};
+    for (int i = 0; i < 500; ++i) {
+        const vec3 a = sample(i) * 0.1f, b = sample(i + 1) * 0.1f, v = sample(i + 2);
+        const auto expected = reference::springAcceleration(problem, {dvec3(a), dvec3(b)}, {dvec3(v), {}}, 0);
+        const vec3 force = shader::springForce(a - b, v, 300, 2, 1);
+        REQUIRE(glm::length(dvec3(force) - expected[0]) < 1e-6 * (300 + glm::length(expected[0])));
+    }
+    CHECK(shader::springForce(vec3(0), vec3(1), 300, 2, 1) == vec3(0));
+    CHECK(shader::springForce(vec3(1e-13f, 0, 0), vec3(1), 300, 2, 1) == vec3(0));
+    CHECK(shader::springForce(vec3(1, 0, 0), vec3(0), 300, 2, 1) == vec3(0));
+    CHECK(shader::actuatedLength(2, 0.25f, std::numbers::pi_v<float> / 2) == Approx(2.5));
+}
+
+TEST_CASE("shader drag agrees with the reference's step", "[physics]") {
+    const Molecule molecule = test::leaf(0, 0);
+    const dvec3 gravity{1, -9.81, 2}, wind{3, -1, 2};
+    for (double rate : {0.0, 1e-3, 0.7, 20.0, 1e5}) {
+        for (double ratio : {1.0, 6.0}) {
+            reference::Problem problem{
+                .molecule = &molecule, .gravity = gravity, .drag = {rate * ratio, rate}};
+            problem.fields.push_back(test::field(UniformField{wind}));
+            const reference::State start =
+                reference::restState(problem, {.rotation = test::turned()}, {0.5, 2, -1}, {1, 0, 1});
+            const reference::Vectors n = reference::normals(problem, start.position);
+            reference::State next = start;
+            const double h = 0.01;
+            reference::eulerStep(problem, next, h);
+            auto decay = [&](double r) { return float(-std::expm1(-r * h)); };
+            auto phi = [&](double r) { return float(r == 0 ? h : -std::expm1(-r * h) / r); };
+            const double rn = problem.drag.normal, rt = problem.drag.tangent;
+            for (size_t i = 0; i < 4; ++i) {
+                const vec3 v(start.velocity[i]), u(wind), g(gravity), normal(n[i]);
+                const vec3 split = shader::directionalDragAndGravity(v, u, g, normal, {decay(rn), decay(rt)},
+                                                                     {phi(rn), phi(rt)});
+                CHECK(glm::length(dvec3(split) - next.velocity[i]) < 2e-6);
+                if (ratio == 1) {
+                    const vec3 plain = shader::dragAndGravity(v, u, g, decay(rt), phi(rt));
+                    CHECK(glm::length(dvec3(plain) - next.velocity[i]) < 2e-6);
+                    CHECK(glm::length(split - plain) < 1e-6f);
+                }
+            }
+        }
+    }
+    // no surface: the rate along
+    const vec3 none =
+        shader::directionalDragAndGravity(vec3(1), vec3(0), vec3(0), vec3(0), {1, 0.5f}, {0, 0});
+    CHECK(none == vec3(0.5f));
+}
+
+TEST_CASE("shader normals: unit, or the fallback where the sum vanishes", "[physics]") {
+    CHECK(shader::areaVector({2, 0, 0}, {0, 3, 0}) == vec3(0, 0, 6));
+    for (float size : {1e-6f, 1e-3f, 1.0f, 1e6f}) {
+        CHECK(glm::length(shader::unitNormal(vec3(1, 2, 3) * size, vec3(0))) == Approx(1));
+    }
+    CHECK(shader::unitNormal(vec3(0), vec3(0, 1, 0)) == vec3(0, 1, 0));
+}
+
+TEST_CASE("an anchor moves by lattice steps, exactly", "[physics]") {
+    CHECK(shader::anchorShift({1, -1, 0.3f}) == vec3(0));
+    for (int i = 0; i < 500; ++i) {
+        const vec3 p = sample(i) * 1.37f;
+        const vec3 shift = shader::anchorShift(p);
+        CHECK(glm::floor(shift * 16.0f) == shift * 16.0f);
+        const bool moves = glm::any(glm::greaterThan(glm::abs(p), vec3(1)));
+        CHECK((shift != vec3(0)) == moves);
+        if (!moves) continue;
+        CHECK(glm::all(glm::lessThanEqual(glm::abs(p - shift), vec3(1 / 32.0f))));
+        CHECK(dvec3(p - shift) == dvec3(p) - dvec3(shift));
+    }
+}
+
+TEST_CASE("random numbers are uniform and hang on both seed and counter", "[physics]") {
+    double sum = 0, square = 0;
+    const int count = 100000;
+    for (int i = 0; i < count; ++i) {
+        const double r = shader::uniformFrom(shader::hashSeed(uint32_t(i % 317), uint32_t(i / 317)));
+        REQUIRE(r >= 0);
+        REQUIRE(r < 1);
+        sum += r, square += r * r;
+    }
+    // standard errors: 0.0009 and 0.0009
+    CHECK(sum / count == Approx(0.5).margin(0.004));
+    CHECK(square / count == Approx(1 / 3.0).margin(0.004));
+    CHECK(shader::hashSeed(1, 2) != shader::hashSeed(2, 1));
+}
+
+TEST_CASE("bilinear heights", "[physics]") {
+    CHECK(shader::bilinear(1, 2, 3, 4, {0, 0}) == 1);
+    CHECK(shader::bilinear(1, 2, 3, 4, {1, 0}) == 2);
+    CHECK(shader::bilinear(1, 2, 3, 4, {0, 1}) == 3);
+    CHECK(shader::bilinear(1, 2, 3, 4, {0.5f, 0.5f}) == 2.5f);
+}
+
+}  // namespace shoal
