@@ -217,6 +217,7 @@ struct Group {
 // ---- The rest
 
 enum class SolverKind { euler, leapfrog };
+const char* name(SolverKind kind);
 
 struct SolverSettings {
     SolverKind kind = SolverKind::leapfrog;

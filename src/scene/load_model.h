@@ -1,0 +1,19 @@
+// Triangle meshes from model files of any format that Assimp reads.
+#pragma once
+
+#include <string>
+
+#include "scene/mesh.h"
+
+namespace shoal {
+
+// All triangles of the file with node transforms applied, one Mesh::Object per node that has triangles.
+// Polygons are cut into triangles; lines and points are ignored; vertex colours are taken as linear.
+// Error: no such file, not readable as a model, a position that is not finite, no triangles.
+Mesh loadMesh(const std::string& file);
+
+// Fills what follows from positions and triangles: missing normals (zero or an empty array), the weld
+// by position (within 1e-6 of the bounding box's diagonal), welded positions and normals, the box.
+void completeMesh(Mesh& mesh);
+
+}  // namespace shoal

@@ -1,0 +1,234 @@
+// Where the molecules of a group start.
+//
+// A host gives each molecule a point and an axis; the molecule's +Y goes along the axis. The rotation is
+//   tilt * bend * arc * yaw
+// from right to left: turned about +Y, laid along the axis by the shortest arc, drooped, tipped.
+// Every instance draws from a stream of its own, seeded from (scene.seed, group, instance): a larger count
+// leaves the instances before it as they were.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include <glm/gtc/constants.hpp>
+
+#include "core/random.h"
+#include "scene/scene.h"
+#include "scene/selection.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+glm::dvec3 up() {
+    return {0, 1, 0};
+}
+
+// splitmix64's finaliser (Steele, Lea, Flood 2014).
+uint64_t mix(uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
+    x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
+    return x ^ (x >> 31);
+}
+
+uint64_t streamOf(uint64_t seed, uint64_t group, uint64_t counter) {
+    return mix(mix(mix(seed + 0x9E3779B97F4A7C15u) + group * 0xD1342543DE82EF95u + 1) +
+               counter * 0x9E3779B97F4A7C15u);
+}
+
+glm::dquat about(const glm::dvec3& axis, double angle) {
+    return glm::angleAxis(angle, axis);
+}
+
+// A unit vector at right angles to `axis`.
+glm::dvec3 across(const glm::dvec3& axis) {
+    return glm::normalize(glm::cross(axis, std::abs(axis.y) < 0.9 ? up() : glm::dvec3(1, 0, 0)));
+}
+
+// The shortest rotation that takes unit a to unit b; half a turn about `otherwise` when they are opposite.
+glm::dquat arc(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& otherwise) {
+    const double cosine = glm::dot(a, b);
+    if (cosine < -1 + 1e-12) return about(otherwise, pi);
+    const glm::dvec3 axis = glm::cross(a, b);
+    return glm::normalize(glm::dquat(1 + cosine, axis.x, axis.y, axis.z));
+}
+
+// Shoemake's uniform random rotation (Graphics Gems III, 1992).
+glm::dquat anyRotation(Random& random) {
+    const double u = random.uniform(), v = 2 * pi * random.uniform(), w = 2 * pi * random.uniform();
+    const double a = std::sqrt(1 - u), b = std::sqrt(u);
+    return {b * std::cos(w), a * std::sin(v), a * std::cos(v), b * std::sin(w)};
+}
+
+struct Host {
+    glm::dvec3 position{0};
+    glm::dvec3 normal{0, 1, 0};
+    glm::dquat rotation{1, 0, 0, 0};  // a list's own
+    double scale = 1;
+};
+
+// Hands out hosts by instance number.
+class Hosts {
+  public:
+    Hosts(const Scene& scene, size_t group) : group_(scene.groups[group]), place_(group_.place) {
+        const bool onModel =
+            place_.kind == Placement::Kind::vertices || place_.kind == Placement::Kind::surface;
+        if (!onModel) return;
+        model_ = &scene.models.at(size_t(place_.model));
+        selected_ = select(model_->mesh, place_.select);
+        if (place_.kind == Placement::Kind::vertices)
+            shuffle(streamOf(scene.seed, group, ~uint64_t{0}));
+        else
+            accumulateAreas();
+    }
+
+    Host at(size_t instance, Random& random) const {
+        switch (place_.kind) {
+        case Placement::Kind::vertices:
+            return onVertex(instance);
+        case Placement::Kind::surface:
+            return onSurface(random);
+        case Placement::Kind::volume:
+            return inVolume(random);
+        case Placement::Kind::grid:
+            return onGrid(instance);
+        case Placement::Kind::list:
+            break;
+        }
+        const Placement::Item& item = place_.items[instance % place_.items.size()];
+        return {item.position, item.rotation * up(), item.rotation, item.scale};
+    }
+
+  private:
+    Error nothing(const std::string& what) const {
+        return Error(group_.location,
+                     concat("nothing of model \"", model_->name, "\" matches the selection, ", what,
+                            " to place molecules on: ", selected_.report));
+    }
+
+    // Fisher and Yates: the first n are a random choice of n distinct vertices. A count above the number
+    // of vertices goes round again.
+    void shuffle(uint64_t stream) {
+        if (selected_.vertices.empty()) throw nothing("expected vertices");
+        Random random(stream);
+        std::vector<int>& vertices = selected_.vertices;
+        for (size_t i = 0; i + 1 < vertices.size(); ++i) {
+            const double left = static_cast<double>(vertices.size() - i);
+            const size_t j = i + static_cast<size_t>(random.uniform() * left);
+            std::swap(vertices[i], vertices[std::min(j, vertices.size() - 1)]);
+        }
+    }
+
+    void accumulateAreas() {
+        double sum = 0;
+        for (const int t : selected_.triangles)
+            areas_.push_back(sum += glm::length(areaVector(t)));
+        if (!(sum > 0)) throw nothing("expected triangles with an area");
+    }
+
+    const glm::dvec3& corner(int triangle, int i) const {
+        return model_->mesh.positions[size_t(model_->mesh.triangles[size_t(triangle)][i])];
+    }
+    glm::dvec3 areaVector(int t) const {
+        return glm::cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0));
+    }
+
+    Host onVertex(size_t instance) const {
+        const size_t v = size_t(selected_.vertices[instance % selected_.vertices.size()]);
+        return {model_->mesh.weldedPositions[v], model_->mesh.weldedNormals[v], {1, 0, 0, 0}, 1};
+    }
+
+    Host onSurface(Random& random) const {
+        const double area = random.uniform() * areas_.back();
+        const auto found = std::upper_bound(areas_.begin(), areas_.end(), area);
+        const auto last = areas_.end() - 1;
+        const int t = selected_.triangles[size_t(std::min(found, last) - areas_.begin())];
+        // Uniform over the triangle (Turk, Graphics Gems, 1990).
+        const double root = std::sqrt(random.uniform()), v = random.uniform();
+        const glm::dvec3 position =
+            (1 - root) * corner(t, 0) + root * (1 - v) * corner(t, 1) + root * v * corner(t, 2);
+        const glm::dvec3 normal = areaVector(t);
+        const double length = glm::length(normal);
+        return {position, length > 0 ? normal / length : up(), {1, 0, 0, 0}, 1};
+    }
+
+    Host inVolume(Random& random) const {
+        const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+        return {glm::mix(place_.box.low, place_.box.high, glm::dvec3(x, y, z)), up(), {1, 0, 0, 0}, 1};
+    }
+
+    // x fastest, then y, then z; a count above the product goes on along z.
+    Host onGrid(size_t instance) const {
+        const size_t columns = size_t(place_.cells.x), rows = size_t(place_.cells.y);
+        const glm::dvec3 cell(static_cast<double>(instance % columns),
+                              static_cast<double>(instance / columns % rows),
+                              static_cast<double>(instance / columns / rows));
+        return {place_.origin + cell * place_.spacing, up(), {1, 0, 0, 0}, 1};
+    }
+
+    const Group& group_;
+    const Placement& place_;
+    const Model* model_ = nullptr;
+    Selected selected_;
+    std::vector<double> areas_;  // running sums over the selected triangles
+};
+
+Instance orient(const Placement& place, const Host& host, Random& random) {
+    // Drawn in a fixed order and always, so that changing one setting leaves the others' values alone.
+    const glm::dquat any = anyRotation(random);
+    const double yaw = 2 * pi * random.uniform(), heading = 2 * pi * random.uniform();
+    const double tipped = place.tilt * random.uniform(), tipHeading = 2 * pi * random.uniform();
+    const double size = glm::mix(place.scale.x, place.scale.y, random.uniform());
+
+    const bool list = place.kind == Placement::Kind::list;
+    const glm::dvec3 axis = list || place.align == Placement::Align::normal ? host.normal : up();
+    const glm::dvec3 heads(std::cos(heading), 0, std::sin(heading));
+    glm::dquat rotation = list ? host.rotation : arc(up(), axis, heads);
+    if (place.turn == Placement::Turn::any) {
+        rotation = any;
+    } else {
+        if (place.turn == Placement::Turn::yaw) rotation = rotation * about(up(), yaw);
+        if (place.droop > 0) {
+            const double toDown = std::acos(glm::clamp(-axis.y, -1.0, 1.0));
+            const glm::dvec3 hinge = glm::cross(axis, -up());
+            const double length = glm::length(hinge);
+            // Straight up there is no way that leads down: the random heading picks one.
+            if (length > 1e-9)
+                rotation = about(hinge / length, place.droop * toDown) * rotation;
+            else if (axis.y > 0)
+                rotation = about(heads, place.droop * pi) * rotation;
+        }
+        if (tipped > 0) {
+            const glm::dvec3 along = rotation * up(), side = across(along);
+            rotation = about(about(along, tipHeading) * side, tipped) * rotation;
+        }
+    }
+
+    Instance instance;
+    instance.position = host.position + axis * place.offset;
+    instance.rotation = glm::normalize(rotation);
+    instance.scale = host.scale * size;
+    return instance;
+}
+
+}  // namespace
+
+std::vector<Instance> place(const Scene& scene, size_t group) {
+    const Group& g = scene.groups.at(group);
+    if (g.place.kind == Placement::Kind::list && g.place.items.empty())
+        throw Error(g.location, "the list of places is empty, expected at least one item");
+    const Hosts hosts(scene, group);
+    std::vector<Instance> instances;
+    instances.reserve(size_t(std::max(g.count, 0)));
+    for (size_t i = 0; i < size_t(std::max(g.count, 0)); ++i) {
+        const uint64_t stream = streamOf(scene.seed, group, i);
+        Random random(stream);
+        const Host host = hosts.at(i, random);
+        instances.push_back(orient(g.place, host, random));
+        instances.back().seed = static_cast<uint32_t>(mix(stream) >> 32);
+    }
+    return instances;
+}
+
+}  // namespace shoal

@@ -1,0 +1,87 @@
+#include "scene/scene_file.h"
+
+#include "core/file.h"
+#include "core/json.h"
+#include "scene/scene_reader.h"
+
+namespace shoal {
+
+namespace {
+
+void readSolver(JsonReader& scene, SolverSettings& solver) {
+    solver.location = scene.here();
+    auto r = scene.object("solver");
+    if (!r) return;
+    solver.location = r->here();
+    int kind = static_cast<int>(solver.kind);
+    r->choose("method", {"euler", "leapfrog"}, kind);
+    solver.kind = static_cast<SolverKind>(kind);
+    r->get("substeps", solver.substeps, Range::between(1, 1000));
+    r->finish();
+}
+
+void readCamera(JsonReader& scene, Camera& camera) {
+    auto r = scene.object("camera");
+    if (!r) return;
+    r->get("eye", camera.eye);
+    r->get("target", camera.target);
+    if (camera.eye == camera.target) throw Error(r->here(), "expected eye and target apart");
+    r->get("fieldOfView", camera.fieldOfView, Range::between(0.01, 3.1));
+    r->get("exposure", camera.exposure, Range::positive());
+    r->finish();
+}
+
+void readLight(JsonReader& scene, Light& light) {
+    auto r = scene.object("light");
+    if (!r) return;
+    getDirection(*r, "direction", light.direction);
+    getColor(*r, "color", light.color);
+    r->get("intensity", light.intensity, Range::atLeast(0));
+    r->get("shadows", light.shadows);
+    r->finish();
+}
+
+void readSky(JsonReader& scene, Sky& sky) {
+    auto r = scene.object("sky");
+    if (!r) return;
+    getColor(*r, "zenith", sky.zenith);
+    getColor(*r, "horizon", sky.horizon);
+    getColor(*r, "ground", sky.ground);
+    r->get("intensity", sky.intensity, Range::atLeast(0));
+    r->get("fog", sky.fog, Range::atLeast(0));
+    r->finish();
+}
+
+}  // namespace
+
+Scene parseScene(const std::string& text, const std::string& file) {
+    const JsonValue root = parseJson(text, file);
+    JsonReader r(root, file);
+    int format = 0;
+    r.require("format");
+    r.choose("format", {"shoal-scene-1"}, format);
+
+    Scene scene;
+    scene.file = file;
+    r.get("name", scene.name);
+    r.get("comment", scene.comment);
+    r.get("seed", scene.seed);
+    r.get("frameRate", scene.frameRate, Range{1, 1e5, false});
+    r.get("gravity", scene.gravity);
+    readSolver(r, scene.solver);
+    readCamera(r, scene.camera);
+    readLight(r, scene.light);
+    readSky(r, scene.sky);
+    scene.fields = readFields(r);
+    scene.models = readModels(r);
+    scene.colliders = readColliders(r, scene.models, scene.warnings);
+    scene.groups = readGroups(r, scene.models, scene.warnings);
+    r.finish();
+    return scene;
+}
+
+Scene readScene(const std::string& file) {
+    return parseScene(readFile(file), file);
+}
+
+}  // namespace shoal

@@ -1,0 +1,47 @@
+// The parts of the scene reader. Used by scene_*.cpp only.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "scene/scene.h"
+
+namespace shoal {
+
+std::vector<Field> readFields(JsonReader& scene);
+std::vector<Model> readModels(JsonReader& scene);
+std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
+                                    std::vector<Warning>& warnings);
+std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
+                              std::vector<Warning>& warnings);
+
+// A key that names a file: its path, relative to the folder of the file that names it.
+// Error at the key: absent, empty, or no such file.
+std::string needFile(JsonReader& reader, const std::string& key);
+
+// A key that names a model: its index.
+int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models);
+
+// "rotation" as a quaternion [x, y, z, w] (glTF's order) or as {"axis": [x, y, z], "angle": rad}.
+bool getRotation(JsonReader& reader, const std::string& key, glm::dquat& out);
+
+// A vector of any length above 0; `out` becomes its direction.
+bool getDirection(JsonReader& reader, const std::string& key, glm::dvec3& out);
+
+// {"low": [x, y, z], "high": [x, y, z]}, low below high (or equal where `flat`).
+bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat = false);
+
+// A colour: three numbers, at least 0.
+bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out);
+bool getColor(JsonReader& reader, const std::string& key, std::optional<glm::dvec3>& out);
+
+// An optional number that keeps apart "absent" and any value.
+bool getOptional(JsonReader& reader, const std::string& key, std::optional<double>& out, Range range);
+
+// Refuses a name that an earlier element already has. An element's own name may be empty.
+void refuseRepeated(const JsonReader& reader, const std::vector<std::string>& earlier,
+                    const std::string& name);
+
+}  // namespace shoal
