@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -23,11 +24,12 @@ class JsonValue {
     enum class Kind { null, boolean, number, string, array, object };
 
     Kind kind = Kind::null;
-    int line = 0, column = 0;  // where the value begins, from 1
+    int line = 0, column = 0;        // where the value begins, from 1; columns count bytes
+    int keyLine = 0, keyColumn = 0;  // where its key begins, for an object's members
     bool boolean = false;
     double number = 0;
-    std::string text;  // a string's characters, or a number as it was written
-    std::vector<JsonValue> items;                            // array
+    std::string text;              // a string's characters, or a number as it was written
+    std::vector<JsonValue> items;  // array
     std::vector<std::pair<std::string, JsonValue>> members;  // object, in the file's order
 
     const JsonValue* find(std::string_view key) const;
@@ -41,7 +43,8 @@ class JsonValue {
     template <int N, typename T>
     static JsonValue makeVector(const glm::vec<N, T>& v) {
         JsonValue array = makeArray();
-        for (int i = 0; i < N; ++i) array.items.push_back(makeNumber(static_cast<double>(v[i])));
+        for (int i = 0; i < N; ++i)
+            array.items.push_back(makeNumber(static_cast<double>(v[i])));
         return array;
     }
     JsonValue& add(std::string key, JsonValue value);  // returns *this, for chains
@@ -49,12 +52,17 @@ class JsonValue {
 
 const char* name(JsonValue::Kind kind);  // "a number", "an object", ...
 
-// Error: not JSON (with line and column), nested deeper than 64, or a repeated key.
+// Error: not JSON (with line and column), nested deeper than 64, a repeated key, a number beyond a double,
+// or text that is not UTF-8. A byte-order mark at the start is skipped.
 JsonValue parseJson(const std::string& text, const std::string& file);
 JsonValue readJson(const std::string& file);
-// Indented by two; arrays of plain numbers stay on one line; ends with a newline. Numbers are written in
-// the shortest form that reads back as the same double.
+// Indented by two; arrays of plain numbers stay on one line, and so does an element of an array that fits;
+// ends with a newline. Numbers are written in the shortest form that reads back as the same double; what is
+// not finite, which JSON cannot say, becomes null.
 std::string writeJson(const JsonValue& value);
+// `fresh` with its keys in the order of `original` and with the comments that only `original` has, so that
+// saving a file again changes what changed and no more. Elements of arrays are matched by index.
+JsonValue inOrderOf(const JsonValue& original, JsonValue fresh);
 
 // Limits of a number, inclusive unless `above`.
 struct Range {
@@ -90,6 +98,8 @@ class JsonReader {
     bool get(const std::string& key, std::vector<double>& out, Range range = {});
     bool get(const std::string& key, std::vector<int>& out, Range range = {});
     bool get(const std::string& key, std::vector<std::string>& out);
+    bool get(const std::string& key,
+             std::vector<glm::ivec3>& out);  // an array of arrays of three whole numbers
     // One of a fixed set of words; `out` becomes its index.
     bool choose(const std::string& key, const std::vector<std::string>& words, int& out);
     template <typename T>
@@ -115,6 +125,9 @@ class JsonReader {
   private:
     const JsonValue* take(const std::string& key, JsonValue::Kind kind);
     double checked(const JsonValue& value, const std::string& path, Range range) const;
+    int checkedInt(const JsonValue& value, const std::string& path, Range range) const;
+    void checkKind(const JsonValue& value, const std::string& path, JsonValue::Kind kind) const;
+    void checkCount(const JsonValue& array, const std::string& path, size_t count) const;
     Location locate(const JsonValue& value, const std::string& path) const;
 
     const JsonValue* object_;

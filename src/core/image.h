@@ -1,0 +1,38 @@
+// Pictures in memory and as PNG files. Rows run from top to bottom, channels are interleaved.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace shoal {
+
+constexpr int maxImageSide = 16384;  // texels; what current OpenGL implementations take as a texture
+
+// width * height * channels bytes: 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA.
+struct Image {
+    int width = 0, height = 0, channels = 4;
+    std::vector<uint8_t> pixels;
+};
+
+// width * height values in [0, 1].
+struct HeightImage {
+    int width = 0, height = 0;
+    std::vector<float> values;
+};
+
+// Any PNG as RGBA, eight bits a channel, as stored (no gamma conversion).
+// Error: no such file, not a PNG, damaged or cut off, or above maxImageSide a side.
+Image readPng(const std::filesystem::path& path);
+Image decodePng(const std::string& bytes, const std::string& file);
+// A grey PNG of up to 16 bits at its full depth, as stored. Error: as above, or a picture in colour.
+HeightImage readHeightPng(const std::filesystem::path& path);
+HeightImage decodeHeightPng(const std::string& bytes, const std::string& file);
+
+std::vector<std::byte> encodePng(const Image& image);
+// Through writeFile: whole or not at all.
+void writePng(const std::filesystem::path& path, const Image& image);
+
+}  // namespace shoal

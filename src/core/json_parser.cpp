@@ -1,0 +1,247 @@
+// Text to a tree of JsonValues, through RapidJSON's event reader.
+//
+// RapidJSON tells the stream's position at an event, which is the end of a token for scalars and keys and
+// the bracket itself for containers. A token's start is therefore found here: the first byte after the
+// previous token that is neither white space, comma nor colon.
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <unordered_set>
+
+#include <rapidjson/reader.h>
+
+#include "core/file.h"
+#include "core/json.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr size_t maxDepth = 64;
+constexpr size_t maxFileBytes = size_t{1} << 28;
+
+struct Position {
+    int line = 1, column = 1;
+};
+
+// Turns growing offsets into lines and columns in one sweep.
+class LineCounter {
+  public:
+    explicit LineCounter(std::string_view text) : text_(text) {}
+
+    Position at(size_t offset) {
+        for (; offset_ < offset && offset_ < text_.size(); ++offset_) {
+            if (text_[offset_] != '\n') continue;
+            ++line_;
+            lineStart_ = offset_ + 1;
+        }
+        return {line_, static_cast<int>(offset_ - lineStart_) + 1};
+    }
+
+  private:
+    std::string_view text_;
+    size_t offset_ = 0, lineStart_ = 0;
+    int line_ = 1;
+};
+
+Position positionOf(std::string_view text, size_t offset) {
+    return LineCounter(text).at(offset);
+}
+
+class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
+  public:
+    TreeBuilder(std::string_view text, const std::string& file, const rapidjson::StringStream& stream)
+        : text_(text), file_(file), stream_(stream), lines_(text) {}
+
+    JsonValue takeRoot() { return std::move(root_); }
+
+    bool Null() { return scalar(JsonValue{}); }
+    bool Bool(bool value) { return scalar(JsonValue::makeBoolean(value)); }
+    bool String(const char* characters, rapidjson::SizeType length, bool) {
+        return scalar(JsonValue::makeString(std::string(characters, length)));
+    }
+    bool RawNumber(const char* characters, rapidjson::SizeType length, bool) {
+        JsonValue value = JsonValue::makeNumber(0);
+        value.text.assign(characters, length);
+        const auto result = std::from_chars(characters, characters + length, value.number);
+        const Position start = nextToken();
+        if (result.ec != std::errc{} || result.ptr != characters + length || !std::isfinite(value.number))
+            fail(start, concat("expected a number that fits a double, found ", value.text.substr(0, 40)));
+        return scalar(std::move(value));
+    }
+    bool Key(const char* characters, rapidjson::SizeType length, bool) {
+        Open& object = open_.back();
+        const Position start = nextToken();
+        last_ = stream_.Tell();
+        object.key.assign(characters, length);
+        object.keyAt = start;
+        if (!object.seen.insert(object.key).second) fail(start, "key \"" + object.key + "\" appears twice");
+        return true;
+    }
+    bool StartObject() { return enter(JsonValue::makeObject()); }
+    bool StartArray() { return enter(JsonValue::makeArray()); }
+    bool EndObject(rapidjson::SizeType) { return leave(); }
+    bool EndArray(rapidjson::SizeType) { return leave(); }
+
+  private:
+    struct Open {
+        JsonValue value;
+        std::string key;  // of the member being read
+        Position keyAt;
+        std::unordered_set<std::string> seen;
+    };
+
+    [[noreturn]] void fail(Position position, const std::string& message) const {
+        throw Error({file_, position.line, position.column, path()}, message);
+    }
+    std::string path() const {
+        std::string out = "$";
+        for (const Open& open : open_) {
+            if (open.value.kind == JsonValue::Kind::array)
+                out += concat("[", open.value.items.size(), "]");
+            else
+                out += "." + open.key;
+        }
+        return out;
+    }
+    Position nextToken() {
+        while (last_ < text_.size() &&
+               std::string_view(" \t\r\n,:").find(text_[last_]) != std::string_view::npos)
+            ++last_;
+        return lines_.at(last_);
+    }
+    bool scalar(JsonValue value) {
+        const Position start = nextToken();
+        last_ = stream_.Tell();
+        place(std::move(value), start);
+        return true;
+    }
+    bool enter(JsonValue value) {
+        const Position start = nextToken();
+        if (open_.size() >= maxDepth) fail(start, concat("is nested deeper than ", maxDepth, " levels"));
+        ++last_;
+        value.line = start.line;
+        value.column = start.column;
+        open_.push_back({std::move(value), {}, {}, {}});
+        return true;
+    }
+    bool leave() {
+        nextToken();
+        ++last_;
+        JsonValue value = std::move(open_.back().value);
+        open_.pop_back();
+        const Position start{value.line, value.column};
+        place(std::move(value), start);
+        return true;
+    }
+    void place(JsonValue value, Position start) {
+        value.line = start.line;
+        value.column = start.column;
+        if (open_.empty()) {
+            root_ = std::move(value);
+            return;
+        }
+        Open& parent = open_.back();
+        if (parent.value.kind == JsonValue::Kind::array) {
+            parent.value.items.push_back(std::move(value));
+            return;
+        }
+        value.keyLine = parent.keyAt.line;
+        value.keyColumn = parent.keyAt.column;
+        parent.value.members.emplace_back(parent.key, std::move(value));
+    }
+
+    std::string_view text_;
+    const std::string& file_;
+    const rapidjson::StringStream& stream_;
+    LineCounter lines_;
+    size_t last_ = 0;  // just behind the previous token
+    std::vector<Open> open_;
+    JsonValue root_;
+};
+
+std::string expectation(rapidjson::ParseErrorCode code) {
+    switch (code) {
+    case rapidjson::kParseErrorDocumentEmpty:
+        return "expected a JSON object";
+    case rapidjson::kParseErrorDocumentRootNotSingular:
+        return "expected the end of the file";
+    case rapidjson::kParseErrorValueInvalid:
+        return "expected a value";
+    case rapidjson::kParseErrorObjectMissName:
+        return "expected a key in double quotes";
+    case rapidjson::kParseErrorObjectMissColon:
+        return "expected ':' after the key";
+    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
+        return "expected ',' or '}'";
+    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
+        return "expected ',' or ']'";
+    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
+        return "expected four hexadecimal digits after \\u";
+    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
+        return "expected a valid surrogate pair after \\u";
+    case rapidjson::kParseErrorStringEscapeInvalid:
+        return "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u";
+    case rapidjson::kParseErrorStringMissQuotationMark:
+        return "expected a closing quotation mark in this line";
+    case rapidjson::kParseErrorStringInvalidEncoding:
+        return "expected UTF-8 text";
+    case rapidjson::kParseErrorNumberTooBig:
+        return "expected a number that fits a double";
+    case rapidjson::kParseErrorNumberMissFraction:
+        return "expected digits after the decimal point";
+    case rapidjson::kParseErrorNumberMissExponent:
+        return "expected digits in the exponent";
+    default:
+        return "expected JSON";
+    }
+}
+
+std::string found(std::string_view text, size_t offset) {
+    if (text.find_first_not_of(" \t\r\n") == std::string_view::npos) return "an empty file";
+    if (offset >= text.size()) return "the end of the file";
+    for (const char* word : {"NaN", "nan", "Infinity", "Inf", "inf"})
+        if (text.substr(offset).starts_with(word)) return concat(word, " (JSON has finite numbers only)");
+    const unsigned char byte = static_cast<unsigned char>(text[offset]);
+    if (byte == '\n' || byte == '\r') return "the end of the line";
+    if (text.substr(offset).starts_with("//") || text.substr(offset).starts_with("/*"))
+        return "a comment (use a key \"comment\")";
+    if (byte >= 0x20 && byte < 0x7f) return concat("'", text[offset], "'");
+    return concat("byte ", static_cast<int>(byte));
+}
+
+}  // namespace
+
+JsonValue parseJson(const std::string& source, const std::string& file) {
+    std::string_view text = source;
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    // The reader takes a zero byte for the end, so what stands behind one would be ignored.
+    if (const size_t zero = text.find('\0'); zero != std::string_view::npos) {
+        const Position position = positionOf(text, zero);
+        throw Error({file, position.line, position.column, {}}, "expected JSON, found a zero byte");
+    }
+    rapidjson::StringStream stream(text.data());
+    TreeBuilder builder(text, file, stream);
+    rapidjson::Reader reader;
+    constexpr unsigned flags = rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag |
+                               rapidjson::kParseValidateEncodingFlag;
+    const rapidjson::ParseResult result = reader.Parse<flags>(stream, builder);
+    if (result.IsError()) {
+        size_t offset = std::min(result.Offset(), text.size());
+        if (result.Code() == rapidjson::kParseErrorValueInvalid && offset > 0 && offset < text.size() &&
+            (std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0))
+            while (offset > 0 && std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
+                --offset;  // back to the start of a word such as "nan" or "tru"
+        const Position position = positionOf(text, offset);
+        throw Error({file, position.line, position.column, {}},
+                    concat(expectation(result.Code()), ", found ", found(text, offset)));
+    }
+    return builder.takeRoot();
+}
+
+JsonValue readJson(const std::string& file) {
+    return parseJson(readFile(file, maxFileBytes), file);
+}
+
+}  // namespace shoal

@@ -1,0 +1,255 @@
+// Taking a JSON object apart, key by key, with located errors.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/json.h"
+
+namespace shoal {
+
+using Kind = JsonValue::Kind;
+
+const char* name(JsonValue::Kind kind) {
+    switch (kind) {
+    case Kind::null:
+        return "null";
+    case Kind::boolean:
+        return "true or false";
+    case Kind::number:
+        return "a number";
+    case Kind::string:
+        return "a string";
+    case Kind::array:
+        return "an array";
+    case Kind::object:
+        return "an object";
+    }
+    return "a value";
+}
+
+static std::string describe(Range range, const char* noun) {
+    const bool below = std::isfinite(range.most), above = std::isfinite(range.least);
+    std::string out = noun;
+    if (above && range.aboveLeast) out += concat(" above ", range.least);
+    if (above && !range.aboveLeast) out += concat(below ? " from " : " of at least ", range.least);
+    if (below && above) out += concat(range.aboveLeast ? " and at most " : " to ", range.most);
+    if (below && !above) out += concat(" of at most ", range.most);
+    return out;
+}
+
+// What was found, as it was written.
+static std::string written(const JsonValue& value) {
+    if (value.kind == Kind::number && !value.text.empty()) return value.text;
+    if (value.kind == Kind::number) return concat(value.number);
+    return name(value.kind);
+}
+
+static std::string indexed(const std::string& path, size_t index) {
+    return concat(path, "[", index, "]");
+}
+
+JsonReader::JsonReader(const JsonValue& object, std::string file, std::string path)
+    : object_(&object), file_(std::move(file)), path_(std::move(path)) {
+    checkKind(object, path_, Kind::object);
+}
+
+Location JsonReader::locate(const JsonValue& value, const std::string& path) const {
+    return {file_, value.line, value.column, path};
+}
+
+Location JsonReader::here() const {
+    return locate(*object_, path_);
+}
+
+Location JsonReader::at(const std::string& key) const {
+    const JsonValue* value = object_->find(key);
+    return value ? locate(*value, path_ + "." + key) : here();
+}
+
+void JsonReader::checkKind(const JsonValue& value, const std::string& path, Kind kind) const {
+    if (value.kind != kind)
+        throw Error(locate(value, path), concat("expected ", name(kind), ", found ", name(value.kind)));
+}
+
+void JsonReader::checkCount(const JsonValue& array, const std::string& path, size_t count) const {
+    checkKind(array, path, Kind::array);
+    if (array.items.size() != count)
+        throw Error(locate(array, path),
+                    concat("expected an array of ", count, " numbers, found ", array.items.size()));
+}
+
+double JsonReader::checked(const JsonValue& value, const std::string& path, Range range) const {
+    checkKind(value, path, Kind::number);
+    const double number = value.number;
+    const bool inside = std::isfinite(number) && number <= range.most &&
+                        (range.aboveLeast ? number > range.least : number >= range.least);
+    if (!inside)
+        throw Error(locate(value, path),
+                    concat("expected ", describe(range, "a number"), ", found ", written(value)));
+    return number;
+}
+
+int JsonReader::checkedInt(const JsonValue& value, const std::string& path, Range range) const {
+    checkKind(value, path, Kind::number);
+    const double number = value.number;
+    const bool inside = number >= std::numeric_limits<int>::min() &&
+                        number <= std::numeric_limits<int>::max() && number <= range.most &&
+                        (range.aboveLeast ? number > range.least : number >= range.least);
+    if (!inside || number != std::floor(number))
+        throw Error(locate(value, path),
+                    concat("expected ", describe(range, "a whole number"), ", found ", written(value)));
+    return static_cast<int>(number);
+}
+
+const JsonValue* JsonReader::raw(const std::string& key) {
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
+    return object_->find(key);
+}
+
+const JsonValue* JsonReader::take(const std::string& key, Kind kind) {
+    const JsonValue* value = raw(key);
+    if (value) checkKind(*value, path_ + "." + key, kind);
+    return value;
+}
+
+bool JsonReader::get(const std::string& key, double& out, Range range) {
+    const JsonValue* value = raw(key);
+    if (value) out = checked(*value, path_ + "." + key, range);
+    return value != nullptr;
+}
+
+bool JsonReader::get(const std::string& key, int& out, Range range) {
+    const JsonValue* value = raw(key);
+    if (value) out = checkedInt(*value, path_ + "." + key, range);
+    return value != nullptr;
+}
+
+// From the text, since a double holds only 53 of the 64 bits.
+bool JsonReader::get(const std::string& key, uint64_t& out) {
+    const JsonValue* value = take(key, Kind::number);
+    if (!value) return false;
+    const std::string text = value->text.empty() ? concat(value->number) : value->text;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), out);
+    if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+        throw Error(at(key), "expected a whole number from 0 to 18446744073709551615, found " + text);
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, bool& out) {
+    const JsonValue* value = take(key, Kind::boolean);
+    if (value) out = value->boolean;
+    return value != nullptr;
+}
+
+bool JsonReader::get(const std::string& key, std::string& out) {
+    const JsonValue* value = take(key, Kind::string);
+    if (value) out = value->text;
+    return value != nullptr;
+}
+
+bool JsonReader::get(const std::string& key, glm::dvec2& out, Range range) {
+    const JsonValue* value = raw(key);
+    if (!value) return false;
+    const std::string path = path_ + "." + key;
+    checkCount(*value, path, 2);
+    for (int i = 0; i < 2; ++i)
+        out[i] = checked(value->items[size_t(i)], indexed(path, size_t(i)), range);
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, glm::dvec3& out, Range range) {
+    const JsonValue* value = raw(key);
+    if (!value) return false;
+    const std::string path = path_ + "." + key;
+    checkCount(*value, path, 3);
+    for (int i = 0; i < 3; ++i)
+        out[i] = checked(value->items[size_t(i)], indexed(path, size_t(i)), range);
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, std::vector<double>& out, Range range) {
+    const JsonValue* value = take(key, Kind::array);
+    if (!value) return false;
+    out.clear();
+    for (const JsonValue& item : value->items)
+        out.push_back(checked(item, indexed(path_ + "." + key, out.size()), range));
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, std::vector<int>& out, Range range) {
+    const JsonValue* value = take(key, Kind::array);
+    if (!value) return false;
+    out.clear();
+    for (const JsonValue& item : value->items)
+        out.push_back(checkedInt(item, indexed(path_ + "." + key, out.size()), range));
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, std::vector<std::string>& out) {
+    const JsonValue* value = take(key, Kind::array);
+    if (!value) return false;
+    out.clear();
+    for (const JsonValue& item : value->items) {
+        checkKind(item, indexed(path_ + "." + key, out.size()), Kind::string);
+        out.push_back(item.text);
+    }
+    return true;
+}
+
+bool JsonReader::get(const std::string& key, std::vector<glm::ivec3>& out) {
+    const JsonValue* value = take(key, Kind::array);
+    if (!value) return false;
+    out.clear();
+    for (const JsonValue& item : value->items) {
+        const std::string path = indexed(path_ + "." + key, out.size());
+        checkCount(item, path, 3);
+        glm::ivec3 triple;
+        for (int i = 0; i < 3; ++i)
+            triple[i] = checkedInt(item.items[size_t(i)], indexed(path, size_t(i)), Range::any());
+        out.push_back(triple);
+    }
+    return true;
+}
+
+bool JsonReader::choose(const std::string& key, const std::vector<std::string>& words, int& out) {
+    const JsonValue* value = take(key, Kind::string);
+    if (!value) return false;
+    const auto word = std::find(words.begin(), words.end(), value->text);
+    if (word == words.end())
+        throw Error(at(key), "unknown word \"" + value->text + "\"" + suggestion(value->text, words));
+    out = static_cast<int>(word - words.begin());
+    return true;
+}
+
+void JsonReader::require(const std::string& key) {
+    if (!has(key)) throw Error(here(), "missing key \"" + key + "\"");
+}
+
+std::optional<JsonReader> JsonReader::object(const std::string& key) {
+    const JsonValue* value = raw(key);
+    if (!value) return std::nullopt;
+    return JsonReader(*value, file_, path_ + "." + key);
+}
+
+std::vector<JsonReader> JsonReader::objects(const std::string& key) {
+    std::vector<JsonReader> out;
+    const JsonValue* value = take(key, Kind::array);
+    if (!value) return out;
+    out.reserve(value->items.size());
+    for (const JsonValue& item : value->items)
+        out.emplace_back(item, file_, indexed(path_ + "." + key, out.size()));
+    return out;
+}
+
+void JsonReader::finish() {
+    for (const auto& [key, value] : object_->members) {
+        if (key == "comment") {
+            checkKind(value, path_ + ".comment", Kind::string);
+        } else if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
+            throw Error({file_, value.keyLine, value.keyColumn, path_ + "." + key},
+                        "unknown key \"" + key + "\"" + suggestion(key, known_));
+        }
+    }
+}
+
+}  // namespace shoal

@@ -1,0 +1,202 @@
+// Building and writing JsonValues.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "core/json.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr size_t lineWidth = 120;
+
+std::string quoted(const std::string& text) {
+    std::string out = "\"";
+    for (const char c : text) {
+        switch (c) {
+        case '"':
+            out += "\\\"";
+            break;
+        case '\\':
+            out += "\\\\";
+            break;
+        case '\n':
+            out += "\\n";
+            break;
+        case '\r':
+            out += "\\r";
+            break;
+        case '\t':
+            out += "\\t";
+            break;
+        default:
+            if (static_cast<unsigned char>(c) < 0x20) {
+                constexpr const char* digits = "0123456789abcdef";
+                out += "\\u00";
+                out += digits[(c >> 4) & 15];
+                out += digits[c & 15];
+            } else {
+                out += c;
+            }
+        }
+    }
+    return out + "\"";
+}
+
+std::string number(double value) {
+    if (!std::isfinite(value)) return "null";
+    char buffer[32];
+    const auto result = std::to_chars(buffer, buffer + sizeof buffer, value);
+    return std::string(buffer, result.ptr);
+}
+
+std::string scalar(const JsonValue& value) {
+    switch (value.kind) {
+    case JsonValue::Kind::boolean:
+        return value.boolean ? "true" : "false";
+    case JsonValue::Kind::number:
+        return number(value.number);
+    case JsonValue::Kind::string:
+        return quoted(value.text);
+    default:
+        return "null";
+    }
+}
+
+bool isContainer(const JsonValue& value) {
+    return value.kind == JsonValue::Kind::array || value.kind == JsonValue::Kind::object;
+}
+
+bool isPlainNumbers(const JsonValue& value) {
+    if (value.kind != JsonValue::Kind::array) return false;
+    for (const JsonValue& item : value.items)
+        if (item.kind != JsonValue::Kind::number) return false;
+    return true;
+}
+
+void writeLine(const JsonValue& value, std::string& out) {
+    if (!isContainer(value)) {
+        out += scalar(value);
+        return;
+    }
+    const bool array = value.kind == JsonValue::Kind::array;
+    out += array ? "[" : "{";
+    const char* separator = "";
+    for (const JsonValue& item : value.items) {
+        out += separator;
+        writeLine(item, out);
+        separator = ", ";
+    }
+    for (const auto& [key, member] : value.members) {
+        out += separator + quoted(key) + ": ";
+        writeLine(member, out);
+        separator = ", ";
+    }
+    out += array ? "]" : "}";
+}
+
+// `element`: the value stands in an array, where short things keep to one line.
+void write(const JsonValue& value, size_t indent, bool element, std::string& out) {
+    const bool empty = value.items.empty() && value.members.empty();
+    if (!isContainer(value) || empty || isPlainNumbers(value)) return writeLine(value, out);
+    if (element) {
+        std::string line;
+        writeLine(value, line);
+        if (indent + line.size() < lineWidth) {
+            out += line;
+            return;
+        }
+    }
+    const bool array = value.kind == JsonValue::Kind::array;
+    const std::string start = "\n" + std::string(indent + 2, ' ');
+    out += array ? "[" : "{";
+    const char* separator = "";
+    for (const JsonValue& item : value.items) {
+        out += separator + start;
+        write(item, indent + 2, true, out);
+        separator = ",";
+    }
+    for (const auto& [key, member] : value.members) {
+        out += separator + start + quoted(key) + ": ";
+        write(member, indent + 2, false, out);
+        separator = ",";
+    }
+    out += "\n" + std::string(indent, ' ') + (array ? "]" : "}");
+}
+
+}  // namespace
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+    for (const auto& [name, value] : members)
+        if (name == key) return &value;
+    return nullptr;
+}
+
+JsonValue JsonValue::makeNumber(double value) {
+    JsonValue out;
+    out.kind = Kind::number;
+    out.number = value;
+    return out;
+}
+
+JsonValue JsonValue::makeString(std::string value) {
+    JsonValue out;
+    out.kind = Kind::string;
+    out.text = std::move(value);
+    return out;
+}
+
+JsonValue JsonValue::makeBoolean(bool value) {
+    JsonValue out;
+    out.kind = Kind::boolean;
+    out.boolean = value;
+    return out;
+}
+
+JsonValue JsonValue::makeArray() {
+    JsonValue out;
+    out.kind = Kind::array;
+    return out;
+}
+
+JsonValue JsonValue::makeObject() {
+    JsonValue out;
+    out.kind = Kind::object;
+    return out;
+}
+
+JsonValue& JsonValue::add(std::string key, JsonValue value) {
+    members.emplace_back(std::move(key), std::move(value));
+    return *this;
+}
+
+std::string writeJson(const JsonValue& value) {
+    std::string out;
+    write(value, 0, false, out);
+    return out + "\n";
+}
+
+JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
+    if (original.kind != fresh.kind) return fresh;
+    for (size_t i = 0; i < fresh.items.size() && i < original.items.size(); ++i)
+        fresh.items[i] = inOrderOf(original.items[i], std::move(fresh.items[i]));
+
+    std::vector<std::pair<std::string, JsonValue>> ordered;
+    for (const auto& [key, old] : original.members) {
+        const auto same = [&key = key](const auto& member) { return member.first == key; };
+        const auto member = std::find_if(fresh.members.begin(), fresh.members.end(), same);
+        if (member != fresh.members.end()) {
+            ordered.emplace_back(key, inOrderOf(old, std::move(member->second)));
+            fresh.members.erase(member);
+        } else if (key == "comment") {
+            ordered.emplace_back(key, old);
+        }
+    }
+    for (auto& member : fresh.members)
+        ordered.push_back(std::move(member));
+    fresh.members = std::move(ordered);
+    return fresh;
+}
+
+}  // namespace shoal
