@@ -51,7 +51,8 @@ class PassTimers {
         Scope(PassTimers& timers, const char* name);
         PassTimers& timers_;
         DebugGroup group_;
-        int call_ = -1;  // of this frame; -1: not timed
+        bool open_ = false;  // inside a frame
+        int call_ = -1;      // of this frame; -1: not timed
         std::chrono::steady_clock::time_point start_;
     };
     // auto t = timers.time("advect"); until the end of the block. Passes do not nest (assert). Outside a

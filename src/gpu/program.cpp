@@ -1,0 +1,168 @@
+#include "gpu/program.h"
+
+#include <cassert>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "core/error.h"
+#include "gpu/debug_group.h"
+#include "gpu/shader_source.h"
+
+namespace shoal::gpu {
+namespace {
+
+std::string shaderLog(GLuint shader) {
+    GLint length = 0;
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<size_t>(length) + 1, '\0');
+    glGetShaderInfoLog(shader, length + 1, nullptr, log.data());
+    return log.c_str();  // up to the first zero, wherever the driver put it
+}
+
+std::string programLog(GLuint program) {
+    GLint length = 0;
+    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<size_t>(length) + 1, '\0');
+    glGetProgramInfoLog(program, length + 1, nullptr, log.data());
+    return log.c_str();
+}
+
+Handle<deleteShader> compile(GLenum stage, const ShaderSource& source, const std::string& label) {
+    Handle<deleteShader> shader(glCreateShader(stage));
+    const char* text = source.text.c_str();
+    glShaderSource(shader.id(), 1, &text, nullptr);
+    glCompileShader(shader.id());
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
+    if (compiled != GL_TRUE) {
+        const std::string log = shaderLog(shader.id());
+        throw Error(source.firstLocation(log),
+                    concat("the ", stage == GL_VERTEX_SHADER ? "vertex" : "fragment", " shader of program \"",
+                           label, "\" does not compile\n", source.rewriteLog(log)));
+    }
+    return shader;
+}
+
+// light[0] is asked for as light, light.color by its whole name.
+std::string withoutIndex(std::string name) {
+    if (name.size() > 3 && name.compare(name.size() - 3, 3, "[0]") == 0) name.resize(name.size() - 3);
+    return name;
+}
+
+std::map<std::string, GLint, std::less<>> readLocations(GLuint program) {
+    std::map<std::string, GLint, std::less<>> out;
+    GLint count = 0, longest = 0;
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    glGetProgramiv(program, GL_ACTIVE_UNIFORM_MAX_LENGTH, &longest);
+    std::string name(static_cast<size_t>(longest) + 1, '\0');
+    for (GLint i = 0; i < count; ++i) {
+        GLint size = 0;
+        GLenum type = 0;
+        glGetActiveUniform(program, static_cast<GLuint>(i), longest + 1, nullptr, &size, &type, name.data());
+        const GLint location = glGetUniformLocation(program, name.c_str());
+        if (location >= 0) out.emplace(withoutIndex(name.c_str()), location);  // -1: member of a block
+    }
+    return out;
+}
+
+}  // namespace
+
+Program::Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options)
+    : label_(options.label.empty() ? options.fragment : options.label) {
+    const ShaderSource vertex =
+        resolveShader(shaderRoot, options.vertex, options.defines, options.generated, header330());
+    const ShaderSource fragment =
+        resolveShader(shaderRoot, options.fragment, options.defines, options.generated, header330());
+    const Handle<deleteShader> vertexShader = compile(GL_VERTEX_SHADER, vertex, label_);
+    const Handle<deleteShader> fragmentShader = compile(GL_FRAGMENT_SHADER, fragment, label_);
+
+    handle_ = Handle<deleteProgram>(glCreateProgram());
+    glAttachShader(id(), vertexShader.id());
+    glAttachShader(id(), fragmentShader.id());
+    glLinkProgram(id());
+    glDetachShader(id(), vertexShader.id());
+    glDetachShader(id(), fragmentShader.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
+    if (linked != GL_TRUE) {
+        throw Error(concat("program \"", label_, "\" (", options.vertex, " and ", options.fragment,
+                           ") does not link\n", programLog(id())));
+    }
+    locations_ = readLocations(id());
+    declared_ = declaredUniforms(vertex.text);
+    declared_.merge(declaredUniforms(fragment.text));
+    labelObject(context, GL_PROGRAM, id(), label_.c_str());
+}
+
+void Program::use() const {
+    glUseProgram(id());
+}
+
+bool Program::uses(const char* name) const {
+    return locations_.find(std::string_view(name)) != locations_.end();
+}
+
+GLint Program::location(const char* name) const {
+#ifndef NDEBUG
+    GLint used = 0;
+    glGetIntegerv(GL_CURRENT_PROGRAM, &used);
+    assert(static_cast<GLuint>(used) == id() && "use() goes before set()");
+#endif
+    const std::string_view word(name);
+    const auto found = locations_.find(word);
+    if (found != locations_.end()) return found->second;
+    assert(declared_.count(word.substr(0, word.find_first_of(".["))) == 1 && "no such uniform in the shader");
+    return -1;  // which OpenGL ignores
+}
+
+void Program::set(const char* name, int value) const {
+    glUniform1i(location(name), value);
+}
+void Program::set(const char* name, uint32_t value) const {
+    glUniform1ui(location(name), value);
+}
+void Program::set(const char* name, float value) const {
+    glUniform1f(location(name), value);
+}
+void Program::set(const char* name, const glm::ivec2& value) const {
+    glUniform2iv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::ivec4& value) const {
+    glUniform4iv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::vec2& value) const {
+    glUniform2fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::vec3& value) const {
+    glUniform3fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::vec4& value) const {
+    glUniform4fv(location(name), 1, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::mat3& value) const {
+    glUniformMatrix3fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, const glm::mat4& value) const {
+    glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
+}
+void Program::set(const char* name, std::span<const float> values) const {
+    glUniform1fv(location(name), static_cast<GLsizei>(values.size()), values.data());
+}
+void Program::set(const char* name, std::span<const glm::vec4> values) const {
+    if (values.empty()) return;
+    glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+}
+
+void Program::texture(const char* sampler, int unit, const Texture& texture) const {
+    texture.bind(unit);
+    set(sampler, unit);
+}
+
+void Program::uniformBlock(const char* block, int binding, const Buffer& buffer) const {
+    const GLuint index = glGetUniformBlockIndex(id(), block);
+    assert(declared_.count(std::string_view(block)) == 1 && "no such block in the shader");
+    if (index == GL_INVALID_INDEX) return;
+    glUniformBlockBinding(id(), index, static_cast<GLuint>(binding));
+    buffer.bindUniform(binding);
+}
+
+}  // namespace shoal::gpu

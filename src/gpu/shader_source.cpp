@@ -1,0 +1,265 @@
+#include "gpu/shader_source.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <filesystem>
+
+#include "core/file.h"
+
+namespace shoal::gpu {
+namespace {
+
+bool isIdentifier(char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::string_view withoutSpaces(std::string_view text) {
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
+        text.remove_prefix(1);
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())))
+        text.remove_suffix(1);
+    return text;
+}
+
+// Calls visit(line) for each line, without its end; a text that ends in a newline has no empty last line.
+template <typename Visit>
+void forEachLine(std::string_view text, Visit visit) {
+    while (!text.empty()) {
+        const size_t end = text.find('\n');
+        std::string_view line = text.substr(0, end);
+        if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+        visit(line);
+        text = end == std::string_view::npos ? std::string_view{} : text.substr(end + 1);
+    }
+}
+
+// Follows block comments from line to line.
+bool endsInsideComment(std::string_view line, bool inside) {
+    for (size_t i = 0; i + 1 < line.size(); ++i) {
+        if (inside) {
+            if (line[i] == '*' && line[i + 1] == '/') {
+                inside = false;
+                ++i;
+            }
+        } else if (line[i] == '/' && line[i + 1] == '/') {
+            return false;
+        } else if (line[i] == '/' && line[i + 1] == '*') {
+            inside = true;
+            ++i;
+        }
+    }
+    return inside;
+}
+
+// "#include" with spaces where C allows them; sets `rest` to what follows.
+bool isInclude(std::string_view line, std::string_view& rest) {
+    line = withoutSpaces(line);
+    if (line.empty() || line.front() != '#') return false;
+    line = withoutSpaces(line.substr(1));
+    constexpr std::string_view word = "include";
+    if (line.substr(0, word.size()) != word) return false;
+    rest = line.substr(word.size());
+    if (!rest.empty() && isIdentifier(rest.front())) return false;
+    rest = withoutSpaces(rest);
+    return true;
+}
+
+class Resolver {
+  public:
+    Resolver(const std::string& root, const std::map<std::string, std::string>& generated)
+        : root_(root), generated_(generated) {}
+
+    int addFile(const std::string& name) {
+        source.files.push_back(name);
+        return static_cast<int>(source.files.size()) - 1;
+    }
+    void addLine(std::string_view line, int file, int number) {
+        source.text.append(line);
+        source.text += '\n';
+        source.lines.push_back({file, number});
+    }
+
+    // `asker`: where the #include is; empty for the file that the program names.
+    void add(const std::string& name, const Location& asker) {
+        if (!included_.insert(name).second) return;
+        const auto virtualFile = generated_.find(name);
+        const bool onDisk = virtualFile == generated_.end();
+        const std::string shown =
+            onDisk ? (std::filesystem::path(root_) / name).string() : "generated:" + name;
+        const std::string text = onDisk ? read(name, shown, asker) : virtualFile->second;
+        const int file = addFile(shown);
+        int number = 0;
+        bool inComment = false;
+        forEachLine(text, [&](std::string_view line) {
+            ++number;
+            std::string_view rest;
+            if (!inComment && isInclude(line, rest)) {
+                const int column = static_cast<int>(line.find('#')) + 1;
+                add(quoted(rest, {shown, number, column, {}}), {shown, number, column, {}});
+            } else {
+                addLine(line, file, number);
+            }
+            inComment = endsInsideComment(line, inComment);
+        });
+    }
+
+    ShaderSource source;
+
+  private:
+    static std::string quoted(std::string_view rest, const Location& where) {
+        const size_t end =
+            rest.size() > 1 && rest.front() == '"' ? rest.find('"', 1) : std::string_view::npos;
+        const std::string_view behind =
+            end == std::string_view::npos ? std::string_view{} : withoutSpaces(rest.substr(end + 1));
+        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//")) {
+            throw Error(where, "expected #include \"folder/file.glsl\", from the root of the shaders");
+        }
+        return std::string(rest.substr(1, end - 1));
+    }
+
+    std::string read(const std::string& name, const std::string& shown, const Location& asker) const {
+        std::error_code ignored;
+        if (std::filesystem::is_regular_file(shown, ignored)) return readFile(shown);
+        throw Error(asker, concat("there is no shader file \"", name, "\" below ", root_, didYouMean(name)));
+    }
+
+    // A misspelt name is often near to one in the same folder.
+    std::string didYouMean(const std::string& name) const {
+        const std::filesystem::path folder = std::filesystem::path(name).parent_path();
+        std::vector<std::string> candidates;
+        std::error_code error;
+        for (std::filesystem::directory_iterator entry(std::filesystem::path(root_) / folder, error), end;
+             !error && entry != end; entry.increment(error)) {
+            candidates.push_back((folder / entry->path().filename()).generic_string());
+        }
+        for (const auto& [virtualName, text] : generated_)
+            candidates.push_back(virtualName);
+        const std::string near = nearest(name, candidates);
+        return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
+    }
+
+    std::string root_;
+    const std::map<std::string, std::string>& generated_;
+    std::set<std::string> included_;
+};
+
+// One message of a driver: the line of the text it points to, and where its words begin.
+struct DriverMessage {
+    int line = 0, column = 0;
+    std::string prefix;
+    size_t rest = 0;
+};
+
+bool parseMessage(const std::string& line, DriverMessage& out) {
+    int string = 0, consumed = 0;
+    const char* text = line.c_str();
+    out = {};
+    if (std::sscanf(text, "%d:%d(%d): %n", &string, &out.line, &out.column, &consumed) == 3 && consumed > 0) {
+        out.rest = static_cast<size_t>(consumed);  // Mesa
+        return true;
+    }
+    out.column = 0;
+    if (std::sscanf(text, "%d(%d) : %n", &string, &out.line, &consumed) == 2 && consumed > 0) {
+        out.rest = static_cast<size_t>(consumed);  // NVIDIA
+        return true;
+    }
+    if (std::sscanf(text, "ERROR: %d:%d: %n", &string, &out.line, &consumed) == 2 && consumed > 0) {
+        out.prefix = "error: ";  // Intel, AMD, Apple
+    } else if (std::sscanf(text, "WARNING: %d:%d: %n", &string, &out.line, &consumed) == 2 && consumed > 0) {
+        out.prefix = "warning: ";
+    }
+    out.rest = static_cast<size_t>(consumed);
+    return consumed > 0;
+}
+
+bool locate(const ShaderSource& source, const std::string& line, DriverMessage& message, Location& out) {
+    if (!parseMessage(line, message)) return false;
+    if (message.line < 1 || static_cast<size_t>(message.line) > source.lines.size()) return false;
+    const ShaderSource::Line& origin = source.lines[static_cast<size_t>(message.line) - 1];
+    out = {source.files[static_cast<size_t>(origin.file)], origin.line, message.column, {}};
+    return true;
+}
+
+}  // namespace
+
+std::string ShaderSource::rewriteLog(const std::string& driverLog) const {
+    std::string out;
+    forEachLine(driverLog, [&](std::string_view view) {
+        const std::string line(view);
+        DriverMessage message;
+        Location place;
+        if (!out.empty()) out += '\n';
+        out += locate(*this, line, message, place)
+                   ? prefix(place) + message.prefix + line.substr(message.rest)
+                   : line;
+    });
+    return out;
+}
+
+Location ShaderSource::firstLocation(const std::string& driverLog) const {
+    Location out;
+    forEachLine(driverLog, [&](std::string_view line) {
+        DriverMessage message;
+        Location place;
+        if (out.empty() && locate(*this, std::string(line), message, place)) out = place;
+    });
+    return out;
+}
+
+ShaderSource resolveShader(const std::string& root, const std::string& file,
+                           const std::vector<std::string>& defines,
+                           const std::map<std::string, std::string>& generated, const std::string& header) {
+    Resolver resolver(root, generated);
+    int number = 0;
+    const int headerFile = resolver.addFile("shader header");
+    forEachLine(header, [&](std::string_view line) { resolver.addLine(line, headerFile, ++number); });
+    for (const std::string& define : defines)
+        resolver.addLine("#define " + define, headerFile, ++number);
+    resolver.add(file, {});
+    return std::move(resolver.source);
+}
+
+const char* header330() {
+    return "#version 330 core\n";
+}
+
+const char* header300es() {
+    return "#version 300 es\n"
+           "precision highp float;\n"
+           "precision highp int;\n"
+           "precision highp sampler2D;\n"
+           "precision highp sampler2DShadow;\n";
+}
+
+std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
+    std::set<std::string, std::less<>> out;
+    bool inUniform = false;
+    int depth = 0;  // of braces, inside a uniform block
+    for (size_t i = 0; i < text.size();) {
+        const std::string_view rest = text.substr(i);
+        if (rest.substr(0, 2) == "//") {
+            i += std::min(rest.find('\n'), rest.size());
+        } else if (rest.substr(0, 2) == "/*") {
+            const size_t end = rest.find("*/", 2);
+            i += end == std::string_view::npos ? rest.size() : end + 2;
+        } else if (isIdentifier(rest.front())) {
+            size_t length = 1;
+            while (length < rest.size() && isIdentifier(rest[length]))
+                ++length;
+            const std::string_view word = rest.substr(0, length);
+            // Types and precisions come along; they are no names that anybody would set.
+            if (inUniform) out.insert(std::string(word));
+            if (word == "uniform") inUniform = true;
+            i += length;
+        } else {
+            if (rest.front() == '{' && inUniform) ++depth;
+            if (rest.front() == '}' && inUniform) --depth;
+            if (rest.front() == ';' && depth <= 0) inUniform = false;
+            ++i;
+        }
+    }
+    return out;
+}
+
+}  // namespace shoal::gpu

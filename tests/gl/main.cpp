@@ -1,0 +1,37 @@
+// Runs the OpenGL tests in the context that SHOAL_TEST_CONTEXT names (egl, osmesa or window).
+#define CATCH_CONFIG_RUNNER
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+#include "gl/gl_test.h"
+#include "support/catch.h"
+
+using namespace shoal::gpu;
+
+static Context* sharedContext = nullptr;  // set for as long as main() runs the tests
+
+Context& testContext() {
+    return *sharedContext;
+}
+
+int main(int argc, char** argv) {
+    try {
+        const char* word = std::getenv("SHOAL_TEST_CONTEXT");
+        ContextOptions options;
+        options.kind = contextKind(word != nullptr ? word : "egl");
+        options.width = options.height = 64;
+        options.visible = false;
+        Context context(options);
+        sharedContext = &context;
+        std::printf("%s: OpenGL %s on %s\n", context.info().platform.c_str(), context.info().version.c_str(),
+                    context.info().renderer.c_str());
+        std::fflush(stdout);
+        const int failed = Catch::Session().run(argc, argv);
+        context.checkErrors("after all tests");
+        return failed;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 1;
+    }
+}

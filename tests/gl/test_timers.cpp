@@ -1,0 +1,105 @@
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include "gl/gl_test.h"
+#include "gpu/gl.h"
+#include "gpu/pass_timers.h"
+#include "support/catch.h"
+
+using namespace shoal::gpu;
+using Kind = Traffic::Kind;
+using Mode = PassTimers::Mode;
+
+static void pause(int milliseconds) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
+}
+
+TEST_CASE("finish mode adds up the calls of a frame", "[timers]") {
+    PassTimers timers(testContext(), Mode::finish);
+    for (int frame = 0; frame < 3; ++frame) {
+        timers.beginFrame();
+        for (int call = 0; call < 2; ++call) {
+            auto t = timers.time("slow");
+            pause(4);
+        }
+        { auto t = timers.time("quick"); }
+        timers.endFrame();
+    }
+    const auto report = timers.report();
+    REQUIRE(report.size() == 2);
+    CHECK(report[0].name == "slow");
+    CHECK(report[0].calls == 2);
+    CHECK(report[0].frames == 3);
+    CHECK(report[0].min >= 0.008);
+    CHECK(report[0].median >= report[0].min);
+    CHECK(report[1].calls == 1);
+    CHECK(report[1].min < report[0].min);
+    CHECK(timers.history("slow").size() == 3);
+    CHECK(timers.history("slow").back() == report[0].last);
+    timers.reset();
+    CHECK(timers.history("slow").empty());
+}
+
+TEST_CASE("queries give every pass a value within the control bytes", "[timers]") {
+    for (const int calls : {1, 24, 25, 100}) {
+        INFO(calls << " calls a frame");
+        PassTimers timers(testContext(), Mode::query);
+        uint64_t most = 0;
+        for (int frame = 0; frame < 40; ++frame) {
+            const Traffic before = testContext().traffic();
+            timers.beginFrame();
+            for (int call = 0; call < calls; ++call) {
+                auto t = timers.time(("pass " + std::to_string(call % 10)).c_str());
+                glFlush();
+            }
+            timers.endFrame();
+            glFinish();
+            const Traffic moved = testContext().traffic() - before;
+            most = std::max(most, moved.total(Kind::control));
+            CHECK(moved.total(Kind::state) == 0);
+        }
+        CHECK(most > 0);
+        CHECK(most <= Traffic::controlBytesPerFrame);
+        timers.drain();
+        const auto report = timers.report();
+        CHECK(report.size() == static_cast<size_t>(std::min(calls, 10)));
+        int total = 0;
+        for (const PassTime& pass : report) {
+            CHECK(pass.frames > 0);
+            CHECK(pass.min >= 0.0);
+            total += pass.calls;
+        }
+        CHECK(total == calls);
+    }
+    testContext().checkErrors("queries");
+}
+
+TEST_CASE("timers that are off, and calls outside a frame, cost nothing", "[timers]") {
+    PassTimers off(testContext(), Mode::off);
+    const Traffic before = testContext().traffic();
+    off.beginFrame();
+    { auto t = off.time("pass"); }
+    off.endFrame();
+    CHECK(off.report().empty());
+    PassTimers on(testContext(), Mode::query);
+    { auto t = on.time("outside"); }
+    on.drain();
+    CHECK(on.report().empty());
+    const Traffic moved = testContext().traffic() - before;
+    CHECK(moved.total(Kind::control) == 0);
+    testContext().checkErrors("timers that are off");
+}
+
+TEST_CASE("history keeps the newest frames, oldest first", "[timers]") {
+    PassTimers timers(testContext(), Mode::finish);
+    for (int frame = 0; frame < PassTimers::keptFrames + 5; ++frame) {
+        timers.beginFrame();
+        { auto t = timers.time("pass"); }
+        timers.endFrame();
+    }
+    const auto history = timers.history("pass");
+    CHECK(history.size() == static_cast<size_t>(PassTimers::keptFrames));
+    CHECK(history.back() == timers.report().front().last);
+    CHECK(timers.report().front().frames == PassTimers::keptFrames + 5);
+}

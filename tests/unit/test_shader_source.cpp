@@ -1,0 +1,140 @@
+#include "gpu/shader_source.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "support/catch.h"
+
+using namespace shoal::gpu;
+using Files = std::map<std::string, std::string>;
+
+static ShaderSource resolve(const Files& files, const std::string& file,
+                            const std::vector<std::string>& defines = {}) {
+    return resolveShader("nowhere", file, defines, files, header330());
+}
+
+// "file:line" of the n-th line of the text, counted from 1.
+static std::string origin(const ShaderSource& source, size_t n) {
+    const ShaderSource::Line& line = source.lines.at(n - 1);
+    return source.files.at(static_cast<size_t>(line.file)) + ":" + std::to_string(line.line);
+}
+
+TEST_CASE("a shader is its header, its defines and its includes, once each", "[shader]") {
+    const ShaderSource source = resolve({{"main.frag",
+                                          "#include \"lib/a.glsl\"\n"
+                                          "#include \"lib/b.glsl\"\n"
+                                          "void main() {}\n"},
+                                         {"lib/a.glsl", "float a;\n#include \"lib/b.glsl\"\nfloat a2;"},
+                                         {"lib/b.glsl", "#include \"lib/a.glsl\"\nfloat b;\n"}},
+                                        "main.frag", {"COUNT 3", "FLAG"});
+    CHECK(source.text ==
+          "#version 330 core\n"
+          "#define COUNT 3\n"
+          "#define FLAG\n"
+          "float a;\n"
+          "float b;\n"
+          "float a2;\n"
+          "void main() {}\n");
+    REQUIRE(source.lines.size() == 7);
+    CHECK(std::count(source.text.begin(), source.text.end(), '\n') == 7);
+    CHECK(origin(source, 1) == "shader header:1");
+    CHECK(origin(source, 3) == "shader header:3");
+    CHECK(origin(source, 4) == "generated:lib/a.glsl:1");
+    CHECK(origin(source, 5) == "generated:lib/b.glsl:2");
+    CHECK(origin(source, 6) == "generated:lib/a.glsl:3");
+    CHECK(origin(source, 7) == "generated:main.frag:3");
+}
+
+TEST_CASE("only directives include", "[shader]") {
+    const ShaderSource source = resolve({{"main.frag",
+                                          "// #include \"none.glsl\"\n"
+                                          "/* a comment\n"
+                                          "#include \"none.glsl\"\n"
+                                          "*/\n"
+                                          "#includes\n"
+                                          "  #  include  \"some.glsl\"  // with a reason\r\n"},
+                                         {"some.glsl", "float some;\n"}},
+                                        "main.frag");
+    CHECK(source.text.find("float some;\n") != std::string::npos);
+    CHECK(source.lines.size() == 7);
+}
+
+TEST_CASE("an include that is missing is located where it is asked for", "[shader]") {
+    const Files files = {{"main.frag", "\n  #include \"lib/sprong.glsl\"\n"}, {"lib/spring.glsl", ""}};
+    try {
+        resolve(files, "main.frag");
+        FAIL("resolved");
+    } catch (const shoal::Error& error) {
+        CHECK(error.location().file == "generated:main.frag");
+        CHECK(error.location().line == 2);
+        CHECK(error.location().column == 3);
+        CHECK(
+            error.message() ==
+            "there is no shader file \"lib/sprong.glsl\" below nowhere (did you mean \"lib/spring.glsl\"?)");
+    }
+    CHECK_THROWS_WITH(resolve({}, "main.frag"), Catch::Contains("main.frag"));
+    for (const char* wrong :
+         {"#include", "#include <a>", "#include \"a", "#include \"\"", "#include \"a\" b"}) {
+        INFO(wrong);
+        CHECK_THROWS_WITH(resolve({{"main.frag", wrong}, {"a", ""}}, "main.frag"),
+                          Catch::Contains("generated:main.frag:1:1: expected #include"));
+    }
+}
+
+TEST_CASE("files come from the root of the shaders", "[shader]") {
+    const std::filesystem::path root = std::filesystem::temp_directory_path() / "shoal_test_shader_source";
+    shoal::writeFile(root / "passes" / "test.frag",
+                     std::string_view("#include \"lib/x.glsl\"\nvoid main() {}\n"));
+    shoal::writeFile(root / "lib" / "x.glsl", std::string_view("float x;\n"));
+    const ShaderSource source = resolveShader(root.string(), "passes/test.frag", {}, {}, header300es());
+    CHECK(source.text.substr(0, 16) == "#version 300 es\n");
+    const std::string name = (root / "lib" / "x.glsl").string();
+    CHECK(std::find(source.files.begin(), source.files.end(), name) != source.files.end());
+    shoal::writeFile(root / "passes" / "test.frag", std::string_view("#include \"lib/y.glsl\"\n"));
+    CHECK_THROWS_WITH(resolveShader(root.string(), "passes/test.frag", {}, {}, header330()),
+                      Catch::Contains("test.frag:1:1: there is no shader file \"lib/y.glsl\"") &&
+                          Catch::Contains("did you mean \"lib/x.glsl\"?"));
+    std::filesystem::remove_all(root);
+}
+
+TEST_CASE("the logs of all drivers point into our files", "[shader]") {
+    const ShaderSource source = resolve(
+        {{"main.frag", "#include \"lib/a.glsl\"\nvoid main() {}\n"}, {"lib/a.glsl", "float a;\nfloat b\n"}},
+        "main.frag");
+    // Line 3 of the text is line 2 of lib/a.glsl, line 4 is line 2 of main.frag.
+    CHECK(source.rewriteLog("0:3(7): error: syntax error\n") ==
+          "generated:lib/a.glsl:2:7: error: syntax error");
+    CHECK(source.rewriteLog("0(3) : error C0000: syntax error") ==
+          "generated:lib/a.glsl:2: error C0000: syntax error");
+    CHECK(source.rewriteLog("ERROR: 0:4: 'void' : syntax error") ==
+          "generated:main.frag:2: error: 'void' : syntax error");
+    CHECK(source.rewriteLog("WARNING: 0:4: odd") == "generated:main.frag:2: warning: odd");
+    CHECK(source.rewriteLog("ERROR: 1 compilation errors.\n\n0:99(1): error: beyond\n") ==
+          "ERROR: 1 compilation errors.\n\n0:99(1): error: beyond");
+    const shoal::Location first = source.firstLocation("error: none\n0:4(2): error: x\n0:3(1): error: y\n");
+    CHECK(first.file == "generated:main.frag");
+    CHECK(first.line == 2);
+    CHECK(first.column == 2);
+    CHECK(source.firstLocation("nothing here").empty());
+}
+
+TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
+    const auto names = declaredUniforms(
+        "// uniform float commented;\n"
+        "/* uniform float blocked; */\n"
+        "uniform highp sampler2D position, velocity;\n"
+        "uniform vec4 list[COUNT];\n"
+        "layout(std140) uniform Types { vec4 row; float tail; } types;\n"
+        "in vec2 uv;\n"
+        "float uniformly;\n");
+    for (const char* name : {"position", "velocity", "list", "Types", "row", "tail", "types"}) {
+        INFO(name);
+        CHECK(names.count(name) == 1);
+    }
+    for (const char* name : {"commented", "blocked", "uv", "uniformly"}) {
+        INFO(name);
+        CHECK(names.count(name) == 0);
+    }
+}
