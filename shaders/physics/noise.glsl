@@ -50,12 +50,12 @@ float gradientNoise(vec3 p, uint seed)
     float wz = fade(f.z);
     float sum = 0.0f;
     for (int i = 0; i < 8; ++i) {
-        ivec3 step = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + step.x), uint(cell.y + step.y), uint(cell.z + step.z), seed));
+        ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z), seed));
         vec4 gradient = gradientOf(hash.x);
-        vec3 d = f - vec3(step);
-        float weight = (step.x == 1 ? wx : 1.0f - wx) * (step.y == 1 ? wy : 1.0f - wy) *
-                       (step.z == 1 ? wz : 1.0f - wz);
+        vec3 d = f - vec3(side);
+        float weight = (side.x == 1 ? wx : 1.0f - wx) * (side.y == 1 ? wy : 1.0f - wy) *
+                       (side.z == 1 ? wz : 1.0f - wz);
         sum += weight * (gradient.x * d.x + gradient.y * d.y + gradient.z * d.z);
     }
     return sum;
@@ -79,23 +79,23 @@ vec3 curlNoise(vec3 p, float t, uint seed)
     vec3 dy = vec3(0.0f);
     vec3 dz = vec3(0.0f);
     for (int i = 0; i < 16; ++i) {
-        ivec3 step = ivec3(i & 1, (i >> 1) & 1, (i >> 2) & 1);
+        ivec3 side = ivec3(i & 1, (i >> 1) & 1, (i >> 2) & 1);
         int later = i >> 3;
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + step.x), uint(cell.y + step.y), uint(cell.z + step.z),
+        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z),
                                  cellTime + uint(later)));
         vec4 gx = gradientOf(hash.x);
         vec4 gy = gradientOf(hash.y);
         vec4 gz = gradientOf(hash.z);
-        vec4 d = vec4(f - vec3(step), ft - float(later));
-        float wx = step.x == 1 ? w1.x : 1.0f - w1.x;
-        float wy = step.y == 1 ? w1.y : 1.0f - w1.y;
-        float wz = step.z == 1 ? w1.z : 1.0f - w1.z;
+        vec4 d = vec4(f - vec3(side), ft - float(later));
+        float wx = side.x == 1 ? w1.x : 1.0f - w1.x;
+        float wy = side.y == 1 ? w1.y : 1.0f - w1.y;
+        float wz = side.z == 1 ? w1.z : 1.0f - w1.z;
         float wt2 = later == 1 ? wt : 1.0f - wt;
         // weight and its slopes along x, y, z
         float w = wx * wy * wz * wt2;
-        float sx = (step.x == 1 ? s1.x : -s1.x) * wy * wz * wt2;
-        float sy = wx * (step.y == 1 ? s1.y : -s1.y) * wz * wt2;
-        float sz = wx * wy * (step.z == 1 ? s1.z : -s1.z) * wt2;
+        float sx = (side.x == 1 ? s1.x : -s1.x) * wy * wz * wt2;
+        float sy = wx * (side.y == 1 ? s1.y : -s1.y) * wz * wt2;
+        float sz = wx * wy * (side.z == 1 ? s1.z : -s1.z) * wt2;
         vec3 value = vec3(dot(gx, d), dot(gy, d), dot(gz, d));
         dx += sx * value + w * vec3(gx.x, gy.x, gz.x);
         dy += sy * value + w * vec3(gx.y, gy.y, gz.y);

@@ -14,7 +14,7 @@
 //
 // Record layout: molecule m of group g at x = m mod 1024, y = firstRecordRow + m / 1024
 //   dynamic        xyz anchor, m; w flags: 1 = pins released     (two sides)
-//   constant       x seed (bits of a uint32), y scale, z actuation phase offset (rad), w unused
+//   constant       x seed (an integer below 2^24), y scale, z actuation phase offset (rad), w unused
 //
 // Topology: one texture of 4-vectors, read by index i at (i mod 1024, i / 1024); per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
@@ -68,6 +68,8 @@ struct GroupPlan {
     Release release;
     double stiffness = 1, damping = 1;
     double size = 1;  // m, of the molecule
+    double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
+    double stableStep = 0;        // s, largest substep of the solver; infinite without springs
 };
 
 enum class PassKind { records, normals, restore, advect, collide };
@@ -116,9 +118,13 @@ struct PlanLimits {
     int maxTextureSize = 16384;
 };
 
-// Error (located at the group): the state does not fit; an explicit step beyond the solver's limit is only a
-// warning here, with the number of substeps that would do.
+// Error (located at the group): the state does not fit, and how much it would take; or the substep is beyond
+// what the explicit solver holds stable, and how many substeps would do.
 Plan compile(const Scene& scene, const PlanLimits& limits = {});
+
+// How many substeps of a frame the solver needs when stiffness and damping are scaled by these factors; at
+// least `substeps`.
+int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor, int substeps);
 
 // For people: groups, passes and why each is there, memory.
 std::string explain(const Plan& plan);

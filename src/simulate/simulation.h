@@ -12,6 +12,7 @@
 #include <glm/glm.hpp>
 
 #include "compile/plan.h"
+#include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
@@ -32,11 +33,12 @@ struct Snapshot {
 
 class Simulation {
   public:
-    // `drawn`: normals are computed at the end of each frame for the renderer.
-    Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan, bool drawn = true);
+    // `drawn`: normals are computed at the end of each frame, for the renderer and for exports.
+    Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan, bool drawn = true,
+               gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off);
 
     void frame();    // advances by parameters.frameTime
-    void restart();  // back to the start state, from copies on the GPU
+    void restart();  // back to the start state, which is uploaded again
 
     Parameters parameters;
     const Plan& plan() const { return plan_; }
@@ -50,23 +52,32 @@ class Simulation {
     uint64_t hash();                  // of the whole state's bits (FNV-1a): same scene, same bits
 
   private:
-    void runPass(const PassPlan& pass, int substep);
-    void records(const GroupPlan& group);
-    void normals(const GroupPlan& group, bool ahead, double step);
-    void restore(const GroupPlan& group, bool first, double step);
-    void advect(const GroupPlan& group, bool first, double step);
-    void collide(const GroupPlan& group, double step);
-    void bindGroup(const gpu::Program& program, const GroupPlan& group);
-    void drawRows(const GroupPlan& group, bool recordRows);
+    // The solver's times for one substep of a group.
+    struct Step {
+        double time;  // s, at its start
+        double h;     // s
+        bool first;   // of the frame
+    };
+    void runPass(const PassPlan& pass, const Step& step);
+    void records(const GroupPlan& group, size_t index, const Step& step);
+    void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
+    void restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart);
+    void advect(const GroupPlan& group, size_t index, const Step& step);
+    void collide(const GroupPlan& group, size_t index, const Step& step);
+
+    const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
+    void setSprings(const gpu::Program& program, const GroupPlan& group, double time, double predictTime);
+    void drawState(const GroupPlan& group, const gpu::Framebuffer& target);
+    void drawRecords(const GroupPlan& group, const gpu::Framebuffer& target);
 
     gpu::Context* context_;
     Plan plan_;
     bool drawn_;
     State state_;
     std::vector<std::array<gpu::Program, 5>> programs_;  // per group, by PassKind
-    gpu::VertexArray empty_;
+    gpu::VertexArray noAttributes_;
     gpu::PassTimers timers_;
-    double time_ = 0;         // s, at the start of the running substep
+    double time_ = 0;  // s
     int frames_ = 0;
 };
 

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <vector>
 
 #include "compile/plan.h"
+#include "gpu/context.h"
 #include "gpu/framebuffer.h"
 #include "gpu/texture.h"
 
@@ -23,7 +25,7 @@ struct TwoSided {
 
 class State {
   public:
-    State(gpu::Context& context, const Plan& plan, bool drawn);
+    State(gpu::Context& context, const Plan& plan);
     void upload(const Plan& plan);  // the start state into the current sides
 
     TwoSided position, velocity, acceleration, record;
@@ -38,7 +40,7 @@ class State {
         gpu::Framebuffer framebuffer;
     };
     gpu::Context* context_;
-    std::vector<Target> targets_;
+    std::deque<Target> targets_;  // references to its elements stay valid
 };
 
 }  // namespace shoal

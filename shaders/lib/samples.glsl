@@ -1,0 +1,38 @@
+// Sampled fields: grids and height fields share one table of 4-vectors, read by index.
+uniform sampler2D samples;
+
+vec4 sampleAt(int index)
+{
+    return texelFetch(samples, ivec2(index & 1023, index >> 10), 0);
+}
+
+bool insideBox(vec3 anchor, vec3 position, vec3 low, vec3 high)
+{
+    return all(greaterThanEqual((anchor - low) + position, vec3(0.0))) &&
+           all(lessThanEqual((anchor - high) + position, vec3(0.0)));
+}
+
+int outsideIndex(int i, int count, bool wrap)
+{
+    return wrap ? ((i % count) + count) % count : clamp(i, 0, count - 1);
+}
+
+// Trilinear between cell centres. x: relative to the grid's low corner, m; perMetre: cells per metre.
+vec3 gridVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap)
+{
+    vec3 p = x * perMetre - 0.5;
+    p = wrap ? p : clamp(p, vec3(-1.0), vec3(resolution));
+    vec3 corner = floor(p);
+    vec3 f = p - corner;
+    ivec3 cell = ivec3(corner);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < 8; ++i) {
+        ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        int cx = outsideIndex(cell.x + side.x, resolution.x, wrap);
+        int cy = outsideIndex(cell.y + side.y, resolution.y, wrap);
+        int cz = outsideIndex(cell.z + side.z, resolution.z, wrap);
+        vec3 w = mix(1.0 - f, f, vec3(side));
+        sum += (w.x * w.y * w.z) * sampleAt(base + (cz * resolution.y + cy) * resolution.x + cx).xyz;
+    }
+    return sum;
+}

@@ -1,0 +1,47 @@
+// The force of all springs around a vertex. Needs lib/state.glsl.
+#include "lib/state.glsl"
+#include "physics/spring.glsl"
+
+uniform float stiffnessFactor;
+uniform float dampingFactor;
+uniform float springTime;   // s, for muscles
+uniform float predictTime;  // s: leapfrog's force uses the velocity v + a h/2; 0 at the start of a frame
+
+vec3 predictedVelocity(ivec2 texel)
+{
+    vec3 v = texelFetch(velocities, texel, 0).xyz;
+#ifdef PREDICT
+    v += texelFetch(accelerations, texel, 0).xyz * predictTime;
+#endif
+    return v;
+}
+
+vec3 springForces(int vertex, int molecule)
+{
+    vec4 spans = table(topologyBase + vertex);
+    ivec2 own = stateTexel(vertex, molecule);
+    vec3 x = texelFetch(positions, own, 0).xyz;
+#ifdef SPRING_DAMPING
+    vec3 v = predictedVelocity(own);
+#endif
+    vec4 constant = texelFetch(constants, recordTexel(molecule), 0);
+    vec3 force = vec3(0.0);
+    int first = int(spans.x);
+    int count = int(spans.y);
+    for (int i = 0; i < count; ++i) {
+        vec4 spring = table(first + 2 * i);
+        ivec2 other = stateTexel(int(spring.x), molecule);
+        vec3 relative = vec3(0.0);
+#ifdef SPRING_DAMPING
+        relative = v - predictedVelocity(other);
+#endif
+        float restLength = spring.w * constant.y;
+#ifdef ACTUATION
+        vec4 muscle = table(first + 2 * i + 1);
+        restLength = actuatedLength(restLength, muscle.x, muscle.y * springTime + muscle.z + constant.z);
+#endif
+        force += springForce(x - texelFetch(positions, other, 0).xyz, relative, spring.y * stiffnessFactor,
+                             spring.z * dampingFactor, restLength);
+    }
+    return force;
+}

@@ -1,0 +1,63 @@
+// Where a molecule's data lies in the state textures. The layout is stated in src/compile/plan.h.
+uniform sampler2D positions;
+uniform sampler2D velocities;
+uniform sampler2D accelerations;
+uniform sampler2D records;
+uniform sampler2D constants;
+uniform sampler2D topology;
+uniform int firstRow;
+uniform int slabRows;
+uniform int moleculeCount;
+uniform int vertexCount;
+uniform int firstRecordRow;
+uniform int topologyBase;
+
+ivec2 stateTexel(int vertex, int molecule)
+{
+    return ivec2(molecule & 1023, firstRow + vertex * slabRows + (molecule >> 10));
+}
+
+ivec2 recordTexel(int molecule)
+{
+    return ivec2(molecule & 1023, firstRecordRow + (molecule >> 10));
+}
+
+vec4 table(int index)
+{
+    return texelFetch(topology, ivec2(index & 1023, index >> 10), 0);
+}
+
+// x vertex, y molecule of the texel that a state pass writes.
+ivec2 ownAddress()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    int row = texel.y - firstRow;
+    int vertex = row / slabRows;
+    return ivec2(vertex, (row - vertex * slabRows) * 1024 + texel.x);
+}
+
+// Texels beyond the last molecule fill up the rows.
+bool isPadding(int molecule)
+{
+    return molecule >= moleculeCount;
+}
+
+// x 1/mass, y pinned, z mass
+vec4 inertia(int vertex)
+{
+    return table(topologyBase + vertexCount + vertex);
+}
+
+// Held by a pin that has not let go.
+bool isHeld(vec4 vertexInertia, int molecule)
+{
+#ifdef PINS
+#ifdef RELEASE
+    return vertexInertia.y > 0.5 && texelFetch(records, recordTexel(molecule), 0).w < 0.5;
+#else
+    return vertexInertia.y > 0.5;
+#endif
+#else
+    return false;
+#endif
+}

@@ -1,0 +1,74 @@
+// advect: moves every vertex by its velocity, under gravity and drag towards the fields' velocity.
+//   euler      v += exact drag and gravity at x;  x += h v              (after restore added the springs' kick)
+//   leapfrog   v += a h/2;  x += v h/2;  v += exact drag and gravity at that x;  x += v h/2
+// The first advect of a frame also moves positions to the anchor that the records pass has just set.
+#include "lib/state.glsl"
+#include "physics/anchor.glsl"
+#include "physics/drag.glsl"
+#ifdef FIELDS
+#include "generated/fields.glsl"
+#endif
+
+uniform sampler2D vertexNormals;
+uniform float time;       // s, at the start of the substep
+uniform float substep;    // h, s
+uniform vec3 gravity;     // m/s^2
+uniform float wind;       // factor on the fields
+uniform vec2 decay;       // 1 - exp(-gamma h) across and along the surface
+uniform vec2 phi;         // decay / gamma, h where gamma = 0
+uniform int moveAnchors;  // 1 in the first substep
+
+layout(location = 0) out vec4 newPosition;
+layout(location = 1) out vec4 newVelocity;
+
+vec3 accelerate(vec3 v, vec3 anchor, vec3 x, float t, ivec2 texel)
+{
+    vec3 u = vec3(0.0);
+#ifdef FIELDS
+    u = wind * fluidVelocity(anchor, x, t);
+#endif
+#ifdef DIRECTIONAL_DRAG
+    return directionalDragAndGravity(v, u, gravity, texelFetch(vertexNormals, texel, 0).xyz, decay, phi);
+#else
+    return dragAndGravity(v, u, gravity, decay.y, phi.y);
+#endif
+}
+
+void main()
+{
+    ivec2 own = ownAddress();
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    if (isPadding(own.y)) {
+        newPosition = vec4(0.0);
+        newVelocity = vec4(0.0);
+        return;
+    }
+    vec3 x = texelFetch(positions, texel, 0).xyz;
+    vec3 v = texelFetch(velocities, texel, 0).xyz;
+#ifdef RECORDS
+    if (moveAnchors == 1) x -= anchorShift(texelFetch(positions, stateTexel(0, own.y), 0).xyz);
+#endif
+    if (isHeld(inertia(own.x), own.y)) {
+        newPosition = vec4(x, 0.0);
+        newVelocity = vec4(0.0);
+        return;
+    }
+    vec3 anchor = vec3(0.0);
+#ifdef FIELDS
+    anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
+#endif
+#ifdef LEAPFROG
+    float halfStep = 0.5 * substep;
+#ifdef SPRINGS
+    v += texelFetch(accelerations, texel, 0).xyz * halfStep;
+#endif
+    x += v * halfStep;
+    v = accelerate(v, anchor, x, time + halfStep, texel);
+    x += v * halfStep;
+#else
+    v = accelerate(v, anchor, x, time, texel);
+    x += v * substep;
+#endif
+    newPosition = vec4(x, 0.0);
+    newVelocity = vec4(v, 0.0);
+}

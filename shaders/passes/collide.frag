@@ -1,0 +1,25 @@
+// collide: vertices that entered a collider bounce, slide or rest on its surface.
+#include "lib/state.glsl"
+#include "generated/colliders.glsl"
+
+uniform vec3 gravity;
+uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
+
+layout(location = 0) out vec4 newPosition;
+layout(location = 1) out vec4 newVelocity;
+
+void main()
+{
+    ivec2 own = ownAddress();
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    vec3 x = texelFetch(positions, texel, 0).xyz;
+    vec3 v = texelFetch(velocities, texel, 0).xyz;
+    if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
+        vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
+        Contact contact = collideAll(anchor, x, v, gravity, Drift(drift.x, drift.y, drift.z));
+        x = contact.position;
+        v = contact.velocity;
+    }
+    newPosition = vec4(x, 0.0);
+    newVelocity = vec4(v, 0.0);
+}

@@ -1,0 +1,29 @@
+// restore: the springs pull every vertex back into shape (Decker, section 3.4).
+//   euler      v += h a
+//   leapfrog   a = F(x, v + a_old h/2) / m;  v += a h/2   (at the start of a frame only a, from v itself)
+#include "lib/springs.glsl"
+
+uniform float kickTime;  // s: h for euler, h/2 for leapfrog
+
+#ifdef LEAPFROG
+layout(location = 0) out vec4 newAcceleration;
+layout(location = 1) out vec4 newVelocity;
+#else
+layout(location = 0) out vec4 newVelocity;
+#endif
+
+void main()
+{
+    ivec2 own = ownAddress();
+    vec3 v = texelFetch(velocities, ivec2(gl_FragCoord.xy), 0).xyz;
+    vec3 a = vec3(0.0);
+    vec4 vertexInertia = inertia(own.x);
+    if (!isPadding(own.y) && !isHeld(vertexInertia, own.y)) {
+        a = springForces(own.x, own.y) * vertexInertia.x;
+        v += a * kickTime;
+    }
+#ifdef LEAPFROG
+    newAcceleration = vec4(a, 0.0);
+#endif
+    newVelocity = vec4(v, 0.0);
+}

@@ -1,0 +1,107 @@
+// Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
+// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them.
+
+#include "render/sky.glsl"
+#include "render/tone.glsl"
+
+uniform float fogDensity;  // 1/m
+
+// Where leaves are dense they hide the sky. The crown is a sphere around all molecules that hang on a model;
+// the sky that it hides is found in closed form. A radius of 0 switches it off.
+uniform vec4 crown;  // xyz middle, w radius, m
+
+struct Surface {
+    vec3 place;          // m, relative to the eye
+    vec3 normal;         // unit, on the side that is seen
+    vec3 albedo;         // linear RGB
+    float roughness;     // in [0, 1]
+    float translucency;  // share of the light on the other side that comes through
+    vec3 throughColor;   // colour of that light
+    float openness;      // share of the sky that reaches it, in [0, 1]
+};
+
+#ifdef SHADOWS
+uniform sampler2DShadow shadowMap;
+uniform mat4 toShadow;      // place -> texture and depth, both in [0, 1]
+uniform vec3 shadowFilter;  // x: filter radius in texture units, y: offset along the normal, z: towards the sun, m
+
+// Share of the sun that is seen. Sixteen taps on a Vogel disc, each a bilinear comparison.
+float sunVisibility(vec3 place, vec3 normal)
+{
+    // A surface seen at a grazing angle spans more depth within one texel: shift it more.
+    float facing = dot(normal, sunDirection);
+    float slope = sqrt(max(1.0 - facing * facing, 0.0));
+    vec3 shifted = place + normal * (sign(facing) * shadowFilter.y * (0.4 + slope)) + sunDirection * shadowFilter.z;
+    vec3 uvz = (toShadow * vec4(shifted, 1.0)).xyz;
+    if (uvz.z >= 1.0) return 1.0;
+    float lit = 0.0;
+    for (int i = 0; i < 16; ++i) {
+        float radius = sqrt((float(i) + 0.5) / 16.0);
+        float angle = 2.3999632 * float(i);
+        vec2 tap = uvz.xy + shadowFilter.x * radius * vec2(cos(angle), sin(angle));
+        lit += texture(shadowMap, vec3(tap, uvz.z));
+    }
+    return lit / 16.0;
+}
+#else
+float sunVisibility(vec3 place, vec3 normal)
+{
+    return 1.0;
+}
+#endif
+
+// Share of the sky left over by the crown for a point outside of it: a sphere's occlusion under a cosine lobe.
+// Inside, the light falls off towards the middle.
+float crownOpenness(vec3 place, vec3 normal)
+{
+    if (crown.w <= 0.0) return 1.0;
+    vec3 towards = crown.xyz - place;
+    float distance = max(length(towards), 1e-3);
+    float relative = crown.w / distance;
+    if (relative < 1.0) {
+        float facing = 0.5 + 0.5 * dot(normal, towards / distance);
+        return 1.0 - 0.75 * facing * relative * relative;
+    }
+    float depth = 1.0 / relative;  // 0 in the middle, 1 at the edge
+    float outward = 0.5 - 0.5 * dot(normal, towards / distance);
+    return mix(0.25, mix(0.55, 1.0, outward), depth * depth);
+}
+
+// Distribution and visibility of GGX in Karis's approximation (2013, "Real shading in Unreal Engine 4"),
+// for a dielectric that reflects 4 % head on.
+float sheen(vec3 normal, vec3 toEye, float roughness)
+{
+    vec3 halfway = normalize(sunDirection + toEye);
+    float a = max(roughness * roughness, 0.02);
+    float a2 = a * a;
+    float nh = max(dot(normal, halfway), 0.0);
+    float lh = max(dot(sunDirection, halfway), 0.05);
+    float d = nh * nh * (a2 - 1.0) + 1.0;
+    float fresnel = 0.04 + 0.96 * pow(1.0 - lh, 5.0);
+    return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
+}
+
+vec3 shade(Surface s)
+{
+    vec3 toEye = -normalize(s.place);
+    float facing = dot(s.normal, sunDirection);
+    float visible = sunVisibility(s.place, s.normal);
+
+    vec3 radiance = s.albedo * ambientLight(s.normal) * s.openness;
+    float front = max(facing, 0.0);
+    radiance += visible * sunColor * front * (s.albedo + vec3(sheen(s.normal, toEye, s.roughness)));
+    if (s.translucency > 0.0) {
+        // Light from behind spreads inside a leaf: it wraps around, and glows most towards the sun.
+        float behind = max(0.15 - facing, 0.0) / 1.15;
+        float glow = 0.75 + 0.9 * pow(max(-dot(toEye, sunDirection), 0.0), 3.0);
+        radiance += visible * s.translucency * s.throughColor * sunColor * behind * glow;
+        radiance += s.translucency * s.throughColor * ambientLight(-s.normal) * s.openness * 0.5;
+    }
+    return radiance;
+}
+
+vec3 withHaze(vec3 radiance, vec3 place)
+{
+    float distance = length(place);
+    return mix(hazeColor(place / max(distance, 1e-4)), radiance, exp(-fogDensity * distance));
+}

@@ -1,0 +1,44 @@
+// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS.
+
+#include "render/light.glsl"
+#ifdef TEXTURED
+#include "render/alpha_cut.glsl"
+#endif
+
+in vec2 uv;
+in vec3 place;
+in vec3 normal;
+flat in vec3 color;
+
+uniform float roughness;
+uniform float translucency;
+
+out vec4 fragment;
+
+void main()
+{
+    vec3 albedo = color;
+    float covered = 1.0;
+#ifdef TEXTURED
+    vec4 texel = texture(image, uv);
+    covered = coverage(keptAlpha(texel.a, uv));
+    if (covered <= 0.0) discard;
+    albedo *= texel.rgb;
+#endif
+    // Both sides are drawn; the normal is turned to the one that is seen. Before the first frame there are no
+    // normals in the state, and the triangle's own does.
+    vec3 flatNormal = cross(dFdx(place), dFdy(place));
+    vec3 n = dot(normal, normal) > 0.01 ? normalize(normal) : normalize(flatNormal + vec3(0.0, 1e-12, 0.0));
+    if (dot(n, place) > 0.0) n = -n;
+
+    Surface s;
+    s.place = place;
+    s.normal = n;
+    s.albedo = albedo;
+    s.roughness = roughness;
+    s.translucency = translucency;
+    // Green tissue lets yellow pass.
+    s.throughColor = albedo * vec3(1.7, 1.45, 0.5);
+    s.openness = crownOpenness(place, n);
+    fragment = vec4(squeeze(withHaze(shade(s), place)), covered);
+}

@@ -1,0 +1,28 @@
+// A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
+// Variants: TEXTURED, DEPTH_ONLY.
+
+#include "lib/molecule.glsl"
+#include "render/instance_color.glsl"
+
+layout(location = 0) in vec2 cornerUv;
+
+uniform mat4 toClip;
+
+out vec2 uv;
+#ifndef DEPTH_ONLY
+out vec3 place;
+out vec3 normal;
+flat out vec3 color;
+#endif
+
+void main()
+{
+    vec3 at = vertexPlace(gl_InstanceID, gl_VertexID);
+    uv = cornerUv;
+#ifndef DEPTH_ONLY
+    place = at;
+    normal = vertexNormal(gl_InstanceID, gl_VertexID);
+    color = instanceColor(moleculeSeed(gl_InstanceID));
+#endif
+    gl_Position = toClip * vec4(at, 1.0);
+}

@@ -1,0 +1,21 @@
+// The resolved light as a picture for the screen: exposure, film curve, sRGB, and a little dither, which keeps
+// the sky's gradient free of bands.
+
+#include "physics/random.glsl"
+#include "render/tone.glsl"
+
+in vec2 screen;
+
+uniform sampler2D light;
+uniform float exposure;
+
+out vec4 fragment;
+
+void main()
+{
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    vec3 radiance = unsqueeze(texelFetch(light, pixel, 0).rgb) * exposure;
+    vec3 shown = encodeSrgb(toneMap(radiance));
+    float dither = uniformFrom(hashSeed(uint(pixel.x), uint(pixel.y))) - 0.5;
+    fragment = vec4(shown + dither / 255.0, 1.0);
+}

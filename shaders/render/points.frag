@@ -1,0 +1,40 @@
+// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing else).
+
+#ifdef DEPTH_ONLY
+void main()
+{
+    vec2 at = gl_PointCoord * 2.0 - 1.0;
+    if (dot(at, at) > 1.0) discard;
+}
+#else
+#include "render/light.glsl"
+
+in vec3 middle;
+flat in vec3 color;
+
+uniform mat3 viewToScene;  // columns: right, up, towards the eye
+uniform float pointSize;
+uniform float roughness;
+
+out vec4 fragment;
+
+void main()
+{
+    vec2 at = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;
+    float r2 = dot(at, at);
+    float edge = sqrt(r2);
+    float covered = clamp((1.0 - edge) / max(fwidth(edge), 1e-4) + 0.5, 0.0, 1.0);
+    if (covered <= 0.0) discard;
+    vec3 n = viewToScene * vec3(at, sqrt(max(1.0 - r2, 0.0)));
+
+    Surface s;
+    s.place = middle + n * (0.5 * pointSize);
+    s.normal = normalize(n);
+    s.albedo = color;
+    s.roughness = roughness;
+    s.translucency = 0.0;
+    s.throughColor = vec3(0.0);
+    s.openness = crownOpenness(s.place, s.normal);
+    fragment = vec4(squeeze(withHaze(shade(s), s.place)), covered);
+}
+#endif

@@ -1,0 +1,42 @@
+// The sky's light by direction: a gradient from the horizon to the zenith, brighter around the sun.
+
+uniform vec3 skyZenith;  // radiance, linear RGB
+uniform vec3 skyHorizon;
+uniform vec3 skyGround;
+uniform vec3 sunDirection;  // towards the sun, unit
+uniform vec3 sunColor;      // radiance of a white surface that faces the sun
+
+vec3 skyGradient(vec3 direction)
+{
+    float height = max(direction.y, 0.0);
+    // The air is thickest near the horizon: the gradient is steep there and flat above.
+    return mix(skyHorizon, skyZenith, 1.0 - exp(-3.2 * height));
+}
+
+// Light scattered forward by haze around the sun.
+vec3 sunGlow(vec3 direction)
+{
+    float towards = max(dot(direction, sunDirection), 0.0);
+    return sunColor * (0.05 * pow(towards, 6.0) + 0.12 * pow(towards, 90.0));
+}
+
+vec3 sunDisc(vec3 direction)
+{
+    // Drawn at twice the real 0.27 degrees, as a camera's bloom would have it.
+    return sunColor * 12.0 * smoothstep(0.99992, 0.99997, dot(direction, sunDirection));
+}
+
+// What distance fades into, seen along a direction: the sky just above the horizon.
+vec3 hazeColor(vec3 direction)
+{
+    vec3 level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.5 + 0.01, direction.z));
+    return skyGradient(level) + sunGlow(level);
+}
+
+// Light from all around onto a surface with this normal, divided by pi: the sky above, the ground below.
+vec3 ambientLight(vec3 normal)
+{
+    vec3 above = mix(skyHorizon, skyZenith, 0.55);
+    vec3 below = skyGround * (0.35 + 0.3 * max(sunDirection.y, 0.0) * sunColor);
+    return mix(below, above, 0.5 + 0.5 * normal.y);
+}

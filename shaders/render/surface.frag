@@ -1,0 +1,92 @@
+// Host models, terrain and colliders. Variants: SHADOWS, GRID (a plane with a metre grid that fades into the haze).
+
+#include "physics/noise.glsl"
+#include "render/light.glsl"
+
+in vec3 place;
+in vec3 local;
+in vec3 normal;
+in vec3 color;
+
+uniform vec3 meshColor;
+uniform float roughness;
+uniform float detail;  // strength of the procedural grain, 0 for none
+#ifdef GRID
+uniform vec3 gridAlong;    // two unit directions within the plane
+uniform vec3 gridAcross;
+uniform vec2 gridOffset;   // of local (0, 0, 0) on the grid, m
+uniform float gridRadius;  // m, where the plane has faded away
+#endif
+
+out vec4 fragment;
+
+// One octave of grain, which fades before it is finer than a pixel.
+float grain(vec3 p, vec3 stretch, float wavelength, float footprint, uint seed)
+{
+    float weight = 1.0 - smoothstep(0.25, 0.8, footprint / wavelength);
+    if (weight <= 0.0) return 0.0;
+    return weight * gradientNoise(p * stretch / wavelength, seed);
+}
+
+// The normal of a surface raised by `height` along n, without texture coordinates
+// (Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU").
+vec3 bumped(vec3 n, vec3 p, float height)
+{
+    vec3 dx = dFdx(p);
+    vec3 dy = dFdy(p);
+    vec3 r1 = cross(dy, n);
+    vec3 r2 = cross(n, dx);
+    float det = dot(dx, r1);
+    vec3 gradient = sign(det) * (dFdx(height) * r1 + dFdy(height) * r2);
+    return normalize(max(abs(det), 1e-12) * n - gradient);
+}
+
+void main()
+{
+    vec3 n = normalize(normal);
+    if (dot(n, place) > 0.0) n = -n;
+    vec3 albedo = color * meshColor;
+    float hollow = 1.0;
+    vec3 along = n;
+
+    float footprint = max(length(dFdx(local)), length(dFdy(local)));
+    if (detail > 0.0) {
+        // Ground that faces up is mottled like grass and soil; what stands upright is furrowed like bark.
+        float level = smoothstep(0.55, 0.8, n.y);
+        vec3 stretch = mix(vec3(1.0, 0.13, 1.0), vec3(1.0), level);
+        float patches = grain(local, vec3(1.0), 2.6, footprint, 11u);
+        float tufts = grain(local, stretch, mix(0.09, 0.34, level), footprint, 12u);
+        float blades = grain(local, stretch, mix(0.035, 0.055, level), footprint, 13u);
+        float fine = grain(local, stretch, mix(0.015, 0.018, level), footprint, 14u);
+        float furrows = tufts * 0.6 + blades * 0.5 + fine * 0.25;
+        float tone = mix(furrows * 0.9, patches * 0.35 + tufts * 0.45 + blades * 0.55 + fine * 0.4, level);
+        albedo *= max(1.0 + detail * tone, 0.25);
+        albedo *= mix(vec3(1.0), vec3(1.0 + 0.25 * patches, 1.0 + 0.05 * tufts, 1.0 - 0.3 * patches), detail * level);
+        float height = mix(furrows * 0.012, tufts * 0.05 + blades * 0.022 + fine * 0.008, level);
+        along = bumped(n, local, detail * height);
+        hollow = clamp(1.0 + detail * 0.7 * mix(furrows, tufts * 0.5 + blades, level), 0.3, 1.0);
+    }
+    float faded = 0.0;
+#ifdef GRID
+    // Lines every metre and stronger every ten, one pixel soft at every distance.
+    vec2 grid = vec2(dot(local, gridAlong), dot(local, gridAcross)) + gridOffset;
+    vec2 width = max(fwidth(grid), vec2(1e-5));
+    vec2 toLine = abs(fract(grid - 0.5) - 0.5);
+    vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
+    vec2 toTenth = abs(fract(grid / 10.0 - 0.5) - 0.5) * 10.0;
+    vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
+    albedo *= 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
+    faded = smoothstep(0.1, 1.0, length(place) / gridRadius);
+#endif
+
+    Surface s;
+    s.place = place;
+    s.normal = along;
+    s.albedo = albedo;
+    s.roughness = roughness;
+    s.translucency = 0.0;
+    s.throughColor = vec3(0.0);
+    s.openness = crownOpenness(place, n) * hollow;
+    vec3 radiance = withHaze(shade(s), place);
+    fragment = vec4(squeeze(mix(radiance, hazeColor(normalize(place)), faded)), 1.0);
+}

@@ -1,0 +1,27 @@
+// A triangle mesh of the scene: host models, terrain, colliders. Variant: DEPTH_ONLY.
+
+layout(location = 0) in vec3 corner;  // m, relative to the mesh's own origin
+layout(location = 1) in vec3 cornerNormal;
+layout(location = 2) in vec3 cornerColor;
+
+uniform mat4 toClip;
+uniform vec3 meshOrigin;  // relative to the origin of drawing, m
+
+#ifndef DEPTH_ONLY
+out vec3 place;
+out vec3 local;
+out vec3 normal;
+out vec3 color;
+#endif
+
+void main()
+{
+    vec3 at = meshOrigin + corner;
+#ifndef DEPTH_ONLY
+    place = at;
+    local = corner;
+    normal = cornerNormal;
+    color = cornerColor;
+#endif
+    gl_Position = toClip * vec4(at, 1.0);
+}

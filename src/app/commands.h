@@ -1,0 +1,21 @@
+// The commands; each returns the exit code. Errors are thrown and end in one line on standard error.
+#pragma once
+
+#include "app/options.h"
+#include "compile/plan.h"
+
+namespace shoal::app {
+
+int runCommand(const Options& options);
+int checkCommand(const Options& options);
+int explainCommand(const Options& options);
+int infoCommand(const Options& options);
+
+// A scene and its plan with the options applied; warnings go to standard error.
+struct Loaded {
+    Scene scene;
+    Plan plan;
+};
+Loaded load(const Options& options, const PlanLimits& limits);
+
+}  // namespace shoal::app

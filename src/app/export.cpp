@@ -1,0 +1,84 @@
+#include "app/export.h"
+
+#include <cstdio>
+#include <filesystem>
+
+#include "core/file.h"
+
+namespace shoal::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+template <typename... Values>
+void print(std::string& out, const char* format, Values... values) {
+    char line[512];
+    const int length = std::snprintf(line, sizeof line, format, values...);
+    out.append(line, size_t(length));
+}
+
+std::string csv(Simulation& simulation) {
+    std::string out = "frame,time,group,molecule,vertex,x,y,z,vx,vy,vz,nx,ny,nz\n";
+    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
+        const Snapshot state = simulation.snapshot(g);
+        for (size_t i = 0; i < state.positions.size(); ++i) {
+            const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
+            const glm::vec3& n = state.normals[i];
+            print(out, "%d,%.9g,%zu,%zu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.frames(),
+                  state.time, g, i / size_t(state.vertexCount), i % size_t(state.vertexCount), x.x, x.y, x.z, v.x, v.y,
+                  v.z, double(n.x), double(n.y), double(n.z));
+        }
+    }
+    return out;
+}
+
+std::string ply(Simulation& simulation, const Scene& scene) {
+    std::string vertices, faces;
+    size_t vertexCount = 0, faceCount = 0;
+    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
+        const Snapshot state = simulation.snapshot(g);
+        const size_t perMolecule = size_t(state.vertexCount);
+        for (size_t i = 0; i < state.positions.size(); ++i) {
+            const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
+            const glm::vec3& n = state.normals[i];
+            print(vertices, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", x.x, x.y, x.z, double(n.x),
+                  double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
+        }
+        for (size_t m = 0; m < size_t(state.count); ++m) {
+            for (const Triangle& t : scene.groups[g].molecule.triangles) {
+                const size_t first = vertexCount + m * perMolecule;
+                print(faces, "3 %zu %zu %zu\n", first + size_t(t.a), first + size_t(t.b), first + size_t(t.c));
+                ++faceCount;
+            }
+        }
+        vertexCount += state.positions.size();
+    }
+    std::string out = "ply\nformat ascii 1.0\n";
+    print(out, "comment shoal: frame %d, time %.9g s; metres, metres per second\nelement vertex %zu\n",
+          simulation.frames(), simulation.time(), vertexCount);
+    for (const char* property : {"x", "y", "z", "nx", "ny", "nz", "vx", "vy", "vz"})
+        print(out, "property double %s\n", property);
+    for (const char* property : {"group", "molecule", "vertex"}) print(out, "property int %s\n", property);
+    print(out, "element face %zu\nproperty list uchar int vertex_indices\nend_header\n", faceCount);
+    return out + vertices + faces;
+}
+
+}  // namespace
+
+std::string exportName(const std::string& target, int frame, bool several) {
+    const fs::path path(target);
+    const std::string extension = path.extension().string();
+    char number[16];
+    std::snprintf(number, sizeof number, "-%05d", frame);
+    if (extension != ".csv" && extension != ".ply") return (path / ("state" + std::string(number) + ".csv")).string();
+    if (!several) return target;
+    return (path.parent_path() / (path.stem().string() + number + extension)).string();
+}
+
+void exportState(const std::string& file, Simulation& simulation, const Scene& scene) {
+    const bool asPly = fs::path(file).extension() == ".ply";
+    writeFile(file, std::string_view(asPly ? ply(simulation, scene) : csv(simulation)));
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,78 @@
+#include <iostream>
+
+#include "app/commands.h"
+#include "core/json.h"
+#include "gpu/probe.h"
+
+namespace shoal::app {
+
+namespace {
+
+JsonValue asJson(const gpu::ContextProbe& probe) {
+    JsonValue entry = JsonValue::makeObject();
+    entry.add("context", JsonValue::makeString(gpu::name(probe.kind)))
+        .add("available", JsonValue::makeBoolean(probe.info.has_value()));
+    if (!probe.info) return entry.add("reason", JsonValue::makeString(probe.reason));
+    const gpu::ContextInfo& info = *probe.info;
+    JsonValue paths = JsonValue::makeArray();
+    paths.items.push_back(JsonValue::makeString("ping-pong"));
+    return entry.add("platform", JsonValue::makeString(info.platform))
+        .add("renderer", JsonValue::makeString(info.renderer))
+        .add("vendor", JsonValue::makeString(info.vendor))
+        .add("version", JsonValue::makeString(info.version))
+        .add("glslVersion", JsonValue::makeString(info.glslVersion))
+        .add("software", JsonValue::makeBoolean(info.software))
+        .add("maxTextureSize", JsonValue::makeNumber(info.maxTextureSize))
+        .add("maxColorAttachments", JsonValue::makeNumber(info.maxColorAttachments))
+        .add("maxSamples", JsonValue::makeNumber(info.maxSamples))
+        .add("maxVertexTextureUnits", JsonValue::makeNumber(info.maxVertexTextureUnits))
+        .add("max3DTextureSize", JsonValue::makeNumber(info.max3DTextureSize))
+        .add("maxBufferTexels", JsonValue::makeNumber(double(info.maxBufferTexels)))
+        .add("maxStorageBlockBytes", JsonValue::makeNumber(double(info.maxStorageBlockBytes)))
+        .add("computeShaders", JsonValue::makeBoolean(info.computeShaders))
+        .add("paths", std::move(paths));
+}
+
+void print(const gpu::ContextProbe& probe) {
+    std::cout << gpu::name(probe.kind) << "\n";
+    if (!probe.info) {
+        std::cout << "  not available: " << probe.reason << "\n";
+        return;
+    }
+    const gpu::ContextInfo& info = *probe.info;
+    const int vertices = info.maxTextureSize;
+    std::cout << "  platform     " << info.platform << "\n  renderer     " << info.renderer << " ("
+              << (info.software ? "software" : "hardware") << ")\n  OpenGL       " << info.version << ", GLSL "
+              << info.glslVersion << "\n  limits       textures " << info.maxTextureSize << " a side, "
+              << info.maxColorAttachments << " draw buffers, " << info.maxSamples << " samples, "
+              << info.maxVertexTextureUnits << " vertex texture units\n               " << info.maxBufferTexels
+              << " buffer texels";
+    if (info.maxStorageBlockBytes > 0) std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes";
+    std::cout << "\n  paths        ping-pong (up to " << int64_t(vertices) * stateWidth << " vertices)"
+              << (info.computeShaders ? "; compute shaders are there, the fused path is not built yet" : "") << "\n";
+}
+
+}  // namespace
+
+int infoCommand(const Options& options) {
+    std::vector<gpu::ContextProbe> probes = gpu::probeContexts();
+    if (options.context != gpu::ContextKind::automatic)
+        std::erase_if(probes, [&](const gpu::ContextProbe& probe) { return probe.kind != options.context; });
+    JsonValue contexts = JsonValue::makeArray();
+    bool any = false;
+    for (const gpu::ContextProbe& probe : probes) {
+        any |= probe.info.has_value();
+        if (options.json)
+            contexts.items.push_back(asJson(probe));
+        else
+            print(probe);
+    }
+    if (options.json) {
+        JsonValue report = JsonValue::makeObject();
+        report.add("version", JsonValue::makeString(SHOAL_VERSION)).add("contexts", std::move(contexts));
+        std::cout << writeJson(report);
+    }
+    return any ? 0 : 1;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,32 @@
+#include <csignal>
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "app/commands.h"
+
+int main(int argc, char** argv) {
+    using namespace shoal::app;
+    // A full disk or a closed pipe shows as an error of the write that met it, not as a signal.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
+    try {
+        const std::optional<Options> options = parseOptions(argc, argv);
+        if (!options) return 0;
+        int code = 0;
+        switch (options->command) {
+        case Options::Command::run: code = runCommand(*options); break;
+        case Options::Command::check: code = checkCommand(*options); break;
+        case Options::Command::explain: code = explainCommand(*options); break;
+        case Options::Command::info: code = infoCommand(*options); break;
+        }
+        std::cout.flush();
+        if (!std::cout) throw shoal::Error("standard output cannot be written");
+        return code;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "shoal: out of memory\n";
+    } catch (const std::exception& error) {
+        std::cerr << "shoal: " << error.what() << "\n";
+    }
+    return 1;
+}

@@ -1,0 +1,158 @@
+#include "app/options.h"
+
+#if defined(__GNUC__)
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"
+#pragma GCC diagnostic ignored "-Wconversion"
+#endif
+#include <CLI/CLI.hpp>
+#if defined(__GNUC__)
+#pragma GCC diagnostic pop
+#endif
+
+#include <cmath>
+#include <iostream>
+
+namespace shoal::app {
+
+namespace {
+
+struct Texts {
+    std::string context = "auto", size = "1280x720";
+};
+
+void addScene(CLI::App& command, Options& options) {
+    command.add_option("scene", options.files, "Scene file (.scene.json)")->required()->expected(1);
+}
+
+void addOverrides(CLI::App& command, Options& options) {
+    command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's");
+    command.add_option("--solver", options.solver, "euler or leapfrog, instead of the scene's");
+    command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
+    command.add_option("--count", options.count, "Molecules in each group that is placed at random");
+    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's");
+}
+
+void addContext(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("--context", texts.context, "window, egl, osmesa or auto")->capture_default_str();
+    command.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+void addRun(CLI::App& command, Options& options, Texts& texts) {
+    addScene(command, options);
+    addOverrides(command, options);
+    addContext(command, options, texts);
+    command.add_flag("--headless", options.headless, "No window, even where there is a display");
+    command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)");
+    command.add_option("--size", texts.size, "Picture size in pixels")->capture_default_str();
+    command.add_option("--capture", options.capture, "Folder for PNG frames, or a video (.mp4, .mkv, .webm)");
+    command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")->capture_default_str();
+    command.add_option("--export", options.exports, "State: folder (CSV), or a name ending in .csv or .ply");
+    command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
+        ->delimiter(',');
+    command.add_flag("--timings", options.timings, "Measure the time of each pass");
+    command.add_option("--screenshot", options.screenshot, "Window: save its picture after --frames and close");
+}
+
+// All long option names of a command, for suggestions.
+std::vector<std::string> optionNames(const CLI::App& command) {
+    std::vector<std::string> names;
+    for (const CLI::Option* option : command.get_options())
+        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    return names;
+}
+
+std::string explainExtras(const CLI::App& app, int argc, char** argv) {
+    const CLI::App* command = &app;
+    for (const CLI::App* sub : app.get_subcommands()) command = sub;
+    const std::vector<std::string> names = optionNames(*command);
+    for (int i = 1; i < argc; ++i) {
+        std::string word = argv[i];
+        word = word.substr(0, word.find('='));
+        if (word.rfind("--", 0) != 0) continue;
+        if (std::find(names.begin(), names.end(), word) == names.end())
+            return concat("unknown option ", word, suggestion(word, names));
+    }
+    std::vector<std::string> commands;
+    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(sub->get_name());
+    if (command == &app && argc > 1)
+        return concat("unknown command \"", argv[1], "\"", suggestion(argv[1], commands));
+    return {};
+}
+
+void parseSize(const std::string& text, Options& options) {
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 || options.width < 1 ||
+        options.height < 1 || options.width > 16384 || options.height > 16384)
+        throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
+}
+
+void checkRanges(const Options& options) {
+    const auto atLeast = [](const char* option, std::optional<int> value, int least) {
+        if (value && *value < least) throw Error(concat(option, ": expected at least ", least, ", found ", *value));
+    };
+    atLeast("--frames", options.frames, 1);
+    atLeast("--substeps", options.substeps, 1);
+    atLeast("--count", options.count, 1);
+    atLeast("--capture-every", options.captureEvery, 1);
+    for (const int frame : options.exportFrames) atLeast("--export-frames", frame, 0);
+    if (options.dt && !(std::isfinite(*options.dt) && *options.dt > 0))
+        throw Error(concat("--dt: expected a time above 0 s, found ", *options.dt));
+    if (options.solver && *options.solver != "euler" && *options.solver != "leapfrog")
+        throw Error(concat("--solver: unknown solver \"", *options.solver, "\"",
+                           suggestion(*options.solver, {"euler", "leapfrog"})));
+}
+
+}  // namespace
+
+std::optional<Options> parseOptions(int argc, char** argv) {
+    Options options;
+    Texts texts;
+    CLI::App app("Shoal: very many small mass-spring meshes, simulated and drawn on the GPU", "shoal");
+    app.set_version_flag("--version", "shoal " SHOAL_VERSION);
+    app.require_subcommand(1);
+    CLI::App* run = app.add_subcommand("run", "Run a scene: in a window, or headless with pictures");
+    CLI::App* check = app.add_subcommand("check", "Check molecule and scene files");
+    CLI::App* explain = app.add_subcommand("explain", "Print what a scene compiles to, and why");
+    CLI::App* info = app.add_subcommand("info", "Print the OpenGL contexts that can be had");
+    addRun(*run, options, texts);
+    check->add_option("files", options.files, "Molecule or scene files")->required();
+    check->add_flag("--json", options.json, "Report as JSON on standard output");
+    addScene(*explain, options);
+    addOverrides(*explain, options);
+    explain->add_flag("--json", options.json, "Report as JSON on standard output");
+    addContext(*info, options, texts);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& success) {
+        app.exit(success);
+        return std::nullopt;
+    } catch (const CLI::ParseError& error) {
+        std::string message = explainExtras(app, argc, argv);
+        if (message.empty()) message = error.what();
+        throw Error(message + "; see shoal --help");
+    }
+    options.command = run->parsed()       ? Options::Command::run
+                      : check->parsed()   ? Options::Command::check
+                      : explain->parsed() ? Options::Command::explain
+                                          : Options::Command::info;
+    options.context = gpu::contextKind(texts.context);
+    parseSize(texts.size, options);
+    checkRanges(options);
+    return options;
+}
+
+void apply(const Options& options, Scene& scene) {
+    if (options.dt) scene.frameRate = 1 / *options.dt;
+    if (options.solver) scene.solver.kind = *options.solver == "euler" ? SolverKind::euler : SolverKind::leapfrog;
+    if (options.substeps) scene.solver.substeps = *options.substeps;
+    if (options.seed) scene.seed = *options.seed;
+    if (!options.count) return;
+    for (Group& group : scene.groups) {
+        const bool counted = group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
+        if (!counted) group.count = *options.count;
+    }
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,27 @@
+// Fields and colliders as straight-line GLSL. Numbers live in uniform arrays of 4-vectors, so that the text
+// depends only on which kinds there are; grids and height fields put their samples into one shared table.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace shoal {
+
+struct Generated {
+    std::string source;
+    std::vector<glm::vec4> parameters;
+};
+
+// vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
+Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+// Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift).
+Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
+
+const char* kindName(const FieldShape& shape);
+const char* kindName(const ColliderShape& shape);
+
+}  // namespace shoal

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+
+#include "compile/generate.h"
+
+namespace shoal {
+
+namespace {
+
+class Emitter {
+  public:
+    explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
+
+    Generated result;
+
+    std::string slot(const glm::dvec3& v, double w = 0) {
+        result.parameters.push_back(glm::vec4(glm::vec3(v), float(w)));
+        return concat("colliderParameters[", result.parameters.size() - 1, "]");
+    }
+
+    void collider(const Collider& collider) {
+        const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
+        const std::string surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
+        result.source += concat("    // ", kindName(collider.shape), collider.name.empty() ? "" : " ", collider.name,
+                                "\n    surface = ", surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
+                                material, ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
+    }
+
+  private:
+    // Each returns text of a vec4: unit normal, signed distance (negative inside).
+    std::string emit(const PlaneCollider& plane) {
+        const std::string point = slot(plane.point), normal = slot(glm::normalize(plane.normal));
+        return concat("planeSurface((anchor - ", point, ".xyz) + c.position, ", normal, ".xyz)");
+    }
+
+    std::string emit(const SphereCollider& sphere) {
+        const std::string center = slot(sphere.center, sphere.radius);
+        return concat("sphereSurface((anchor - ", center, ".xyz) + c.position, ", center, ".w)");
+    }
+
+    std::string emit(const HeightFieldCollider& field) {
+        const size_t base = samples_->size();
+        const glm::dvec2 cell = (field.high - field.low) / glm::dvec2(field.columns - 1, field.rows - 1);
+        appendSamples(field, cell);
+        const std::string low = slot({field.low.x, 0, field.low.y});
+        const std::string cells = slot({1 / cell.x, cell.x, cell.y}, 1 / cell.y);
+        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "((anchor - ", low,
+                      ".xyz) + c.position, ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ", base, ")");
+    }
+
+    // One texel a sample: unit normal by central differences, and height.
+    void appendSamples(const HeightFieldCollider& field, glm::dvec2 cell) {
+        const auto height = [&](int x, int z) {
+            x = std::clamp(x, 0, field.columns - 1);
+            z = std::clamp(z, 0, field.rows - 1);
+            return double(field.heights[size_t(z) * size_t(field.columns) + size_t(x)]);
+        };
+        samples_->reserve(samples_->size() + field.heights.size());
+        for (int z = 0; z < field.rows; ++z) {
+            for (int x = 0; x < field.columns; ++x) {
+                const double spanX = cell.x * (std::min(x + 1, field.columns - 1) - std::max(x - 1, 0));
+                const double spanZ = cell.y * (std::min(z + 1, field.rows - 1) - std::max(z - 1, 0));
+                const glm::dvec3 normal = glm::normalize(glm::dvec3((height(x - 1, z) - height(x + 1, z)) / spanX, 1,
+                                                                    (height(x, z - 1) - height(x, z + 1)) / spanZ));
+                samples_->emplace_back(glm::vec3(normal), float(height(x, z)));
+            }
+        }
+    }
+
+    std::vector<glm::vec4>* samples_;
+};
+
+}  // namespace
+
+Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples) {
+    Emitter emitter(samples);
+    for (const Collider& collider : colliders) emitter.collider(collider);
+    Generated out = std::move(emitter.result);
+    out.source = concat("#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
+                        "uniform vec4 colliderParameters[", out.parameters.size(), "];\n\n",
+                        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
+                        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
+                        "    return c;\n}\n");
+    return out;
+}
+
+const char* kindName(const ColliderShape& shape) {
+    static constexpr const char* names[] = {"plane", "sphere", "heightField"};
+    return names[shape.index()];
+}
+
+}  // namespace shoal

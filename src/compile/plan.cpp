@@ -1,0 +1,212 @@
+#include "compile/plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/generate.h"
+#include "compile/pack.h"
+#include "molecule/analysis.h"
+
+namespace shoal {
+
+namespace {
+
+// Uniform arrays of fields and colliders together stay within what OpenGL 3.3 promises a fragment shader
+// (1024 components), with room for the passes' own uniforms.
+constexpr size_t maxParameters = 200;
+
+Needs findNeeds(const Scene& scene, const Group& group) {
+    const Molecule& molecule = group.molecule;
+    Needs needs;
+    needs.drag = group.drag.any();
+    needs.directionalDrag = group.drag.directional() && !molecule.triangles.empty();
+    needs.fields = needs.drag && !scene.fields.empty();
+    needs.gravity = scene.gravity != glm::dvec3(0);
+    needs.springs = !molecule.springs.empty();
+    for (const Spring& spring : molecule.springs) {
+        needs.springDamping |= spring.damping > 0;
+        needs.actuation |= spring.actuation.has_value() && spring.actuation->amplitude != 0;
+    }
+    needs.pins = group.held && molecule.hasPins();
+    needs.release = needs.pins && group.release.has_value();
+    needs.records = !needs.pins || needs.release;
+    needs.collide = group.collide && !scene.colliders.empty();
+    needs.normals = !molecule.triangles.empty();
+    needs.acceleration = needs.springs && scene.solver.kind == SolverKind::leapfrog;
+    return needs;
+}
+
+// Rows of the state textures, and the group's limits.
+GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
+    const Group& group = scene.groups[index];
+    GroupPlan out;
+    out.name = group.name.empty() ? group.molecule.name : group.name;
+    out.index = index;
+    out.count = group.count;
+    out.vertexCount = int(group.molecule.vertices.size());
+    out.slabRows = (group.count + stateWidth - 1) / stateWidth;
+    out.needs = findNeeds(scene, group);
+    out.solver = scene.solver.kind;
+    out.drag = group.drag;
+    if (group.release) out.release = *group.release;
+    out.stiffness = group.stiffness;
+    out.damping = group.damping;
+    out.size = group.molecule.size();
+    out.firstRow = plan.rows;
+    out.rows = out.vertexCount * out.slabRows;
+    out.firstRecordRow = plan.recordRows;
+    plan.rows += out.rows;
+    plan.recordRows += out.slabRows;
+    return out;
+}
+
+void checkSize(const Scene& scene, const Plan& plan, const PlanLimits& limits) {
+    int64_t rows = 0;
+    for (const Group& group : scene.groups) {
+        rows += int64_t((group.count + stateWidth - 1) / stateWidth) * int64_t(group.molecule.vertices.size());
+        if (rows <= limits.maxTextureSize) continue;
+        const int64_t fits = int64_t(limits.maxTextureSize) * stateWidth / int64_t(group.molecule.vertices.size());
+        throw Error(group.location,
+                    concat(group.count, " molecules of ", group.molecule.vertices.size(), " vertices need ",
+                           rows * stateWidth * 16 * 4 >> 20, " MiB in textures of ", rows,
+                           " rows; this context holds ", limits.maxTextureSize, " rows, about ", fits,
+                           " such molecules in all"));
+    }
+    (void)plan;
+}
+
+// Damped limits (NUMERICS: euler (wh)^2 + 4 zeta w h < 4; leapfrog wh < 2), from the molecule's analysis.
+void findStableStep(const Group& group, GroupPlan& out) {
+    out.stableStep = std::numeric_limits<double>::infinity();
+    if (!out.needs.springs) return;
+    Molecule scaled = group.molecule;
+    for (Spring& spring : scaled.springs) {
+        spring.stiffness *= out.stiffness;
+        spring.damping *= out.damping;
+    }
+    const Analysis analysis = analyse(scaled, out.needs.pins && !out.needs.release);
+    out.highestFrequency = analysis.highestFrequency;
+    out.stableStep = out.solver == SolverKind::euler ? analysis.stableStepEuler : analysis.stableStepLeapfrog;
+}
+
+void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
+    const double frame = 1 / scene.frameRate, step = frame / scene.solver.substeps;
+    if (step <= plan.stableStep) return;
+    throw Error(scene.solver.location.empty() ? group.location : scene.solver.location,
+                concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ", plan.stableStep,
+                       " s (highest frequency ", plan.highestFrequency, " rad/s); ", scene.solver.substeps,
+                       " substeps of a frame are ", step, " s: use at least ",
+                       int(std::ceil(frame / plan.stableStep)), " substeps"));
+}
+
+void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
+    const Needs& needs = group.needs;
+    const auto add = [&](PassKind kind, PassPlan::When when, std::string why) {
+        plan.passes.push_back({kind, index, when, std::move(why)});
+    };
+    using When = PassPlan::When;
+    if (needs.records)
+        add(PassKind::records, When::frameStart,
+            needs.release ? "pins may be released, and anchors follow what flies" : "anchors follow what moves");
+    if (needs.acceleration) add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
+    if (needs.springs && group.solver == SolverKind::euler)
+        add(PassKind::restore, When::substep, "the molecule has springs");
+    if (needs.directionalDrag) add(PassKind::normals, When::substep, "drag differs across and along the surface");
+    add(PassKind::advect, When::substep,
+        concat("moves every vertex", needs.gravity ? " under gravity" : "",
+               needs.fields ? ", dragged by the fields" : needs.drag ? ", with drag" : ""));
+    if (needs.collide) add(PassKind::collide, When::substep, "the scene has colliders");
+    if (needs.springs && group.solver == SolverKind::leapfrog)
+        add(PassKind::restore, When::substep, "the molecule has springs");
+    if (needs.normals) add(PassKind::normals, When::frameEnd, "drawn, or exported, with its normals");
+}
+
+int tableRows(std::vector<glm::vec4>& table) {
+    const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
+    table.resize(size_t(rows) * stateWidth);
+    return rows;
+}
+
+}  // namespace
+
+const char* name(PassKind kind) {
+    static constexpr const char* names[] = {"records", "normals", "restore", "advect", "collide"};
+    return names[size_t(kind)];
+}
+
+const char* name(SolverKind kind) {
+    return kind == SolverKind::euler ? "euler" : "leapfrog";
+}
+
+size_t Plan::stateBytes() const {
+    bool acceleration = false, normals = false;
+    for (const GroupPlan& group : groups) {
+        acceleration |= group.needs.acceleration;
+        normals |= group.needs.normals;
+    }
+    const size_t textures = 4 + (acceleration ? 2 : 0) + (normals ? 1 : 0);
+    return (textures * size_t(rows) + 3 * size_t(recordRows)) * stateWidth * sizeof(glm::vec4);
+}
+
+size_t Plan::tableBytes() const {
+    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
+}
+
+Plan compile(const Scene& scene, const PlanLimits& limits) {
+    Plan plan;
+    plan.sceneName = scene.name;
+    plan.frameRate = scene.frameRate;
+    plan.substeps = scene.solver.substeps;
+    plan.gravity = scene.gravity;
+    plan.solver = scene.solver.kind;
+    plan.warnings = scene.warnings;
+    checkSize(scene, plan, limits);
+
+    for (size_t i = 0; i < scene.groups.size(); ++i) {
+        GroupPlan group = layOut(scene, i, plan);
+        findStableStep(scene.groups[i], group);
+        checkStep(scene, scene.groups[i], group);
+        group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
+        listPasses(group, i, plan);
+        plan.groups.push_back(std::move(group));
+    }
+    plan.topologyRows = tableRows(plan.topology);
+
+    plan.positions.resize(size_t(plan.rows) * stateWidth);
+    plan.velocities.resize(plan.positions.size());
+    plan.records.resize(size_t(plan.recordRows) * stateWidth);
+    plan.constants.resize(plan.records.size());
+    for (const GroupPlan& group : plan.groups) packState(scene, group, plan);
+
+    const auto any = [&](bool Needs::*need) {
+        return std::any_of(plan.groups.begin(), plan.groups.end(), [&](const GroupPlan& g) { return g.needs.*need; });
+    };
+    Generated fields, colliders;
+    if (any(&Needs::fields)) fields = generateFields(scene.fields, plan.samples);
+    if (any(&Needs::collide)) colliders = generateColliders(scene.colliders, plan.samples);
+    if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)
+        throw Error(Location{scene.file, 0, 0, {}},
+                    concat("the scene has ", scene.fields.size(), " fields and ", scene.colliders.size(),
+                           " colliders, more than the ", maxParameters, " 4-vectors of uniforms that each may take"));
+    plan.fieldSource = std::move(fields.source);
+    plan.fieldParameters = std::move(fields.parameters);
+    plan.collideSource = std::move(colliders.source);
+    plan.colliderParameters = std::move(colliders.parameters);
+    plan.sampleRows = tableRows(plan.samples);
+    if (plan.sampleRows > limits.maxTextureSize || plan.topologyRows > limits.maxTextureSize)
+        throw Error(Location{scene.file, 0, 0, {}},
+                    concat("grids and height fields need a texture of ", plan.sampleRows, " rows; this context holds ",
+                           limits.maxTextureSize));
+    return plan;
+}
+
+int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor, int substeps) {
+    // Frequencies grow as sqrt(stiffness); the damped limit shrinks no faster than either factor does alone.
+    const double factor = std::max({1.0, std::sqrt(stiffnessFactor), dampingFactor});
+    double needed = substeps;
+    for (const GroupPlan& group : plan.groups)
+        if (group.needs.springs) needed = std::max(needed, std::ceil(frameTime * factor / group.stableStep));
+    return int(std::min(needed, 1e6));
+}
+
+}  // namespace shoal

@@ -1,0 +1,241 @@
+// Eigenvalues of the mass-scaled stiffness A = M^-1/2 K M^-1/2 of the vertices that move, and of damping B
+// likewise. Up to 300 vertices densely, beyond by power iteration.
+//
+// Why a bound: n n^T <= I for any direction n, and the transverse stiffness k (1 - L/l) of a stretched spring
+// is below k, so K of any deformed shape is at most the weighted graph Laplacian times I. The Laplacian's
+// largest eigenvalue therefore bounds the square of every frequency.
+//
+// Why those step conditions: with u a unit eigenvector, b = h^2 u*Au and a = h u*Bu, one step of
+//   euler     gives  (z - 1)^2 + a (z - 1) + b z = 0,                              stable iff b + 2a < 4;
+//   leapfrog  gives  z (z - 1)^2 + b z^2 + a z (z - 1) + a/2 (z - 1)^2 = 0,        stable iff b + 4a < 4
+// (the Jury criterion). The largest eigenvalue of h^2 A + 2 h B covers every u at once.
+#include "molecule/analysis.h"
+
+#include <cmath>
+#include <limits>
+
+#include <Eigen/Dense>
+
+namespace shoal {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr size_t mostDense = 300;      // vertices
+constexpr double zeroRelative = 1e-9;  // an eigenvalue below this share of the largest is zero
+
+// Which vertices move, and where their coordinates stand in the matrices; -1 for pinned.
+struct Freedom {
+    std::vector<int> index;
+    int count = 0;
+
+    Freedom(const Molecule& molecule, bool pinned) {
+        for (const Vertex& vertex : molecule.vertices)
+            index.push_back(pinned && vertex.pinned ? -1 : count++);
+    }
+};
+
+Eigen::Vector3d toEigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// From b to a; zero for coincident vertices, where a spring has no direction.
+Eigen::Vector3d direction(const Molecule& molecule, const Spring& spring) {
+    const glm::dvec3 d =
+        molecule.vertices[size_t(spring.a)].position - molecule.vertices[size_t(spring.b)].position;
+    const double length = glm::length(d);
+    return length > 0 ? toEigen(d / length) : Eigen::Vector3d::Zero();
+}
+
+double inverseRootMass(const Molecule& molecule, int vertex) {
+    return 1 / std::sqrt(molecule.vertices[size_t(vertex)].mass);
+}
+
+// Sum of coefficient * n n^T over the springs, scaled by the masses. `Coefficient`: stiffness or damping.
+MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient) {
+    MatrixXd out = MatrixXd::Zero(3 * freedom.count, 3 * freedom.count);
+    for (const Spring& spring : molecule.springs) {
+        const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
+        const Eigen::Vector3d n = direction(molecule, spring);
+        const Eigen::Matrix3d block = spring.*coefficient * n * n.transpose();
+        const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
+        if (a >= 0) out.block<3, 3>(3 * a, 3 * a) += ra * ra * block;
+        if (b >= 0) out.block<3, 3>(3 * b, 3 * b) += rb * rb * block;
+        if (a >= 0 && b >= 0) {
+            out.block<3, 3>(3 * a, 3 * b) -= ra * rb * block;
+            out.block<3, 3>(3 * b, 3 * a) -= ra * rb * block;
+        }
+    }
+    return out;
+}
+
+// The largest eigenvalue of the same matrix without building it (power iteration, from above by 2 %, since it
+// converges from below), or of the Laplacian that bounds it.
+double largestByIteration(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient,
+                          bool laplacian) {
+    Eigen::Matrix3Xd x(3, freedom.count);
+    for (int i = 0; i < freedom.count; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            x(axis, i) = std::sin(1.7 * i + 2.3 * axis + 1);  // no symmetry
+    double largest = 0;
+    for (int round = 0; round < 300; ++round) {
+        x.normalize();
+        Eigen::Matrix3Xd y = Eigen::Matrix3Xd::Zero(3, freedom.count);
+        for (const Spring& spring : molecule.springs) {
+            const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
+            const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
+            Eigen::Vector3d d = Eigen::Vector3d::Zero();
+            if (a >= 0) d += ra * x.col(a);
+            if (b >= 0) d -= rb * x.col(b);
+            if (!laplacian) {
+                const Eigen::Vector3d n = direction(molecule, spring);
+                d = n.dot(d) * n;
+            }
+            d *= spring.*coefficient;
+            if (a >= 0) y.col(a) += ra * d;
+            if (b >= 0) y.col(b) -= rb * d;
+        }
+        const double before = largest;
+        largest = y.norm();
+        if (largest == 0 || std::abs(largest - before) < 1e-7 * largest) break;
+        x = y;
+    }
+    return largest * 1.02;
+}
+
+MatrixXd scaledLaplacian(const Molecule& molecule, const Freedom& freedom) {
+    MatrixXd out = MatrixXd::Zero(freedom.count, freedom.count);
+    for (const Spring& spring : molecule.springs) {
+        const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
+        const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
+        if (a >= 0) out(a, a) += spring.stiffness * ra * ra;
+        if (b >= 0) out(b, b) += spring.stiffness * rb * rb;
+        if (a < 0 || b < 0) continue;
+        out(a, b) -= spring.stiffness * ra * rb;
+        out(b, a) -= spring.stiffness * ra * rb;
+    }
+    return out;
+}
+
+VectorXd eigenvalues(const MatrixXd& matrix) {
+    return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+int rankOf(const MatrixXd& matrix) {
+    if (matrix.rows() == 0) return 0;
+    Eigen::JacobiSVD<MatrixXd> svd(matrix);
+    const VectorXd& values = svd.singularValues();
+    int rank = 0;
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        rank += values(i) > 1e-7 ? 1 : 0;
+    return rank;
+}
+
+// Rigid motions of the whole that hold every pinned vertex still: those of all vertices less those that the
+// pinned ones alone would show.
+int countRigidModes(const Molecule& molecule, const Freedom& freedom) {
+    glm::dvec3 centre(0);
+    for (const Vertex& vertex : molecule.vertices)
+        centre += vertex.position / double(molecule.vertices.size());
+    const double size = molecule.size();
+    // A Gram matrix would square the condition number; the rows of six columns are few enough as they are.
+    const auto motions = [&](bool onlyPinned) {
+        std::vector<glm::dvec3> points;
+        for (size_t i = 0; i < molecule.vertices.size(); ++i)
+            if (!onlyPinned || freedom.index[i] < 0)
+                points.push_back((molecule.vertices[i].position - centre) / size);
+        MatrixXd out = MatrixXd::Zero(3 * Eigen::Index(points.size()), 6);
+        for (size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Index row = 3 * Eigen::Index(i);
+            const Eigen::Vector3d p = toEigen(points[i]);
+            out.block<3, 3>(row, 0).setIdentity();
+            for (int axis = 0; axis < 3; ++axis)
+                out.block<3, 1>(row, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(p);
+        }
+        return out;
+    };
+    return rankOf(motions(false)) - rankOf(motions(true));
+}
+
+// The largest h for which h^2 A + factor h B stays below 4, found by bisection: the eigenvalues grow with h.
+double stableStep(const MatrixXd& stiffness, const MatrixXd& damping, double factor, double mostA,
+                  double mostB) {
+    // h^2 mostA + factor h mostB = 4 is safe, since the two largest eigenvalues bound that of the sum.
+    const double drag = factor * mostB;
+    if (mostA <= 0 && drag <= 0) return std::numeric_limits<double>::infinity();
+    const double safe = 8 / (drag + std::sqrt(drag * drag + 16 * mostA));
+    if (stiffness.rows() == 0 || drag == 0) return safe;
+    const MatrixXd four = 4 * MatrixXd::Identity(stiffness.rows(), stiffness.cols());
+    double below = safe, above = mostA > 0 ? std::min(2 * safe, 2 / std::sqrt(mostA)) : safe;
+    for (int i = 0; i < 30 && above > below; ++i) {
+        const double h = 0.5 * (below + above);
+        const Eigen::LLT<MatrixXd> positive(four - h * h * stiffness - factor * h * damping);
+        (positive.info() == Eigen::Success ? below : above) = h;
+    }
+    return below;
+}
+
+void analyseDensely(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
+    const MatrixXd stiffness = assemble(molecule, freedom, &Spring::stiffness);
+    const MatrixXd damping = assemble(molecule, freedom, &Spring::damping);
+    const VectorXd values = eigenvalues(stiffness);
+    const double most = std::max(0.0, values(values.size() - 1));
+    const double mostDamping = std::max(0.0, eigenvalues(damping)(values.size() - 1));
+    out.highestFrequency = std::sqrt(most);
+    const VectorXd bound = eigenvalues(scaledLaplacian(molecule, freedom));
+    out.frequencyBound = std::sqrt(std::max(0.0, bound(bound.size() - 1)));
+
+    int zeros = 0;
+    for (Eigen::Index i = 0; i < values.size(); ++i) {
+        if (values(i) <= zeroRelative * most) {
+            ++zeros;
+        } else {
+            out.lowestFrequency = std::sqrt(values(i));
+            break;
+        }
+    }
+    out.zeroModes = std::max(0, zeros - out.rigidModes);
+    out.stableStepEuler = stableStep(stiffness, damping, 2, most, mostDamping);
+    out.stableStepLeapfrog = stableStep(stiffness, damping, 4, most, mostDamping);
+}
+
+void analyseByIteration(const Molecule& molecule, const Freedom& freedom, Analysis& out) {
+    out.modesKnown = false;
+    const double most = largestByIteration(molecule, freedom, &Spring::stiffness, false);
+    const double mostDamping = largestByIteration(molecule, freedom, &Spring::damping, false);
+    out.highestFrequency = std::sqrt(most);
+    out.frequencyBound = std::sqrt(largestByIteration(molecule, freedom, &Spring::stiffness, true));
+    out.stableStepEuler = stableStep({}, {}, 2, most, mostDamping);
+    out.stableStepLeapfrog = stableStep({}, {}, 4, most, mostDamping);
+}
+
+}  // namespace
+
+Analysis analyse(const Molecule& molecule, bool pinned) {
+    Analysis out;
+    out.vertices = static_cast<int>(molecule.vertices.size());
+    out.springs = static_cast<int>(molecule.springs.size());
+    out.triangles = static_cast<int>(molecule.triangles.size());
+    out.stableStepEuler = out.stableStepLeapfrog = std::numeric_limits<double>::infinity();
+    for (const Vertex& vertex : molecule.vertices)
+        out.totalMass += vertex.mass;
+    for (const Spring& spring : molecule.springs) {
+        const double stretch = glm::length(molecule.vertices[size_t(spring.a)].position -
+                                           molecule.vertices[size_t(spring.b)].position) -
+                               molecule.restLength(spring);
+        out.restEnergy += 0.5 * spring.stiffness * stretch * stretch;
+    }
+    const Freedom freedom(molecule, pinned);
+    if (freedom.count == 0) return out;
+    if (molecule.vertices.size() > mostDense) {
+        analyseByIteration(molecule, freedom, out);
+        return out;
+    }
+    out.rigidModes = countRigidModes(molecule, freedom);
+    analyseDensely(molecule, freedom, out);
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,33 @@
+// Molecule files: strict JSON in the format "shoal-molecule-1" (molecules/molecule.schema.json).
+//
+//   { "format": "shoal-molecule-1", "name": "pair",
+//     "defaults": { "mass": 0.1, "stiffness": 50, "damping": 0.1 },
+//     "vertices":  [ { "position": [0, 0, 0], "uv": [0, 0], "pinned": true }, { "position": [1, 0, 0] } ],
+//     "springs":   [ { "a": 0, "b": 1, "restLength": 1,
+//                      "actuation": { "amplitude": 0.2, "frequency": 2, "phase": 0 } } ],
+//     "triangles": [],
+//     "material":  { "color": [0.2, 0.5, 0.1], "texture": "leaf.png" } }
+//
+// Metres, kilograms, N/m, N s/m. A vertex needs a mass and a spring a stiffness, its own or from the
+// defaults; damping is 0 and restLength the drawn distance unless given.
+#pragma once
+
+#include <string>
+
+#include "molecule/molecule.h"
+
+namespace shoal {
+
+constexpr int maxMoleculeVertices = 65536;
+constexpr int maxMoleculeSprings = 1 << 20;
+constexpr int maxMoleculeTriangles = 1 << 20;
+
+// Error: located, for whatever is missing, mistyped, out of range, repeated or unknown.
+Molecule readMolecule(const std::string& file);
+Molecule parseMolecule(const std::string& text, const std::string& file);
+
+// Reads back as the same molecule. With the text of the file that it came from, keys keep that file's order
+// and comments survive. Defaults carry the mass, stiffness and damping that most elements share.
+std::string writeMolecule(const Molecule& molecule, const std::string& originalText = {});
+
+}  // namespace shoal
