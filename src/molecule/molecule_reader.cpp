@@ -1,5 +1,6 @@
 // From a molecule file to a Molecule. What is refused here would have no meaning or break a solver; what is
 // merely unlikely to be meant is a warning of check().
+#include <algorithm>
 #include <set>
 #include <utility>
 
