@@ -187,6 +187,20 @@ TEST_CASE("orders in a smooth scene: Runge-Kutta 4, euler 1, leapfrog 2", "[refe
     CHECK(slope(flat, start, SolverKind::leapfrog, 1, 500) == Approx(2).margin(0.1));
 }
 
+TEST_CASE("orders where time acts: a gust that travels and a muscle", "[reference]") {
+    Molecule molecule = test::leaf(100, 0.5);
+    molecule.vertices[0].pinned = true;
+    for (Spring& spring : molecule.springs) spring.actuation = Actuation{0.1, 1.5, 0.5};
+    Problem problem{.molecule = &molecule, .gravity = {0, -9.81, 0}, .drag = {3, 3}};
+    GustField gust;
+    gust.frontSpeed = 20;
+    gust.length = 4;
+    problem.fields.push_back(test::field(gust));
+    const State start = restState(problem, {.rotation = test::turned()});
+    CHECK(slope(problem, start, SolverKind::euler, 1, 2000) == Approx(1).margin(0.1));
+    CHECK(slope(problem, start, SolverKind::leapfrog, 1, 500) == Approx(2).margin(0.1));
+}
+
 TEST_CASE("deviation splits into centroid and shape", "[reference]") {
     State a, b;
     a.position = {{0, 0, 0}, {1, 0, 0}};
