@@ -10,6 +10,7 @@ both follow the same coordinate (see vein_coordinate). The mottling between the 
 noise (Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996). Same bytes every run.
 """
 
+import functools
 import math
 import pathlib
 import sys
@@ -88,14 +89,18 @@ def alpha(u, v):
     return sum(is_inside(u + dx, v + dy) for dx in places for dy in places) / 25
 
 
+@functools.lru_cache(maxsize=None)
+def feature_point(cx, cy, seed):
+    return (cx + 0.5 + 0.45 * noise((cx, cy, 0), seed), cy + 0.5 + 0.45 * noise((cx, cy, 0), seed + 1))
+
+
 def cells(x, y, seed):
     """Distance to the wall between the two nearest feature points, in cells: 0 on the wall."""
     bx, by = math.floor(x), math.floor(y)
     nearest, second = 9.0, 9.0
     for cy in (by - 1, by, by + 1):
         for cx in (bx - 1, bx, bx + 1):
-            px = cx + 0.5 + 0.45 * noise((cx, cy, 0), seed)
-            py = cy + 0.5 + 0.45 * noise((cx, cy, 0), seed + 1)
+            px, py = feature_point(cx, cy, seed)
             d = math.hypot(px - x, py - y)
             if d < nearest:
                 nearest, second = d, nearest
@@ -126,7 +131,7 @@ def shade(u, v):
     fine = cells(95 * u, 95 * v, 8)
     blotch = noise((7 * u, 7 * v, 0.5), 21) + 0.5 * noise((19 * u, 19 * v, 0.5), 22)
 
-    value = 0.745 + 0.030 * blotch
+    value = 0.780 + 0.030 * blotch
     value += 0.050 * line(wall, 0.10) + 0.030 * (min(fine, 0.5) - 0.2)
     value -= 0.045 * min(hollow, 1.0)
     value -= 0.14 * smoothstep(0.86, 1.03, across)

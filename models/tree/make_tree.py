@@ -41,16 +41,16 @@ OBJECTS = (("trunk", (TRUNK,)), ("limbs", (LIMB,)), ("branches", (BRANCH, SMALL_
            ("twigs", (TWIG, SPRIG)))
 
 CROWN_CENTRE = (0.05, 4.0, 0.0)
-CROWN_RADIUS = 2.65       # m, level with the centre
-CROWN_ABOVE = 2.4         # m, centre to top
+CROWN_RADIUS = 2.55       # m, level with the centre
+CROWN_ABOVE = 2.35         # m, centre to top
 CROWN_BELOW = 2.1         # m, centre to underside
 LOWEST_WOOD = 2.1        # m, no target below
 
 LIMB_COUNT = 11
-TARGETS = {BRANCH: 72, SMALL_BRANCH: 225, TWIG: 720}
+TARGETS = {BRANCH: 70, SMALL_BRANCH: 215, TWIG: 700}
 SHELL = {BRANCH: (0.45, 0.86), SMALL_BRANCH: (0.40, 0.94), TWIG: (0.42, 1.0)}  # part of the crown's radius
 SPRINGS_FROM = {BRANCH: (TRUNK, LIMB), SMALL_BRANCH: (LIMB, BRANCH), TWIG: (BRANCH, SMALL_BRANCH)}
-RING_SPACING = {LIMB: 0.13, BRANCH: 0.13, SMALL_BRANCH: 0.14, TWIG: 0.14}      # m
+RING_SPACING = {LIMB: 0.08, BRANCH: 0.13, SMALL_BRANCH: 0.14, TWIG: 0.14}      # m
 FORK_SPACING = {BRANCH: 0.20, SMALL_BRANCH: 0.16, TWIG: 0.07}                  # m, along the parent
 WANDER = {TRUNK: 0.0, LIMB: 0.085, BRANCH: 0.075, SMALL_BRANCH: 0.06, TWIG: 0.04}  # of the length
 DROOP = {LIMB: 0.03, BRANCH: 0.06, SMALL_BRANCH: 0.08, TWIG: 0.12}             # of the length
@@ -273,7 +273,7 @@ def visible_part(axis):
     if not axis.parent:
         return points, radii
     parent_radius = axis.parent.radii[axis.fork]
-    hidden = 0.55 * parent_radius
+    hidden = max(0.0, 0.6 * parent_radius - 1.1 * radii[0])  # a thick branch's slanted end must stay inside
     while len(points) > 3 and distance(points[1], points[0]) <= hidden:
         hidden -= distance(points[1], points[0])
         del points[0], radii[0]
@@ -283,7 +283,7 @@ def visible_part(axis):
     for i in range(len(points)):
         if i:
             along += distance(points[i - 1], points[i])
-        collar = 0.4 * math.exp(-along / (1.2 * parent_radius))
+        collar = 0.45 * math.exp(-max(0.0, along + hidden - 0.7 * parent_radius) / parent_radius)
         radii[i] = min(radii[i] * (1 + collar), max(radii[i], 0.9 * parent_radius))
     return points, radii
 
@@ -298,6 +298,20 @@ def transported_frames(points):
         side = normalize(sub(side, scale(tangent, dot(side, tangent))))
         frames.append((tangent, side, cross(tangent, side)))
     return frames
+
+
+def blend_with_parent(axis, position, normal):
+    """Turns the normals near a fork towards those of the parent's bark, which hides the crease."""
+    if not axis.parent or axis.order > SMALL_BRANCH:
+        return normal
+    parent, fork = axis.parent, axis.fork
+    nearby = range(max(0, fork - 4), min(len(parent.points), fork + 8))
+    k = min(nearby, key=lambda i: distance(parent.points[i], position))
+    out = sub(position, parent.points[k])
+    out = sub(out, scale(parent.tangents[k], dot(out, parent.tangents[k])))
+    depth = length(out) / parent.radii[k]
+    near = smoothstep(1.9, 0.9, depth) * smoothstep(0.6, 0.9, depth)
+    return normalize(mix(normal, normalize(out), 0.75 * near))
 
 
 def surface_radius(axis, radius, point, angle):
@@ -353,7 +367,7 @@ def write_tube(obj, axis):
         for j in range(sides):
             round_way = sub(ring[(j + 1) % sides], ring[j - 1])
             along = sub(rings[min(i + 1, last)][j], rings[max(i - 1, 0)][j])
-            normal = normalize(cross(round_way, along))
+            normal = blend_with_parent(axis, ring[j], normalize(cross(round_way, along)))
             colour = bark_colour(axis, radii[i], reliefs[i][j], ring[j], normal)
             numbers[-1].append(obj.add_vertex(ring[j], normal, colour))
     tangent = frames[-1][0]
