@@ -1,9 +1,12 @@
-// Catch2, version 2 or 3: whichever the system has.
+// Catch2 of either major version behind one include: Debian 12 has 2.13, newer systems have 3.
 #pragma once
 
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
 using Catch::Approx;
 #else
-#include <catch2/catch.hpp>
+#include <catch2/catch.hpp>  // Approx is global there
+namespace Catch {
+using Detail::Approx;
+}
 #endif

@@ -1,0 +1,191 @@
+#!/usr/bin/env python3
+"""Makes the molecules that Shoal ships: run it in this folder to write all *.json beside it anew.
+
+Units are metres, kilograms, N/m and N s/m, +Y up. Standard library only.
+"""
+
+import itertools
+import json
+import math
+import pathlib
+
+FORMAT = "shoal-molecule-1"
+
+
+def number(value):
+    """Rounded to a micrometre, and whole numbers without a point."""
+    value = round(float(value), 6)
+    return int(value) if value == int(value) else value
+
+
+def vertex(position, uv=None, **more):
+    out = {"position": [number(x) for x in position]}
+    if uv is not None:
+        out["uv"] = [number(x) for x in uv]
+    return out | more
+
+
+def springs(pairs, **more):
+    """One spring a pair, each pair once, in the order given."""
+    return [{"a": a, "b": b} | more for a, b in dict.fromkeys(tuple(sorted(p)) for p in pairs)]
+
+
+def edges(triangles):
+    return [pair for t in triangles for pair in ((t[0], t[1]), (t[1], t[2]), (t[2], t[0]))]
+
+
+def across(triangles):
+    """The two vertices that face each other over an edge of two triangles: springs that resist bending."""
+    opposite = {}
+    for t in triangles:
+        for i in range(3):
+            opposite.setdefault(frozenset((t[i], t[(i + 1) % 3])), []).append(t[(i + 2) % 3])
+    return [tuple(pair) for pair in opposite.values() if len(pair) == 2]
+
+
+def write(name, comment, defaults, vertices, links=(), triangles=(), material=None):
+    molecule = {"format": FORMAT, "name": name, "comment": comment, "defaults": defaults, "vertices": vertices}
+    if links:
+        molecule["springs"] = list(links)
+    if triangles:
+        molecule["triangles"] = [list(t) for t in triangles]
+    molecule["material"] = material
+    parts = []
+    for key, value in molecule.items():
+        if isinstance(value, list):  # one element a line
+            lines = ",\n    ".join(json.dumps(element) for element in value)
+            text = f"[\n    {lines}\n  ]"
+        elif isinstance(value, dict):
+            lines = ",\n    ".join(f"{json.dumps(k)}: {json.dumps(v)}" for k, v in value.items())
+            text = f"{{\n    {lines}\n  }}"
+        else:
+            text = json.dumps(value)
+        parts.append(f"  {json.dumps(key)}: {text}")
+    path = pathlib.Path(__file__).parent / f"{name}.json"
+    path.write_text("{\n" + ",\n".join(parts) + "\n}\n")
+
+
+def point():
+    write("point", "A particle: one vertex, no springs.", {"mass": 0.001}, [vertex((0, 0, 0))],
+          material={"color": [0.75, 0.8, 0.9], "roughness": 0.5, "pointSize": 0.02})
+
+
+def quad():
+    side = 0.2
+    corners = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    write("quad", "Decker's flat quad: all six pairs of its corners are sprung. Its saddle bend has no stiffness.",
+          {"mass": 0.005, "stiffness": 20, "damping": 0.04},
+          [vertex(((u - 0.5) * side, 0, (0.5 - v) * side), (u, v)) for u, v in corners],
+          springs(itertools.combinations(range(4), 2)), [(0, 1, 2), (0, 2, 3)],
+          {"color": [0.8, 0.3, 0.08], "secondColor": [0.85, 0.6, 0.1], "translucency": 0.3, "roughness": 0.6})
+
+
+def leaf():
+    """A leaf 6.6 cm long. Two points at its base and one up the stem are pinned: they hold it like a clamp, so
+    that it cannot spin, and the blade flaps and twists on the springs above them. Its sides are folded up along
+    the midrib, as a real leaf's are, so that every bend has stiffness. The texture spans 4.8 cm by 6.6 cm."""
+    width, length = 0.048, 0.066
+    points = [  # x, y, z, milligrams, pinned
+        (-0.006, 0.000, 0.000, 60, True),
+        (0.006, 0.000, 0.000, 60, True),
+        (0.000, 0.012, -0.010, 60, True),
+        (-0.0215, 0.022, 0.006, 60, False),
+        (0.0215, 0.022, 0.006, 60, False),
+        (0.000, 0.036, -0.006, 80, False),
+        (-0.0195, 0.050, 0.006, 60, False),
+        (0.0195, 0.050, 0.006, 60, False),
+        (0.000, 0.066, 0.000, 50, False),
+    ]
+    triangles = [(0, 1, 2), (0, 2, 3), (1, 4, 2), (2, 5, 3), (2, 4, 5), (3, 5, 6), (4, 7, 5), (5, 8, 6), (5, 7, 8)]
+    skin = edges(triangles) + across(triangles)
+    # Ribs from the stem into the blade: without them the blade curls at the lightest breath.
+    ribs = [(0, 6), (1, 7), (0, 5), (1, 5), (2, 8), (2, 6), (2, 7), (3, 7), (4, 6)]
+    vertices = []
+    for x, y, z, milligrams, pinned in points:
+        more = {"mass": number(milligrams * 1e-6)} | ({"pinned": True} if pinned else {})
+        vertices.append(vertex((x, y, z), (0.5 + x / width, y / length), **more))
+    write("leaf", "A leaf with a stem to pin, folded along its midrib. Grows along +Y, its upper side faces +Z.",
+          {"stiffness": 0.39, "damping": 0.0011}, vertices, springs(skin + ribs), triangles,
+          {"color": [0.13, 0.33, 0.03], "secondColor": [0.42, 0.42, 0.05], "texture": "leaf.png", "alphaCut": 0.5,
+           "translucency": 0.6, "roughness": 0.55})
+
+
+def cross():
+    side = 0.1
+    half = side / 2
+    outline = [(1, 1), (1, 3), (-1, 3), (-1, 1), (-3, 1), (-3, -1), (-1, -1), (-1, -3), (1, -3), (1, -1), (3, -1),
+               (3, 1)]  # anticlockwise from the inner corner at the upper right, in half sides
+    squares = [(9, 0, 3, 6), (0, 1, 2, 3), (3, 4, 5, 6), (6, 7, 8, 9), (9, 10, 11, 0)]
+    triangles = [t for a, b, c, d in squares for t in ((a, b, c), (a, c, d))]
+    sides = [pair for s in squares for pair in zip(s, s[1:] + s[:1])]
+    diagonals = [pair for a, b, c, d in squares for pair in ((a, c), (b, d))]
+    tips = [(2, 4), (5, 7), (8, 10), (11, 1)]
+    write("cross", "Decker's cross: a flat plus sign of five squares, with a spring between neighbouring tips "
+          "against bending.", {"mass": 0.002, "stiffness": 10, "damping": 0.01},
+          [vertex((x * half, 0, -y * half), (0.5 + x / 6, 0.5 + y / 6)) for x, y in outline],
+          springs(sides + diagonals + tips), triangles,
+          {"color": [0.1, 0.3, 0.7], "secondColor": [0.3, 0.15, 0.6], "translucency": 0.2, "roughness": 0.5})
+
+
+def up(x, y, z):
+    """From z up, in which the yardsticks are defined, to y up."""
+    return (x, z, -y)
+
+
+def cross_braced():
+    arms = [(0.5, 0), (0, 0.5), (-0.5, 0), (0, -0.5)]
+    vertices = [vertex(up(x, y, z), (0.5 + math.hypot(x, y) * (1 if x + y > 0 else -1), z))
+                for z in (0, 1) for x, y in [(0, 0)] + arms]
+    pairs = [(0, 5)]
+    triangles = []
+    for i in range(1, 5):
+        pairs += [(0, i), (5, 5 + i), (i, 5 + i), (0, 5 + i), (5, i)]
+        triangles += [(0, i, 5 + i), (0, 5 + i, 5)]
+    for layer in (0, 5):
+        pairs += [(layer + i, layer + i % 4 + 1) for i in range(1, 5)]
+    write("cross-braced", "Four panels about an axis, braced by 29 springs: a yardstick, 1 m high and every mass 1 kg. "
+          "To hold it, pin the two centres (vertices 0 and 5).", {"mass": 1, "stiffness": 100, "damping": 0.5},
+          vertices, springs(pairs), triangles,
+          {"color": [0.6, 0.45, 0.2], "translucency": 0.1, "roughness": 0.7})
+
+
+def fish():
+    radii = [(0.08, 0.12), (0.16, 0.28), (0.2, 0.35), (0.16, 0.28), (0.08, 0.16), (0.05, 0.3)]
+    vertices, pairs, triangles = [], [], []
+    for ring, (rx, rz) in enumerate(radii):
+        y = 0.4 * ring
+        for side, (x, z) in enumerate([(rx, 0), (0, rz), (-rx, 0), (0, -rz)]):
+            vertices.append(vertex(up(x, y, z), (y / 2, 0.5 + 0.5 * z / 0.35)))
+            here, beside = 4 * ring + side, 4 * ring + (side + 1) % 4
+            pairs.append((here, beside))
+            if side < 2:
+                pairs.append((here, here + 2))
+            if ring < 5:
+                pairs += [(here, here + 4), (here, beside + 4), (beside, here + 4)]
+                triangles += [(here, here + 4, beside), (beside, here + 4, beside + 4)]
+    triangles += [(0, 1, 2), (0, 2, 3), (20, 22, 21), (20, 23, 22)]  # snout and tail are closed
+    write("fish", "Six rings of four vertices, 96 springs: a yardstick, 2 m long and every mass 1 kg. Swims along +Z. "
+          "To hold it, pin vertices 0 and 2.", {"mass": 1, "stiffness": 100, "damping": 0.5},
+          vertices, springs(pairs), triangles,
+          {"color": [0.35, 0.45, 0.55], "secondColor": [0.55, 0.5, 0.3], "roughness": 0.35})
+
+
+def flake():
+    """A hexagon 1.6 cm across whose corners stand up and down in turn, so that no bend is free."""
+    radius, fold = 0.008, 0.0015
+    vertices = [vertex((0, 0.001, 0), (0.5, 0.5))]
+    for i in range(6):
+        x, z = math.cos(i * math.pi / 3), -math.sin(i * math.pi / 3)
+        vertices.append(vertex((radius * x, fold if i % 2 else -fold, radius * z), (0.5 + x / 2, 0.5 - z / 2)))
+    ring = [1, 2, 3, 4, 5, 6]
+    after = dict(zip(ring, ring[1:] + ring[:1]))
+    pairs = [(0, i) for i in ring] + [(i, after[i]) for i in ring] + [(i, after[after[i]]) for i in ring]
+    write("flake", "A light flake of snow or a petal: a folded hexagon.",
+          {"mass": 0.000003, "stiffness": 0.02, "damping": 0.00002},
+          vertices, springs(pairs), [(0, i, after[i]) for i in ring],
+          {"color": [0.9, 0.93, 1.0], "secondColor": [0.75, 0.82, 0.95], "translucency": 0.5, "roughness": 0.4})
+
+
+if __name__ == "__main__":
+    for make in (point, quad, leaf, cross, cross_braced, fish, flake):
+        make()

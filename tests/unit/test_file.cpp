@@ -1,0 +1,69 @@
+#include "support/catch.h"
+
+#include <csignal>
+#include <cstddef>
+#include <fstream>
+
+#include <sys/resource.h>
+
+#include "core/file.h"
+#include "support/message_of.h"
+#include "support/temporary_folder.h"
+
+using namespace shoal;
+
+static size_t entries(const std::filesystem::path& folder) {
+    size_t count = 0;
+    for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder))
+        ++count;
+    return count;
+}
+
+TEST_CASE("a file reads back as it was written, zero bytes too", "[file]") {
+    const TemporaryFolder folder;
+    const std::string bytes("a\0b\n", 4);
+    writeFile(folder / "new/deep/x.bin", bytes);
+    CHECK(readFile(folder / "new/deep/x.bin") == bytes);
+    writeFile(folder / "new/deep/x.bin", std::string_view("second"));
+    CHECK(readFile(folder / "new/deep/x.bin") == "second");
+    CHECK(entries(folder / "new/deep") == 1);
+}
+
+TEST_CASE("what cannot be read says why", "[file]") {
+    const TemporaryFolder folder;
+    CHECK(messageOf([&] { readFile(folder / "none"); }) == (folder / "none").string() + ": no such file");
+    CHECK(messageOf([&] { readFile(folder.path()); }).find("is a folder, expected a file") !=
+          std::string::npos);
+    writeFile(folder / "large", std::string(100, 'x'));
+    CHECK(messageOf([&] { readFile(folder / "large", 99); }).find("is larger than 99 bytes") !=
+          std::string::npos);
+    CHECK(readFile(folder / "large", 100).size() == 100);
+}
+
+TEST_CASE("what cannot be written says why", "[file]") {
+    const TemporaryFolder folder;
+    writeFile(folder / "file", std::string_view("x"));
+    CHECK(messageOf([&] { writeFile(folder.path(), std::string_view("x")); }).find("is a folder") !=
+          std::string::npos);
+    CHECK(messageOf([&] {
+              writeFile(folder / "file/below", std::string_view("x"));
+          }).find("cannot be written") != std::string::npos);
+}
+
+TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
+    const TemporaryFolder folder;
+    writeFile(folder / "kept", std::string_view("old"));
+    // A limit on the size of files fails a write as a full disk does.
+    rlimit before{};
+    getrlimit(RLIMIT_FSIZE, &before);
+    rlimit small = before;
+    small.rlim_cur = 1000;
+    const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+    setrlimit(RLIMIT_FSIZE, &small);
+    const std::string message = messageOf([&] { writeFile(folder / "kept", std::string(100000, 'x')); });
+    setrlimit(RLIMIT_FSIZE, &before);
+    std::signal(SIGXFSZ, handler);
+    CHECK(message.find("cannot be written") != std::string::npos);
+    CHECK(readFile(folder / "kept") == "old");
+    CHECK(entries(folder.path()) == 1);
+}
