@@ -18,9 +18,9 @@ enum class FieldAxes {
 
 struct FgaOptions {
     FieldAxes axes = FieldAxes::yUp;
-    double scale = 1;                     // m per unit of the file, for bounds and velocities
-    std::optional<double> velocityScale;  // m/s per unit of the file, instead of `scale`
-    glm::dvec3 origin{0};                 // m, added to the bounds in the scene's axes
+    double scale = 1;                          // m per unit of the file, for bounds and velocities
+    std::optional<double> velocityScale = {};  // m/s per unit of the file, instead of `scale`
+    glm::dvec3 origin{0};                      // m, added to the bounds in the scene's axes
     bool wrap = false;
 };
 
