@@ -1,4 +1,5 @@
-// Host models, terrain and colliders. Variants: SHADOWS, GRID (a plane with a metre grid that fades into the haze).
+// Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
+// haze instead; GRID, a plane with lines every metre.
 
 #include "physics/noise.glsl"
 #include "render/light.glsl"
@@ -11,11 +12,11 @@ in vec3 color;
 uniform vec3 meshColor;
 uniform float roughness;
 uniform float detail;  // strength of the procedural grain, 0 for none
-#ifdef GRID
-uniform vec3 gridAlong;    // two unit directions within the plane
-uniform vec3 gridAcross;
-uniform vec2 gridOffset;   // of local (0, 0, 0) on the grid, m
-uniform float gridRadius;  // m, where the plane has faded away
+#ifdef PLANE
+uniform float planeRadius;  // m, where the plane has faded away
+uniform vec3 planeAlong;    // two unit directions within the plane
+uniform vec3 planeAcross;
+uniform vec2 planeOffset;   // of the foot of the eye on the grid, m
 #endif
 
 out vec4 fragment;
@@ -68,15 +69,17 @@ void main()
     }
     float faded = 0.0;
 #ifdef GRID
-    // Lines every metre and stronger every ten, one pixel soft at every distance.
-    vec2 grid = vec2(dot(local, gridAlong), dot(local, gridAcross)) + gridOffset;
+    // Stronger every ten metres; one pixel soft at every distance.
+    vec2 grid = vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset;
     vec2 width = max(fwidth(grid), vec2(1e-5));
     vec2 toLine = abs(fract(grid - 0.5) - 0.5);
     vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
     vec2 toTenth = abs(fract(grid / 10.0 - 0.5) - 0.5) * 10.0;
     vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
     albedo *= 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
-    faded = smoothstep(0.1, 1.0, length(place) / gridRadius);
+#endif
+#ifdef PLANE
+    faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
 #endif
 
     Surface s;

@@ -6,6 +6,10 @@ layout(location = 2) in vec3 cornerColor;
 
 uniform mat4 toClip;
 uniform vec3 meshOrigin;  // relative to the origin of drawing, m
+uniform float meshScale;
+#ifndef DEPTH_ONLY
+uniform vec3 grainOffset;  // of the mesh in the procedural grain, m
+#endif
 
 #ifndef DEPTH_ONLY
 out vec3 place;
@@ -16,10 +20,10 @@ out vec3 color;
 
 void main()
 {
-    vec3 at = meshOrigin + corner;
+    vec3 at = meshOrigin + meshScale * corner;
 #ifndef DEPTH_ONLY
     place = at;
-    local = corner;
+    local = grainOffset + meshScale * corner;
     normal = cornerNormal;
     color = cornerColor;
 #endif

@@ -1,0 +1,76 @@
+#include "render/bounds.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace shoal {
+
+static const Box emptyBox{glm::dvec3(std::numeric_limits<double>::infinity()),
+                          glm::dvec3(-std::numeric_limits<double>::infinity())};
+
+static void include(Box& box, const glm::dvec3& low, const glm::dvec3& high) {
+    box.low = glm::min(box.low, low);
+    box.high = glm::max(box.high, high);
+}
+
+static bool isEmpty(const Box& box) {
+    return !(box.low.x <= box.high.x);
+}
+
+// Of a group's start state. Molecules are followed by their first vertex and padded by their size.
+static Box boundsOf(const Plan& plan, const GroupPlan& group) {
+    Box box = emptyBox;
+    for (int m = 0; m < group.count; ++m) {
+        const size_t row = size_t(m / stateWidth), column = size_t(m % stateWidth);
+        const size_t record = (size_t(group.firstRecordRow) + row) * stateWidth + column;
+        const size_t texel = (size_t(group.firstRow) + row) * stateWidth + column;
+        const glm::dvec3 place = glm::dvec3(plan.records[record]) + glm::dvec3(plan.positions[texel]);
+        include(box, place, place);
+    }
+    box.low -= group.size;
+    box.high += group.size;
+    return box;
+}
+
+// A tree's crown: many molecules with a surface, on a model, about as high as wide (not a lawn).
+static bool isCrown(const Group& group, const Box& box) {
+    const glm::dvec3 extent = box.high - box.low;
+    return group.count >= 200 && group.place.model >= 0 && !group.molecule.triangles.empty() &&
+           extent.y > 0.35 * std::max(extent.x, extent.z);
+}
+
+SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
+    SceneBounds bounds;
+    bounds.casters = emptyBox;
+    Box crown = emptyBox;
+    for (const GroupPlan& group : plan.groups) {
+        if (group.count == 0 || plan.positions.empty()) continue;
+        const Group& source = scene.groups[group.index];
+        const Box box = boundsOf(plan, group);
+        include(bounds.casters, box.low, box.high);
+        if (isCrown(source, box)) include(crown, box.low, box.high);
+        const int carrier = source.place.kind == Placement::Kind::vertices ? source.place.model : -1;
+        if (carrier >= 0 && scene.models[size_t(carrier)].draw) {
+            const Mesh& mesh = scene.models[size_t(carrier)].mesh;
+            include(bounds.casters, mesh.low, mesh.high);
+        }
+    }
+    for (const Collider& collider : scene.colliders) {
+        const auto* sphere = std::get_if<SphereCollider>(&collider.shape);
+        if (sphere == nullptr || !collider.draw) continue;
+        include(bounds.casters, sphere->center - sphere->radius, sphere->center + sphere->radius);
+    }
+    if (isEmpty(bounds.casters)) {
+        for (const Model& model : scene.models) {
+            if (model.draw) include(bounds.casters, model.mesh.low, model.mesh.high);
+        }
+    }
+    if (isEmpty(bounds.casters)) bounds.casters = Box{};
+    if (!isEmpty(crown)) {
+        const glm::dvec3 half = 0.5 * (crown.high - crown.low);
+        bounds.crown = {0.5 * (crown.low + crown.high), (half.x + half.y + half.z) / 3};
+    }
+    return bounds;
+}
+
+}  // namespace shoal

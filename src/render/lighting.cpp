@@ -1,0 +1,43 @@
+#include "render/lighting.h"
+
+namespace shoal {
+
+glm::dvec3 towardsSun(const Light& light) {
+    const double length = glm::length(light.direction);
+    return length > 0 ? -light.direction / length : glm::dvec3(0, 1, 0);
+}
+
+Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow)
+    : towardsSun_(shoal::towardsSun(scene.light)),
+      sun_(scene.light.color * scene.light.intensity),
+      zenith_(scene.sky.zenith * scene.sky.intensity),
+      horizon_(scene.sky.horizon * scene.sky.intensity),
+      ground_(scene.sky.ground * scene.sky.intensity),
+      fog_(float(scene.sky.fog)),
+      crown_(crown),
+      shadow_(shadow) {}
+
+std::vector<std::string> Lighting::defines() const {
+    if (shadow_ == nullptr) return {};
+    return {"SHADOWS"};
+}
+
+void Lighting::applySky(const gpu::Program& program) const {
+    program.set("sunDirection", towardsSun_);
+    program.set("sunColor", sun_);
+    program.set("skyZenith", zenith_);
+    program.set("skyHorizon", horizon_);
+    program.set("skyGround", ground_);
+}
+
+void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
+    applySky(program);
+    program.set("fogDensity", fog_);
+    program.set("crown", glm::vec4(glm::vec3(crown_.center - eye.origin.exact), float(crown_.radius)));
+    if (shadow_ == nullptr) return;
+    program.texture("shadowMap", unit::shadowMap, shadow_->depth());
+    program.set("toShadow", shadow_->toTexture(eye.origin));
+    program.set("shadowFilter", shadow_->filter());
+}
+
+}  // namespace shoal

@@ -1,0 +1,40 @@
+// Sun, sky, haze and shadow as the shaders take them (shaders/render/sky.glsl, light.glsl).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/program.h"
+#include "render/bounds.h"
+#include "render/shadow_map.h"
+#include "render/view.h"
+#include "scene/scene.h"
+
+namespace shoal {
+
+// Texture units, one for each sampler of the room.
+namespace unit {
+constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6;
+}
+
+class Lighting {
+  public:
+    // `shadow` may be null: the sun casts none.
+    Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow);
+
+    // What the programs are compiled with.
+    std::vector<std::string> defines() const;
+    void applySky(const gpu::Program& program) const;
+    void apply(const gpu::Program& program, const Eye& eye) const;
+
+  private:
+    glm::vec3 towardsSun_{0}, sun_{0}, zenith_{0}, horizon_{0}, ground_{0};
+    float fog_ = 0;
+    Sphere crown_;
+    const ShadowMap* shadow_;
+};
+
+// Unit. Straight down where the direction is zero.
+glm::dvec3 towardsSun(const Light& light);
+
+}  // namespace shoal

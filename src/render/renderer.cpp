@@ -1,0 +1,120 @@
+#include "render/renderer.h"
+
+#include <algorithm>
+
+#include "gpu/debug_group.h"
+
+namespace shoal {
+
+static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Scene& scene, const Plan& plan,
+                                                const RenderOptions& options) {
+    if (!scene.light.shadows || scene.light.intensity <= 0) return nullptr;
+    const int size = std::min(options.shadowSize, context.info().maxTextureSize);
+    return std::make_unique<ShadowMap>(context, size, boundsOf(scene, plan).casters, towardsSun(scene.light));
+}
+
+static Sphere crownOf(const Scene& scene, const Plan& plan, const RenderOptions& options) {
+    return options.crownShade ? boundsOf(scene, plan).crown : Sphere{};
+}
+
+Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
+                   const RenderOptions& options)
+    : context_(&context),
+      options_(options),
+      shadow_(makeShadowMap(context, scene, plan, options)),
+      lighting_(scene, crownOf(scene, plan, options), shadow_.get()),
+      surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
+      molecules_(context, shaderRoot, scene, plan, lighting_, shadow_.get()),
+      sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", {}, {}, "sky"}),
+      tone_(context, shaderRoot, {"render/screen.vert", "render/picture.frag", {}, {}, "picture"}),
+      empty_(context, "no corners") {
+    resize(options.width, options.height);
+}
+
+void Renderer::resize(int width, int height) {
+    using gpu::Format;
+    if (picture_ && width == picture_.width() && height == picture_.height()) return;
+    samples_ = gpu::Framebuffer::multisampled(*context_, Format::rgba16f, true, options_.samples, width,
+                                              height, "light, sampled");
+    light_ = gpu::Texture(*context_, Format::rgba16f, width, height, "light");
+    picture_ = gpu::Texture(*context_, Format::rgba8, width, height, "picture");
+    lightTarget_ = gpu::Framebuffer(*context_, {&light_}, nullptr, "light");
+    pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
+}
+
+void Renderer::draw(const State& state, const View& view) {
+    const Eye eye(view, width(), height());
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_LEQUAL);
+
+    if (shadow_) drawShadows(state);
+    samples_.bind();
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_TRUE);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    {
+        const gpu::DebugGroup group(*context_, "surfaces");
+        surfaces_.draw(eye, lighting_);
+    }
+    {
+        const gpu::DebugGroup group(*context_, "molecules");
+        molecules_.draw(state, eye, lighting_, samples_.samples() > 1);
+    }
+    drawSky(eye);
+    samples_.blitTo(lightTarget_);
+    drawPicture(view.exposure);
+}
+
+void Renderer::drawShadows(const State& state) const {
+    const gpu::DebugGroup group(*context_, "shadows");
+    shadow_->begin();
+    surfaces_.drawShadows(*shadow_);
+    molecules_.drawShadows(state, *shadow_);
+    shadow_->end();
+}
+
+// Last, at the far plane: only where nothing else was drawn.
+void Renderer::drawSky(const Eye& eye) const {
+    const gpu::DebugGroup group(*context_, "sky");
+    sky_.use();
+    lighting_.applySky(sky_);
+    sky_.set("viewToScene", eye.viewToScene);
+    sky_.set("tangents", eye.tangents);
+    empty_.bind();
+    glDepthMask(GL_FALSE);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::drawPicture(double exposure) const {
+    const gpu::DebugGroup group(*context_, "picture");
+    pictureTarget_.bind();
+    tone_.use();
+    tone_.texture("light", unit::light, light_);
+    tone_.set("exposure", float(exposure));
+    empty_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Renderer::present(int width, int height) const {
+    pictureTarget_.blitToDefault(width, height);
+}
+
+Image Renderer::capture() const {
+    const size_t row = size_t(width()) * 4;
+    std::vector<uint8_t> upsideDown(row * size_t(height()));
+    picture_.download(gpu::Traffic::Kind::parameters, 0, 0, width(), height(), upsideDown.data(),
+                      upsideDown.size());
+    Image image{width(), height(), 4, std::vector<uint8_t>(upsideDown.size())};
+    for (size_t y = 0; y < size_t(height()); ++y) {
+        std::copy_n(upsideDown.end() - std::ptrdiff_t((y + 1) * row), row,
+                    image.pixels.begin() + std::ptrdiff_t(y * row));
+    }
+    return image;
+}
+
+}  // namespace shoal

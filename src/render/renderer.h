@@ -1,0 +1,69 @@
+// The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
+// gamma-correct. Draws straight from the state textures; moves no byte of state and writes none of it.
+//
+//   shadow map (depth)  ->  light (RGBA16F, several samples)  ->  resolved light  ->  picture (RGBA8, sRGB)
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compile/plan.h"
+#include "core/image.h"
+#include "gpu/context.h"
+#include "gpu/framebuffer.h"
+#include "render/lighting.h"
+#include "render/molecule_drawer.h"
+#include "render/surface_drawer.h"
+#include "render/view.h"
+#include "simulate/state.h"
+
+namespace shoal {
+
+struct RenderOptions {
+    int width = 1280, height = 720;  // pixels
+    int samples = 4;                 // a pixel; reduced to what the context has
+    int shadowSize = 2048;           // texels a side
+    bool crownShade = true;          // leaves hide the sky from one another
+    bool grid = false;               // a metre grid on planes; on anyway in scenes without a model
+};
+
+class Renderer {
+  public:
+    // `plan` with its packed start state. Error: an image of a material is missing or not a PNG.
+    Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
+             const RenderOptions& options = {});
+
+    // Error: larger than the context allows.
+    void resize(int width, int height);
+    int width() const { return picture_.width(); }
+    int height() const { return picture_.height(); }
+
+    // Into the renderer's own picture; nothing of OpenGL's state is kept from before nor restored afterwards,
+    // except that blending, depth and face culling are off at the end.
+    void draw(const State& state, const View& view);
+    // The last picture into the window's framebuffer.
+    void present(int width, int height) const;
+    // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
+    Image capture() const;
+
+    const gpu::Framebuffer& target() const { return pictureTarget_; }
+
+  private:
+    void drawShadows(const State& state) const;
+    void drawSky(const Eye& eye) const;
+    void drawPicture(double exposure) const;
+
+    gpu::Context* context_;
+    RenderOptions options_;
+    std::unique_ptr<ShadowMap> shadow_;  // null: the sun casts none
+    Lighting lighting_;
+    SurfaceDrawer surfaces_;
+    MoleculeDrawer molecules_;
+    gpu::Program sky_, tone_;
+    gpu::VertexArray empty_;
+    gpu::Framebuffer samples_;  // light
+    gpu::Texture light_, picture_;
+    gpu::Framebuffer lightTarget_, pictureTarget_;
+};
+
+}  // namespace shoal

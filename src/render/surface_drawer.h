@@ -1,0 +1,45 @@
+// Draws what stands still: host models and terrain, and the planes and spheres that molecules collide with.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "render/lighting.h"
+#include "render/surface_mesh.h"
+#include "render/view.h"
+
+namespace shoal {
+
+class SurfaceDrawer {
+  public:
+    // `grid`: planes show a metre grid.
+    SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
+                  const Lighting& lighting, const ShadowMap* shadow, bool grid);
+
+    void drawShadows(const ShadowMap& shadow) const;
+    void draw(const Eye& eye, const Lighting& lighting) const;
+
+  private:
+    struct Drawn {
+        glm::dvec3 origin{0};  // m, of the mesh
+        glm::vec3 color{1};
+        float roughness = 0.9f, detail = 0;
+        bool casts = true;
+        int indexCount = 0;
+        gpu::Buffer corners, indices;
+        gpu::VertexArray array;
+        std::optional<PlaneCollider> plane;  // the mesh follows the eye along it
+    };
+
+    void add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label);
+    void submit(const Drawn& surface) const;
+    void placePlane(const gpu::Program& program, const PlaneCollider& plane, const Eye& eye) const;
+
+    gpu::Program lit_, litPlane_, depth_;
+    std::vector<Drawn> surfaces_;
+};
+
+}  // namespace shoal

@@ -1,0 +1,203 @@
+#include "render/video_writer.h"
+
+#include <fcntl.h>
+#include <pthread.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
+#include <sstream>
+#include <vector>
+
+#include "core/error.h"
+#include "core/file.h"
+
+namespace shoal {
+
+// Where the command is, or empty. Looked up here so that a missing program is told from one that failed.
+static std::string findFfmpeg() {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string candidate = (folder.empty() ? "." : folder) + "/ffmpeg";
+        if (access(candidate.c_str(), X_OK) == 0 && !std::filesystem::is_directory(candidate))
+            return candidate;
+    }
+    return {};
+}
+
+void VideoWriter::checkInstalled() {
+    if (findFfmpeg().empty())
+        throw Error(
+            "a video needs the ffmpeg command, which is not installed (on Debian and Ubuntu: apt install "
+            "ffmpeg); name a folder to get PNG pictures instead");
+}
+
+VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate)
+    : file_(std::move(file)), width_(width), height_(height) {
+    if (file_.has_parent_path()) {
+        std::error_code error;
+        std::filesystem::create_directories(file_.parent_path(), error);
+        if (error)
+            throw Error(concat(file_.parent_path().string(), ": cannot make this folder: ", error.message()));
+    }
+    // The extension stays last: ffmpeg chooses the container by it.
+    const std::string unfinished = concat(".", file_.stem().string(), ".", getpid(), ".partial");
+    partial_ = std::filesystem::absolute(file_).parent_path() / (unfinished + file_.extension().string());
+    log_ = std::filesystem::absolute(file_).parent_path() / (unfinished + ".log");
+    start(frameRate);
+}
+
+void VideoWriter::start(double frameRate) {
+    const std::string program = findFfmpeg();
+    if (program.empty()) checkInstalled();
+    const bool vp9 = file_.extension() == ".webm";
+    const std::vector<std::string> arguments = {
+        program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt", "rgba",
+        "-video_size", concat(width_, "x", height_), "-framerate", concat(frameRate), "-i", "pipe:0",
+        // Chroma at half size needs even sides; a side that is odd gains a row or column.
+        "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-c:v", vp9 ? "libvpx-vp9" : "libx264",
+        "-crf", vp9 ? "24" : "18", partial_.string()};
+    std::vector<char*> argv;
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0)
+        throw Error(concat("cannot make a pipe to ffmpeg: ", std::strerror(errno)));
+    const int log = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
+    const int logError = errno;
+    process_ = log >= 0 ? fork() : -1;
+    if (process_ == 0) {
+        // Only calls that are safe between fork and exec.
+        dup2(ends[0], STDIN_FILENO);
+        dup2(log, STDOUT_FILENO);
+        dup2(log, STDERR_FILENO);
+        execv(argv[0], argv.data());
+        _exit(127);
+    }
+    const int forkError = errno;
+    close(ends[0]);
+    pipe_ = ends[1];
+    if (log >= 0) close(log);
+    if (process_ > 0) return;
+    closePipe();
+    std::error_code ignored;
+    std::filesystem::remove(log_, ignored);
+    if (log < 0)
+        throw Error(concat(file_.string(), ": cannot write in this folder: ", std::strerror(logError)));
+    throw Error(concat("cannot start ffmpeg: ", std::strerror(forkError)));
+}
+
+VideoWriter::~VideoWriter() {
+    if (process_ > 0) {
+        kill(process_, SIGKILL);  // the file is removed below: there is nothing to finish
+        closePipe();
+        wait();
+    }
+    std::error_code ignored;
+    std::filesystem::remove(partial_, ignored);
+    std::filesystem::remove(log_, ignored);
+}
+
+void VideoWriter::closePipe() {
+    if (pipe_ >= 0) close(pipe_);
+    pipe_ = -1;
+}
+
+int VideoWriter::wait() {
+    int status = 0;
+    pid_t ended;
+    do {
+        ended = waitpid(process_, &status, 0);
+    } while (ended < 0 && errno == EINTR);
+    process_ = -1;
+    return ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+std::string VideoWriter::complaint() const {
+    try {
+        std::string text = readFile(log_);
+        while (!text.empty() && text.back() == '\n')
+            text.pop_back();
+        if (text.size() > 600) text = "..." + text.substr(text.size() - 600);
+        return text.empty() ? "it gave no reason" : text;
+    } catch (const Error&) {
+        return "it gave no reason";
+    }
+}
+
+void VideoWriter::fail(const std::string& what) {
+    closePipe();
+    if (process_ > 0) wait();
+    throw Error(concat(file_.string(), ": ", what, ": ", complaint()));
+}
+
+namespace {
+
+// A reader that has gone makes write() raise SIGPIPE, which would end the program. It is held back for this
+// thread and taken off again, so that nobody else's handling of signals changes.
+class BrokenPipeHeld {
+  public:
+    BrokenPipeHeld() {
+        sigemptyset(&pipe_);
+        sigaddset(&pipe_, SIGPIPE);
+        sigset_t pending;
+        sigpending(&pending);
+        wasPending_ = sigismember(&pending, SIGPIPE) == 1;
+        pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+    }
+    ~BrokenPipeHeld() {
+        const timespec now{0, 0};
+        if (!wasPending_) {
+            while (sigtimedwait(&pipe_, nullptr, &now) < 0 && errno == EINTR) {
+            }
+        }
+        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+    }
+    BrokenPipeHeld(const BrokenPipeHeld&) = delete;
+    BrokenPipeHeld& operator=(const BrokenPipeHeld&) = delete;
+
+  private:
+    sigset_t pipe_{}, before_{};
+    bool wasPending_ = false;
+};
+
+}  // namespace
+
+void VideoWriter::write(const Image& picture) {
+    if (picture.width != width_ || picture.height != height_ || picture.channels != 4) {
+        throw Error(concat(file_.string(), ": expected pictures of ", width_, " x ", height_,
+                           " RGBA, found one of ", picture.width, " x ", picture.height));
+    }
+    size_t sent = 0;
+    int error = 0;
+    {
+        const BrokenPipeHeld held;
+        while (sent < picture.pixels.size() && error == 0) {
+            const ssize_t count = ::write(pipe_, picture.pixels.data() + sent, picture.pixels.size() - sent);
+            if (count > 0) {
+                sent += size_t(count);
+            } else if (count == 0 || errno != EINTR) {
+                error = count == 0 ? EIO : errno;
+            }
+        }
+    }
+    if (sent < picture.pixels.size()) fail("ffmpeg stopped before the video's end");
+}
+
+void VideoWriter::finish() {
+    closePipe();
+    const int status = wait();
+    if (status != 0) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
+    std::error_code error;
+    std::filesystem::rename(partial_, file_, error);
+    if (error)
+        throw Error(concat(file_.string(), ": cannot give the finished video its name: ", error.message()));
+}
+
+}  // namespace shoal
