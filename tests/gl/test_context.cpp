@@ -1,4 +1,6 @@
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -164,15 +166,23 @@ TEST_CASE("without a display a window says so and automatic goes headless", "[co
     testContext().makeCurrent();
 }
 
+// In a process of its own: Mesa reads its overrides once. This program starts again, and ends in main().
 TEST_CASE("a context that is too old is refused by its version", "[context]") {
-    if (!testContext().info().software || testContext().info().kind == ContextKind::window) return;
-    const Environment version("MESA_GL_VERSION_OVERRIDE", "2.1"), glsl("MESA_GLSL_VERSION_OVERRIDE", "120");
-    ContextOptions options;
-    options.kind = testContext().info().kind;
-    const std::string message = failure(options);
-    CHECK(message.find("found OpenGL 2.1") != std::string::npos);
-    CHECK(message.find("3.3") != std::string::npos);
-    CHECK(testContext().isCurrent());
+    if (!testContext().info().software) return;
+    const std::string program = std::filesystem::read_symlink("/proc/self/exe").string();
+    const std::string command = std::string("MESA_GL_VERSION_OVERRIDE=2.1 MESA_GLSL_VERSION_OVERRIDE=120 ") +
+                                "SHOAL_TEST_CONTEXT=" + name(testContext().info().kind) + " '" + program +
+                                "' 2>&1";
+    FILE* pipe = popen(command.c_str(), "r");
+    REQUIRE(pipe != nullptr);
+    std::string output;
+    char part[256];
+    while (std::fgets(part, sizeof part, pipe) != nullptr)
+        output += part;
+    CHECK(pclose(pipe) != 0);
+    INFO(output);
+    CHECK(output.find("found OpenGL 2.1") != std::string::npos);
+    CHECK(output.find("3.3 or newer is needed") != std::string::npos);
 }
 
 TEST_CASE("the kind of a context is read from a word", "[context]") {

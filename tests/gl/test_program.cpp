@@ -155,11 +155,11 @@ TEST_CASE("a compile error is located in our file", "[program]") {
 
 TEST_CASE("a link error names the program", "[program]") {
     const ProgramOptions options = withFragment(
-        "in vec3 neverWritten;\n"
+        "vec4 neverDefined();\n"
         "layout(location = 0) out vec4 color;\n"
-        "void main() { color = vec4(neverWritten, 1.0); }\n");
+        "void main() { color = neverDefined(); }\n");
     CHECK_THROWS_WITH(Program(testContext(), "nowhere", options),
-                      Catch::Contains("program \"test\"") && Catch::Contains("neverWritten"));
+                      Catch::Contains("program \"test\"") && Catch::Contains("neverDefined"));
 }
 
 TEST_CASE("a missing shader file is an error", "[program]") {
