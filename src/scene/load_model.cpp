@@ -26,10 +26,23 @@ bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// From sRGB (IEC 61966-2-1) to linear.
+double linear(double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+bool holdsSrgb(const std::string& file) {
+    std::string ending = std::filesystem::path(file).extension().string();
+    for (char& c : ending)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    return ending == ".obj" || ending == ".ply";
+}
+
 // Walks the nodes, appending their meshes in scene axes.
 class Collector {
   public:
-    Collector(const aiScene& scene, const std::string& file) : scene_(scene), file_(file) {}
+    Collector(const aiScene& scene, const std::string& file)
+        : scene_(scene), file_(file), srgb_(holdsSrgb(file)) {}
 
     void visit(const aiNode& node, const glm::dmat4& parent, int depth = 0) {
         if (depth > 1000) throw fail("has nodes nested deeper than 1000");
@@ -81,10 +94,9 @@ class Collector {
 
     void appendVertices(const aiMesh& part, const glm::dmat4& transform) {
         // The inverse transpose up to a factor that normalising removes; defined for flat transforms too.
-        const glm::dmat3 linear(transform);
-        const glm::dmat3 cofactor(glm::cross(linear[1], linear[2]), glm::cross(linear[2], linear[0]),
-                                  glm::cross(linear[0], linear[1]));
-        const double side = glm::determinant(linear) < 0 ? -1 : 1;
+        const glm::dmat3 m(transform);
+        const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+        const double side = glm::determinant(m) < 0 ? -1 : 1;
         anyColors = anyColors || part.HasVertexColors(0);
         anyUvs = anyUvs || part.HasTextureCoords(0);
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
@@ -103,6 +115,7 @@ class Collector {
             if (part.HasVertexColors(0)) {
                 const aiColor4D& c = part.mColors[0][i];
                 color = {c.r, c.g, c.b};
+                if (srgb_) color = {linear(color.r), linear(color.g), linear(color.b)};
             }
             mesh.colors.push_back(finite(color) ? color : glm::dvec3(1));
 
@@ -114,6 +127,7 @@ class Collector {
 
     const aiScene& scene_;
     const std::string& file_;
+    bool srgb_;
 };
 
 }  // namespace

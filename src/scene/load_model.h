@@ -8,7 +8,8 @@
 namespace shoal {
 
 // All triangles of the file with node transforms applied, one Mesh::Object per node that has triangles.
-// Polygons are cut into triangles; lines and points are ignored; vertex colours are taken as linear.
+// Polygons are cut into triangles; lines and points are ignored. Vertex colours become linear: OBJ and PLY
+// files hold them in sRGB by custom, glTF and the others linear.
 // Error: no such file, not readable as a model, a position that is not finite, no triangles.
 Mesh loadMesh(const std::string& file);
 

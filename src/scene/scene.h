@@ -149,7 +149,8 @@ struct Model {
 
 // Which vertices or triangles of a model may carry molecules. All conditions that are given must hold.
 struct Selection {
-    std::optional<double> thinnest;      // the thinnest share of the vertices, in (0, 1]: smallest branches
+    // The thinnest share, in (0, 1], of the vertices that meet all other conditions: the smallest branches.
+    std::optional<double> thinnest;
     std::optional<double> maxThickness;  // m: local thickness (shape diameter) at most this
     std::string object;                  // name of an object of the model; empty: all
     std::optional<glm::dvec3> color;     // vertex colour within colorTolerance per channel
@@ -172,14 +173,16 @@ struct Placement {
     };
     std::vector<Item> items;  // list
 
-    enum class Align { none, up, normal };  // where the molecule's +Y points before turning
+    // Where the molecule's +Y points before turning. In files: normal on vertices and surfaces.
+    enum class Align { none, up, normal };
     Align align = Align::none;
-    enum class Turn { none, yaw, any };  // random turn about that axis, or any rotation
+    // Random turn about that axis, or any rotation. In files: none for lists, whose items say how they stand.
+    enum class Turn { none, yaw, any };
     Turn turn = Turn::yaw;
     double tilt = 0;              // rad: then tipped by up to this much in a random direction
     double droop = 0;             // in [0, 1]: the axis is bent this share of the way to straight down
     glm::dvec2 scale{1, 1};       // random between the two
-    double offset = 0;            // m along the axis
+    double offset = 0;            // m along the axis, before it is bent
 };
 
 // Stokes drag rate in 1/s (gamma = 6 pi eta r / m for a sphere of radius r and mass m).

@@ -26,9 +26,8 @@ GustField readGust(JsonReader& r) {
     getDirection(r, "direction", field.direction);
     r.get("speed", field.speed);
     r.get("strength", field.strength, Range::atLeast(0));
-    r.get("length", field.length, Range::positive());
-    r.get("width", field.width, Range::positive());
-    field.frontSpeed = field.speed;  // fronts travel with the wind unless said otherwise
+    r.get("length", field.length, aboveZero());
+    r.get("width", field.width, aboveZero());
     r.get("frontSpeed", field.frontSpeed);
     field.seed = getSeed(r);
     return field;
@@ -59,7 +58,7 @@ VortexField readVortex(JsonReader& r) {
     r.get("origin", field.origin);
     getDirection(r, "axis", field.axis);
     r.get("speed", field.speed);
-    r.get("radius", field.radius, Range::positive());
+    r.get("radius", field.radius, aboveZero());
     r.get("lift", field.lift);
     return field;
 }
@@ -70,7 +69,7 @@ AbcField readAbc(JsonReader& r) {
     r.get("a", field.a);
     r.get("b", field.b);
     r.get("c", field.c);
-    r.get("wavelength", field.wavelength, Range::positive());
+    r.get("wavelength", field.wavelength, aboveZero());
     return field;
 }
 
@@ -78,15 +77,15 @@ TaylorGreenField readTaylorGreen(JsonReader& r) {
     TaylorGreenField field;
     r.get("origin", field.origin);
     r.get("speed", field.speed);
-    r.get("wavelength", field.wavelength, Range::positive());
+    r.get("wavelength", field.wavelength, aboveZero());
     return field;
 }
 
 CurlNoiseField readCurlNoise(JsonReader& r) {
     CurlNoiseField field;
     r.get("speed", field.speed, Range::atLeast(0));
-    r.get("length", field.length, Range::positive());
-    r.get("period", field.period, Range::positive());
+    r.get("length", field.length, aboveZero());
+    r.get("period", field.period, aboveZero());
     r.get("octaves", field.octaves, Range::between(1, 4));
     field.seed = getSeed(r);
     return field;
@@ -104,7 +103,7 @@ GridField readGrid(JsonReader& r) {
     int axes = 0;
     r.choose("axes", {"yUp", "zUp", "unreal"}, axes);
     options.axes = static_cast<FieldAxes>(axes);
-    r.get("scale", options.scale, Range::positive());
+    r.get("scale", options.scale, aboveZero());
     getOptional(r, "velocityScale", options.velocityScale, Range::any());
     r.get("origin", options.origin);
     int outside = 0;

@@ -27,7 +27,7 @@ void readCamera(JsonReader& scene, Camera& camera) {
     r->get("target", camera.target);
     if (camera.eye == camera.target) throw Error(r->here(), "expected eye and target apart");
     r->get("fieldOfView", camera.fieldOfView, Range::between(0.01, 3.1));
-    r->get("exposure", camera.exposure, Range::positive());
+    r->get("exposure", camera.exposure, aboveZero());
     r->finish();
 }
 
@@ -60,6 +60,7 @@ Scene parseScene(const std::string& text, const std::string& file) {
     int format = 0;
     r.require("format");
     r.choose("format", {"shoal-scene-1"}, format);
+    refuseHugeNumbers(root, file);
 
     Scene scene;
     scene.file = file;

@@ -13,7 +13,7 @@ namespace {
 Selection readSelection(JsonReader& r, const Model& model) {
     Selection select;
     getOptional(r, "thinnest", select.thinnest, Range{0, 1, true});
-    getOptional(r, "maxThickness", select.maxThickness, Range::positive());
+    getOptional(r, "maxThickness", select.maxThickness, aboveZero());
     if (r.get("object", select.object)) {
         std::vector<std::string> names;
         for (const Mesh::Object& object : model.mesh.objects)
@@ -53,7 +53,7 @@ void readItems(JsonReader& r, Placement& place) {
         Placement::Item item;
         entry.get("position", item.position);
         getRotation(entry, "rotation", item.rotation);
-        entry.get("scale", item.scale, Range::positive());
+        entry.get("scale", item.scale, aboveZero());
         entry.finish();
         place.items.push_back(item);
     }
@@ -89,11 +89,11 @@ void readScale(JsonReader& r, glm::dvec2& scale) {
     if (!value) return;
     if (value->kind == JsonValue::Kind::number) {
         double both = 1;
-        r.get("scale", both, Range::positive());
+        r.get("scale", both, aboveZero());
         scale = {both, both};
         return;
     }
-    r.get("scale", scale, Range::positive());
+    r.get("scale", scale, aboveZero());
     if (scale.x > scale.y)
         throw Error(r.at("scale"), concat("expected [least, most], found ", scale.x, " above ", scale.y));
 }
@@ -168,8 +168,8 @@ void readRelease(JsonReader& r, Group& group, std::vector<Warning>& warnings) {
     auto release = r.object("release");
     if (!release) return;
     Release out;
-    getOptional(*release, "force", out.force, Range::positive());
-    getOptional(*release, "rate", out.rate, Range::positive());
+    getOptional(*release, "force", out.force, aboveZero());
+    getOptional(*release, "rate", out.rate, aboveZero());
     release->get("after", out.after, Range::atLeast(0));
     if (!out.force && !out.rate)
         throw Error(release->here(), "expected a \"force\" or a \"rate\" at which pins let go");

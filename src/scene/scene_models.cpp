@@ -32,7 +32,7 @@ Model readModel(JsonReader& r) {
     r.get("name", model.name);
     r.get("position", model.position);
     getRotation(r, "rotation", model.rotation);
-    r.get("scale", model.scale, Range::positive());
+    r.get("scale", model.scale, aboveZero());
     r.get("draw", model.draw);
     getColor(r, "color", model.color);
     r.get("roughness", model.roughness, Range::between(0, 1));
@@ -41,7 +41,7 @@ Model readModel(JsonReader& r) {
     placeMesh(model.mesh, model);
     for (const glm::dvec3& corner : {model.mesh.low, model.mesh.high})
         for (int i = 0; i < 3; ++i)
-            if (!(std::abs(corner[i]) < 1e30))
+            if (!(std::abs(corner[i]) < largestNumber))
                 throw Error(r.here(), concat("the model reaches ", corner[i],
                                              " m after scaling, beyond single precision"));
     return model;
@@ -57,7 +57,7 @@ PlaneCollider readPlane(JsonReader& r) {
 SphereCollider readSphere(JsonReader& r) {
     SphereCollider sphere;
     r.need("center", sphere.center);
-    r.need("radius", sphere.radius, Range::positive());
+    r.need("radius", sphere.radius, aboveZero());
     return sphere;
 }
 

@@ -7,6 +7,16 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
+void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path) {
+    if (value.kind == JsonValue::Kind::number && !(std::abs(value.number) <= largestNumber))
+        throw Error(Location{file, value.line, value.column, path},
+                    concat("expected a number within ", largestNumber, " of 0, found ", value.text));
+    for (size_t i = 0; i < value.items.size(); ++i)
+        refuseHugeNumbers(value.items[i], file, concat(path, "[", i, "]"));
+    for (const auto& [key, member] : value.members)
+        if (key != "seed" && key != "count") refuseHugeNumbers(member, file, path + "." + key);
+}
+
 std::string needFile(JsonReader& reader, const std::string& key) {
     std::string written;
     reader.need(key, written);

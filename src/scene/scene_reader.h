@@ -10,6 +10,17 @@
 
 namespace shoal {
 
+// The GPU computes in single precision: squares of larger numbers would overflow there, and smaller ones
+// are as good as 0.
+constexpr double largestNumber = 1e15, leastPositive = 1e-9;
+
+inline Range aboveZero() {
+    return Range::atLeast(leastPositive);
+}
+
+// Refuses numbers beyond largestNumber anywhere in the file, seeds and counts apart.
+void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path = "$");
+
 std::vector<Field> readFields(JsonReader& scene);
 std::vector<Model> readModels(JsonReader& scene);
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
