@@ -13,6 +13,7 @@ uniform vec4 crown;  // xyz middle, w radius, m
 struct Surface {
     vec3 place;          // m, relative to the eye
     vec3 normal;         // unit, on the side that is seen
+    vec3 face;           // the same without bumps: what shadows fall on
     vec3 albedo;         // linear RGB
     float roughness;     // in [0, 1]
     float translucency;  // share of the light on the other side that comes through
@@ -33,7 +34,7 @@ float sunVisibility(vec3 place, vec3 normal)
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
     vec3 shifted = place + normal * (sign(facing) * shadowFilter.y * (0.4 + slope)) + sunDirection * shadowFilter.z;
     vec3 uvz = (toShadow * vec4(shifted, 1.0)).xyz;
-    if (uvz.z >= 1.0) return 1.0;
+    uvz.z = min(uvz.z, 1.0);  // below the map's far end: shaded by whatever the map holds
     float lit = 0.0;
     for (int i = 0; i < 16; ++i) {
         float radius = sqrt((float(i) + 0.5) / 16.0);
@@ -50,21 +51,17 @@ float sunVisibility(vec3 place, vec3 normal)
 }
 #endif
 
-// Share of the sky left over by the crown for a point outside of it: a sphere's occlusion under a cosine lobe.
-// Inside, the light falls off towards the middle.
+// Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside, less
+// and less towards the middle. Both meet at its edge.
 float crownOpenness(vec3 place, vec3 normal)
 {
     if (crown.w <= 0.0) return 1.0;
     vec3 towards = crown.xyz - place;
     float distance = max(length(towards), 1e-3);
-    float relative = crown.w / distance;
-    if (relative < 1.0) {
-        float facing = 0.5 + 0.5 * dot(normal, towards / distance);
-        return 1.0 - 0.75 * facing * relative * relative;
-    }
-    float depth = 1.0 / relative;  // 0 in the middle, 1 at the edge
-    float outward = 0.5 - 0.5 * dot(normal, towards / distance);
-    return mix(0.25, mix(0.55, 1.0, outward), depth * depth);
+    float relative = crown.w / distance;  // 1 at the edge, below 1 outside
+    float hidden = 0.6 * (0.5 + 0.5 * dot(normal, towards / distance));
+    if (relative < 1.0) return 1.0 - hidden * relative * relative;
+    return mix(0.25, 1.0 - hidden, 1.0 / (relative * relative));
 }
 
 // Distribution and visibility of GGX in Karis's approximation (2013, "Real shading in Unreal Engine 4"),
@@ -77,7 +74,8 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
     float nh = max(dot(normal, halfway), 0.0);
     float lh = max(dot(sunDirection, halfway), 0.05);
     float d = nh * nh * (a2 - 1.0) + 1.0;
-    float fresnel = 0.04 + 0.96 * pow(1.0 - lh, 5.0);
+    // Rough surfaces shadow their own grazing reflections (Lagarde 2011).
+    float fresnel = 0.04 + max(0.96 - roughness, 0.0) * pow(1.0 - lh, 5.0);
     return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
 
@@ -85,7 +83,7 @@ vec3 shade(Surface s)
 {
     vec3 toEye = -normalize(s.place);
     float facing = dot(s.normal, sunDirection);
-    float visible = sunVisibility(s.place, s.normal);
+    float visible = sunVisibility(s.place, s.face);
 
     vec3 radiance = s.albedo * ambientLight(s.normal) * s.openness;
     float front = max(facing, 0.0);

@@ -34,6 +34,7 @@ void main()
     Surface s;
     s.place = place;
     s.normal = n;
+    s.face = s.normal;
     s.albedo = albedo;
     s.roughness = roughness;
     s.translucency = translucency;

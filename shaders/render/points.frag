@@ -30,6 +30,7 @@ void main()
     Surface s;
     s.place = middle + n * (0.5 * pointSize);
     s.normal = normalize(n);
+    s.face = s.normal;
     s.albedo = color;
     s.roughness = roughness;
     s.translucency = 0.0;

@@ -10,7 +10,7 @@ vec3 skyGradient(vec3 direction)
 {
     float height = max(direction.y, 0.0);
     // The air is thickest near the horizon: the gradient is steep there and flat above.
-    return mix(skyHorizon, skyZenith, 1.0 - exp(-3.2 * height));
+    return mix(skyHorizon, skyZenith, 1.0 - exp(-4.5 * height));
 }
 
 // Light scattered forward by haze around the sun.

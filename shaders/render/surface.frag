@@ -50,7 +50,8 @@ void main()
     float hollow = 1.0;
     vec3 along = n;
 
-    float footprint = max(length(dFdx(local)), length(dFdy(local)));
+    // Between the long and the short side of a pixel's footprint: grass seen at a low angle keeps its grain.
+    float footprint = sqrt(length(dFdx(local)) * length(dFdy(local)));
     if (detail > 0.0) {
         // Ground that faces up is mottled like grass and soil; what stands upright is furrowed like bark.
         float level = smoothstep(0.55, 0.8, n.y);
@@ -85,6 +86,7 @@ void main()
     Surface s;
     s.place = place;
     s.normal = along;
+    s.face = n;
     s.albedo = albedo;
     s.roughness = roughness;
     s.translucency = 0.0;

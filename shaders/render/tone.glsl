@@ -12,17 +12,12 @@ vec3 unsqueeze(vec3 squeezed)
     return squeezed / max(1.0 - max(squeezed.r, max(squeezed.g, squeezed.b)), 1e-3);
 }
 
-// Hable's filmic curve (2010, "Uncharted 2: HDR lighting"): a soft toe that keeps shadows deep and a long
-// shoulder that keeps colour in bright leaves.
-vec3 filmicCurve(vec3 x)
-{
-    return (x * (0.22 * x + 0.03) + 0.002) / (x * (0.22 * x + 0.3) + 0.06) - 0.002 / 0.06;
-}
-
+// A fit of the ACES reference film curve (Narkowicz 2016, "ACES filmic tone mapping curve"): deep shadows, and
+// highlights that roll off instead of clipping.
 vec3 toneMap(vec3 radiance)
 {
-    const float white = 6.0;  // radiance that becomes 1
-    return filmicCurve(radiance * 1.6) / filmicCurve(vec3(white * 1.6));
+    vec3 x = radiance * 0.8;
+    return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
 }
 
 // IEC 61966-2-1.
