@@ -60,11 +60,11 @@ void main()
         float tufts = grain(local, stretch, mix(0.09, 0.34, level), footprint, 12u);
         float blades = grain(local, stretch, mix(0.035, 0.055, level), footprint, 13u);
         float fine = grain(local, stretch, mix(0.015, 0.018, level), footprint, 14u);
-        float furrows = tufts * 0.6 + blades * 0.5 + fine * 0.25;
-        float tone = mix(furrows * 0.9, patches * 0.35 + tufts * 0.45 + blades * 0.55 + fine * 0.4, level);
+        float furrows = tufts * 0.7 + blades * 0.7 + fine * 0.35;
+        float tone = mix(furrows * 0.9, patches * 0.3 + tufts * 0.55 + blades * 0.9 + fine * 0.8, level);
         albedo *= max(1.0 + detail * tone, 0.25);
         albedo *= mix(vec3(1.0), vec3(1.0 + 0.25 * patches, 1.0 + 0.05 * tufts, 1.0 - 0.3 * patches), detail * level);
-        float height = mix(furrows * 0.012, tufts * 0.05 + blades * 0.022 + fine * 0.008, level);
+        float height = mix(furrows * 0.012, tufts * 0.06 + blades * 0.028 + fine * 0.01, level);
         along = bumped(n, local, detail * height);
         hollow = clamp(1.0 + detail * 0.7 * mix(furrows, tufts * 0.5 + blades, level), 0.3, 1.0);
     }

@@ -1,0 +1,24 @@
+// Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms.
+#pragma once
+
+#include "render/view.h"
+
+namespace shoal::app {
+
+class OrbitCamera {
+  public:
+    explicit OrbitCamera(const View& start);
+
+    void turn(double dx, double dy);               // in window heights
+    void pan(double dx, double dy);                // in window heights
+    void zoom(double steps);                       // of the wheel, towards the target
+    void reset();
+    View view() const;
+
+  private:
+    View start_;
+    glm::dvec3 target_{0};
+    double distance_ = 1, azimuth_ = 0, elevation_ = 0;  // m, rad
+};
+
+}  // namespace shoal::app

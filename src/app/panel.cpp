@@ -1,0 +1,153 @@
+#include "app/panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+namespace shoal::app {
+
+Controls::Controls(const Plan& plan) : gravity(plan.gravity), substeps(plan.substeps) {}
+
+void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) const {
+    const double share = -std::expm1(-seconds / 0.2);
+    const auto follow = [share](double& value, double target) { value += (target - value) * share; };
+    parameters.gravity += (gravity * double(gravityFactor) - parameters.gravity) * share;
+    follow(parameters.wind, wind);
+    follow(parameters.drag, drag);
+    follow(parameters.stiffness, stiffness);
+    follow(parameters.damping, damping);
+    // explicit solvers stay within their limit: stiffer springs take more substeps
+    parameters.substeps = substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping, substeps);
+}
+
+Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
+    : molecules(std::move(moleculeFiles)), sceneName_(scene.name) {
+    for (const Group& group : scene.groups) {
+        groupNames_.push_back(group.name.empty() ? group.molecule.name : group.name);
+        groupCounts_.push_back(group.count);
+        fixedCount_.push_back(group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list);
+    }
+    choice.count = groupCounts_.front();
+}
+
+static void heading(const char* text) {
+    ImGui::Dummy(ImVec2(0, 4));
+    ImGui::TextColored(ImVec4(0.62f, 0.78f, 0.45f, 1), "%s", text);
+    ImGui::Separator();
+}
+
+Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double framesPerSecond,
+                          const gpu::Traffic& lastFrame) {
+    ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSize(ImVec2(304, 0), ImGuiCond_Always);
+    ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::PushItemWidth(150);
+    if (!sceneName_.empty()) ImGui::TextWrapped("%s", sceneName_.c_str());
+    Action action = drawClock(controls, simulation);
+    drawForces(controls, simulation);
+    const Action groupAction = drawGroups(simulation);
+    drawCost(simulation, framesPerSecond, lastFrame);
+    ImGui::PopItemWidth();
+    ImGui::End();
+    return action == Action::none ? groupAction : action;
+}
+
+Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
+    Action action = Action::none;
+    ImGui::Text("%.2f s, frame %d", simulation.time(), simulation.frames());
+    if (ImGui::Button(controls.paused ? "Run" : "Pause")) controls.paused = !controls.paused;
+    ImGui::SameLine();
+    if (ImGui::Button("Step")) {
+        controls.paused = true;
+        action = Action::step;
+    }
+    ImGui::SameLine();
+    if (ImGui::Button("Restart")) action = Action::restart;
+    ImGui::SameLine();
+    if (ImGui::Button("Camera")) action = Action::resetCamera;
+    return action;
+}
+
+void Panel::drawForces(Controls& controls, const Simulation& simulation) {
+    heading("Forces");
+    const auto any = [&](bool Needs::*need) {
+        return std::any_of(simulation.plan().groups.begin(), simulation.plan().groups.end(),
+                           [&](const GroupPlan& group) { return group.needs.*need; });
+    };
+    const auto slider = [](bool there, const char* label, float& value, float least, float most,
+                           ImGuiSliderFlags flags = 0) {
+        if (!there) ImGui::BeginDisabled();
+        ImGui::SliderFloat(label, &value, least, most, "x %.2f", flags);
+        if (!there) ImGui::EndDisabled();
+    };
+    slider(any(&Needs::fields), "Wind", controls.wind, 0, 4);
+    slider(any(&Needs::gravity), "Gravity", controls.gravityFactor, -1, 3);
+    slider(any(&Needs::drag), "Drag", controls.drag, 0, 4);
+    slider(any(&Needs::springs), "Stiffness", controls.stiffness, 0.02f, 20, ImGuiSliderFlags_Logarithmic);
+    slider(any(&Needs::springDamping), "Damping", controls.damping, 0, 4);
+    ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);
+    if (simulation.parameters.substeps > controls.substeps)
+        ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);
+}
+
+Panel::Action Panel::drawGroups(const Simulation& simulation) {
+    heading("Molecules");
+    bool changed = false;
+    const auto groupName = [](void* names, int index, const char** out) {
+        *out = (*static_cast<std::vector<std::string>*>(names))[size_t(index)].c_str();
+        return true;
+    };
+    if (groupNames_.size() > 1 &&
+        ImGui::Combo("Group", &choice.group, groupName, &groupNames_, int(groupNames_.size()))) {
+        choice.count = simulation.plan().groups[size_t(choice.group)].count;
+        choice.molecule = -1;
+    }
+    const bool fixed = fixedCount_[size_t(choice.group)];
+    if (fixed) ImGui::BeginDisabled();
+    ImGui::SliderInt("Number", &choice.count, 1, std::max(20000, 2 * groupCounts_[size_t(choice.group)]), "%d",
+                     ImGuiSliderFlags_Logarithmic);
+    changed |= ImGui::IsItemDeactivatedAfterEdit();
+    if (fixed) ImGui::EndDisabled();
+    const auto name = [&](int index) {
+        return index < 0 ? std::string("as in the scene") : std::filesystem::path(molecules[size_t(index)]).stem().string();
+    };
+    if (ImGui::BeginCombo("Kind", name(choice.molecule).c_str())) {
+        for (int i = -1; i < int(molecules.size()); ++i) {
+            if (!ImGui::Selectable(name(i).c_str(), i == choice.molecule)) continue;
+            choice.molecule = i;
+            changed = true;
+        }
+        ImGui::EndCombo();
+    }
+    return changed ? Action::rebuild : Action::none;
+}
+
+void Panel::drawCost(Simulation& simulation, double framesPerSecond, const gpu::Traffic& lastFrame) {
+    heading("Cost");
+    ImGui::Text("%.1f frames/s, ping-pong, %s", framesPerSecond, name(simulation.plan().solver));
+    ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
+    if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+        ImGui::TableSetupColumn("pass");
+        ImGui::TableSetupColumn("calls");
+        ImGui::TableSetupColumn("ms a frame");
+        ImGui::TableHeadersRow();
+        for (const gpu::PassTime& pass : simulation.timers().report()) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(pass.name.c_str());
+            ImGui::TableNextColumn();
+            ImGui::Text("%d", pass.calls);
+            ImGui::TableNextColumn();
+            ImGui::Text("%.3f", pass.median * 1e3);
+        }
+        ImGui::EndTable();
+    }
+    using Kind = gpu::Traffic::Kind;
+    ImGui::Text("bus, bytes a frame: state %llu, control %llu",
+                static_cast<unsigned long long>(lastFrame.total(Kind::state)),
+                static_cast<unsigned long long>(lastFrame.total(Kind::control)));
+    ImGui::Text("state %.1f MiB", double(simulation.plan().stateBytes()) / (1 << 20));
+}
+
+}  // namespace shoal::app

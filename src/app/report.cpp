@@ -1,0 +1,60 @@
+#include "app/report.h"
+
+#include <cstdio>
+
+namespace shoal::app {
+
+static JsonValue asJson(const gpu::Traffic& traffic) {
+    JsonValue out = JsonValue::makeObject();
+    using Kind = gpu::Traffic::Kind;
+    const std::pair<const char*, Kind> kinds[] = {
+        {"state", Kind::state}, {"parameters", Kind::parameters}, {"control", Kind::control}};
+    for (const auto& [word, kind] : kinds) {
+        JsonValue entry = JsonValue::makeObject();
+        entry.add("uploaded", JsonValue::makeNumber(double(traffic.up(kind))))
+            .add("readBack", JsonValue::makeNumber(double(traffic.down(kind))));
+        out.add(word, std::move(entry));
+    }
+    return out;
+}
+
+JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash) {
+    const gpu::ContextInfo& info = simulation.context().info();
+    JsonValue context = JsonValue::makeObject();
+    context.add("kind", JsonValue::makeString(gpu::name(info.kind)))
+        .add("renderer", JsonValue::makeString(info.renderer))
+        .add("version", JsonValue::makeString(info.version));
+
+    JsonValue bytes = JsonValue::makeObject();
+    bytes.add("start", asJson(report.start)).add("frames", asJson(report.frames)).add("outside", asJson(report.outside));
+
+    JsonValue passes = JsonValue::makeArray();
+    for (const gpu::PassTime& pass : simulation.timers().report()) {
+        JsonValue entry = JsonValue::makeObject();
+        entry.add("pass", JsonValue::makeString(pass.name))
+            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
+            .add("minSeconds", JsonValue::makeNumber(pass.min))
+            .add("medianSeconds", JsonValue::makeNumber(pass.median));
+        passes.items.push_back(std::move(entry));
+    }
+    JsonValue written = JsonValue::makeArray();
+    for (const std::string& file : report.written) written.items.push_back(JsonValue::makeString(file));
+
+    char hashText[20];
+    std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash));
+    JsonValue out = JsonValue::makeObject();
+    out.add("scene", JsonValue::makeString(report.scene))
+        .add("path", JsonValue::makeString("ping-pong"))
+        .add("context", std::move(context))
+        .add("frames", JsonValue::makeNumber(simulation.frames()))
+        .add("time", JsonValue::makeNumber(simulation.time()))
+        .add("seconds", JsonValue::makeNumber(report.seconds))
+        .add("stateBytes", JsonValue::makeNumber(double(simulation.plan().stateBytes())))
+        .add("busBytes", std::move(bytes))
+        .add("hash", JsonValue::makeString(hashText));
+    if (!passes.items.empty()) out.add("passes", std::move(passes));
+    out.add("written", std::move(written));
+    return out;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,25 @@
+// What `run --json` says about a run.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+#include "gpu/traffic.h"
+#include "simulate/simulation.h"
+
+namespace shoal::app {
+
+struct RunReport {
+    std::string scene;
+    double seconds = 0;         // wall-clock time of the frames
+    gpu::Traffic start;         // bytes moved before the first frame
+    gpu::Traffic frames;        // by the frames alone: simulate and draw
+    gpu::Traffic outside;       // by captures, exports and the final hash
+    std::vector<std::string> written;  // pictures, videos, exports
+};
+
+JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash);
+
+}  // namespace shoal::app

@@ -1,0 +1,180 @@
+#include "app/run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/data_paths.h"
+#include "app/export.h"
+#include "app/progress.h"
+#include "app/report.h"
+#include "render/picture.h"
+#include "render/renderer.h"
+#include "simulate/simulation.h"
+
+namespace shoal::app {
+
+namespace {
+
+constexpr int headlessFrames = 240;
+
+bool hasDisplay() {
+    for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
+        const char* value = std::getenv(variable);
+        if (value && *value) return true;
+    }
+    return false;
+}
+
+bool wantsWindow(const Options& options) {
+    if (options.headless) {
+        if (options.context == gpu::ContextKind::window) throw Error("--headless and --context window exclude each other");
+        return false;
+    }
+    if (options.context == gpu::ContextKind::window) return true;
+    // pictures, exports and reports are headless work unless a window is asked for
+    const bool batch = !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
+    return options.context == gpu::ContextKind::automatic && hasDisplay() && (!batch || !options.screenshot.empty());
+}
+
+// The pictures of a run that asked for none: eight of them, in a folder named after the scene.
+std::string defaultFolder(const std::string& sceneFile) {
+    std::string stem = std::filesystem::path(sceneFile).filename().string();
+    return "pictures/" + stem.substr(0, stem.find('.'));
+}
+
+bool exportsFrame(const Options& options, int frame, int last) {
+    if (options.exports.empty()) return false;
+    if (options.exportFrames.empty()) return frame == last;
+    return std::find(options.exportFrames.begin(), options.exportFrames.end(), frame) != options.exportFrames.end();
+}
+
+// One headless run, step by step; keeps the bytes of frames apart from those of captures and exports.
+class HeadlessRun {
+  public:
+    HeadlessRun(const Options& options, gpu::Context& context, Loaded loaded)
+        : options_(options),
+          context_(context),
+          frames_(options.frames.value_or(headlessFrames)),
+          loaded_(std::move(loaded)),
+          simulation_(context, shaderRoot(), loaded_.plan, true,
+                      options.timings ? gpu::PassTimers::suitedTo(context.info()) : gpu::PassTimers::Mode::off) {
+        report_.scene = options.files.front();
+        const bool nothingAsked = options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
+        const std::string target = nothingAsked ? defaultFolder(options.files.front()) : options.capture;
+        every_ = nothingAsked ? std::max(1, frames_ / 8) : options.captureEvery;
+        for (const int frame : options.exportFrames)
+            if (frame > frames_) throw Error(concat("--export-frames: frame ", frame, " is beyond the last, ", frames_));
+        if (target.empty()) return;
+        RenderOptions size;
+        size.width = options.width;
+        size.height = options.height;
+        renderer_ = std::make_unique<Renderer>(context, shaderRoot(), loaded_.scene, loaded_.plan, size);
+        pictures_ = std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_, frames_ > every_);
+    }
+
+    void go() {
+        report_.start = context_.traffic();
+        Progress progress("frames", frames_);
+        const auto start = std::chrono::steady_clock::now();
+        outside([&] { exportIfAsked(0); });
+        for (int frame = 1; frame <= frames_; ++frame) {
+            const gpu::Traffic before = context_.traffic();
+            simulation_.frame();
+            const bool draws = renderer_ && frame % every_ == 0;
+            if (draws) renderer_->draw(simulation_.state(), View::of(loaded_.scene.camera));
+            addTo(report_.frames, context_.traffic() - before);
+            outside([&] {
+                if (draws) {
+                    pictures_->write(renderer_->capture(), frame);
+                    note(pictures_->last().string());
+                }
+                exportIfAsked(frame);
+            });
+            progress.step();
+        }
+        if (pictures_) pictures_->finish();
+        if (pictures_) note(pictures_->last().string());
+        context_.checkErrors("run");
+        simulation_.timers().drain();
+        report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    void tell() {
+        uint64_t hash = 0;
+        outside([&] { hash = simulation_.hash(); });
+        if (options_.json) {
+            std::cout << writeJson(asJson(report_, simulation_, hash));
+            return;
+        }
+        std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds << " s on "
+                  << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
+        if (pictures_) std::cout << "pictures: " << pictures_->target() << "\n";
+        for (const gpu::PassTime& pass : simulation_.timers().report())
+            std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3 << " ms, median "
+                      << pass.median * 1e3 << " ms\n";
+    }
+
+  private:
+    template <typename Work>
+    void outside(const Work& work) {
+        const gpu::Traffic before = context_.traffic();
+        work();
+        addTo(report_.outside, context_.traffic() - before);
+    }
+    static void addTo(gpu::Traffic& sum, const gpu::Traffic& part) {
+        for (int i = 0; i < 3; ++i) {
+            sum.uploaded[i] += part.uploaded[i];
+            sum.readBack[i] += part.readBack[i];
+        }
+    }
+    void note(const std::string& file) {
+        if (!file.empty() && (report_.written.empty() || report_.written.back() != file)) report_.written.push_back(file);
+    }
+    void exportIfAsked(int frame) {
+        if (!exportsFrame(options_, frame, frames_)) return;
+        const std::string file = exportName(options_.exports, frame, options_.exportFrames.size() > 1);
+        exportState(file, simulation_, loaded_.scene);
+        note(file);
+    }
+
+    const Options& options_;
+    gpu::Context& context_;
+    int frames_, every_ = 1;
+    Loaded loaded_;
+    Simulation simulation_;
+    std::unique_ptr<Renderer> renderer_;
+    std::unique_ptr<PictureWriter> pictures_;
+    RunReport report_;
+};
+
+}  // namespace
+
+int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
+    HeadlessRun run(options, context, std::move(loaded));
+    run.go();
+    run.tell();
+    return 0;
+}
+
+int runCommand(const Options& options) {
+    const bool window = wantsWindow(options);
+    // mistakes in the files are told before any context is made
+    Loaded loaded = load(options, {});
+    gpu::ContextOptions wanted;
+    wanted.kind = options.context;
+    wanted.preferWindow = window;
+    wanted.width = options.width;
+    wanted.height = options.height;
+    wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
+    gpu::Context context(wanted);
+    const PlanLimits limits{context.info().maxTextureSize};
+    if (loaded.plan.rows > limits.maxTextureSize) loaded.plan = compile(loaded.scene, limits);
+    return context.window() ? runWindow(options, context, std::move(loaded))
+                            : runHeadless(options, context, std::move(loaded));
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,282 @@
+// The window: a scene that runs, a camera to move, and the panel.
+#include <GLFW/glfw3.h>
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "app/data_paths.h"
+#include "app/orbit_camera.h"
+#include "app/panel.h"
+#include "app/run.h"
+#include "core/image.h"
+#include "gpu/gl.h"
+#include "molecule/molecule_file.h"
+#include "render/renderer.h"
+#include "simulate/simulation.h"
+
+namespace shoal::app {
+
+namespace {
+
+// ImGui's context and backends, for as long as the window lives.
+class Interface {
+  public:
+    explicit Interface(GLFWwindow* window) {
+        ImGui::CreateContext();
+        ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
+        style();
+        ImGui_ImplGlfw_InitForOpenGL(window, true);
+        ImGui_ImplOpenGL3_Init("#version 330");
+    }
+    ~Interface() {
+        ImGui_ImplOpenGL3_Shutdown();
+        ImGui_ImplGlfw_Shutdown();
+        ImGui::DestroyContext();
+    }
+    Interface(const Interface&) = delete;
+    Interface& operator=(const Interface&) = delete;
+
+    void begin() {
+        ImGui_ImplOpenGL3_NewFrame();
+        ImGui_ImplGlfw_NewFrame();
+        ImGui::NewFrame();
+    }
+    void end() {
+        ImGui::Render();
+        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+    }
+
+  private:
+    static void style() {
+        ImGui::StyleColorsDark();
+        ImGuiStyle& style = ImGui::GetStyle();
+        style.WindowRounding = 6;
+        style.FrameRounding = style.GrabRounding = 4;
+        style.WindowPadding = ImVec2(12, 10);
+        style.ItemSpacing = ImVec2(8, 5);
+        style.WindowBorderSize = 0;
+        const auto color = [&](ImGuiCol which, float r, float g, float b, float a) {
+            style.Colors[which] = ImVec4(r, g, b, a);
+        };
+        color(ImGuiCol_WindowBg, 0.07f, 0.085f, 0.08f, 0.88f);
+        color(ImGuiCol_TitleBg, 0.11f, 0.16f, 0.11f, 0.95f);
+        color(ImGuiCol_TitleBgActive, 0.16f, 0.25f, 0.14f, 1);
+        color(ImGuiCol_FrameBg, 0.17f, 0.2f, 0.18f, 1);
+        color(ImGuiCol_FrameBgHovered, 0.22f, 0.28f, 0.22f, 1);
+        color(ImGuiCol_FrameBgActive, 0.26f, 0.34f, 0.25f, 1);
+        color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 1);
+        color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 1);
+        color(ImGuiCol_Button, 0.22f, 0.32f, 0.19f, 1);
+        color(ImGuiCol_ButtonHovered, 0.3f, 0.44f, 0.25f, 1);
+        color(ImGuiCol_ButtonActive, 0.38f, 0.55f, 0.3f, 1);
+        color(ImGuiCol_Header, 0.22f, 0.32f, 0.19f, 1);
+        color(ImGuiCol_HeaderHovered, 0.3f, 0.44f, 0.25f, 1);
+        color(ImGuiCol_HeaderActive, 0.38f, 0.55f, 0.3f, 1);
+        color(ImGuiCol_TableHeaderBg, 0.13f, 0.17f, 0.13f, 1);
+    }
+};
+
+std::vector<std::string> shippedMolecules() {
+    const std::filesystem::path folder = std::filesystem::path(shaderRoot()).parent_path() / "molecules";
+    std::vector<std::string> files;
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
+            files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+class WindowRun {
+  public:
+    WindowRun(const Options& options, gpu::Context& context, Loaded loaded)
+        : options_(options),
+          context_(context),
+          window_(context.window()),
+          original_(loaded.scene),
+          scene_(std::move(loaded.scene)),
+          controls_(loaded.plan),
+          panel_(scene_, shippedMolecules()),
+          camera_(View::of(scene_.camera)),
+          interface_(window_) {
+        glfwSwapInterval(1);
+        glfwGetFramebufferSize(window_, &width_, &height_);
+        build(std::move(loaded.plan));
+    }
+
+    void go() {
+        auto last = std::chrono::steady_clock::now();
+        while (!glfwWindowShouldClose(window_)) {
+            glfwPollEvents();
+            const auto now = std::chrono::steady_clock::now();
+            const double seconds = std::chrono::duration<double>(now - last).count();
+            last = now;
+            framesPerSecond_ += (1 / std::max(seconds, 1e-6) - framesPerSecond_) * 0.1;
+            if (!showFrame()) return;
+        }
+    }
+
+  private:
+    void build(Plan plan) {
+        simulation_.reset();
+        renderer_.reset();
+        RenderOptions size;
+        size.width = width_;
+        size.height = height_;
+        renderer_ = std::make_unique<Renderer>(context_, shaderRoot(), scene_, plan, size);
+        simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), true,
+                                                   gpu::PassTimers::suitedTo(context_.info()));
+        controls_.lead(simulation_->parameters, simulation_->plan(), 1e3);  // as the sliders stand, at once
+    }
+
+    // One frame of simulation and picture; false after the last of --frames.
+    bool showFrame() {
+        const gpu::Traffic before = context_.traffic();
+        if (!controls_.paused || action_ == Panel::Action::step) {
+            controls_.lead(simulation_->parameters, simulation_->plan(), simulation_->parameters.frameTime);
+            simulation_->frame();
+        }
+        glfwGetFramebufferSize(window_, &width_, &height_);
+        if (width_ < 1 || height_ < 1) {  // minimised
+            glfwWaitEventsTimeout(0.1);
+            return true;
+        }
+        if (width_ != renderer_->width() || height_ != renderer_->height()) renderer_->resize(width_, height_);
+        renderer_->draw(simulation_->state(), camera_.view());
+        renderer_->present(width_, height_);
+        lastFrame_ = context_.traffic() - before;
+
+        interface_.begin();
+        action_ = panel_.draw(controls_, *simulation_, framesPerSecond_, lastFrame_);
+        moveCamera();
+        pressKeys();
+        if (!message_.empty()) showMessage();
+        interface_.end();
+
+        ++shown_;
+        const bool last = options_.frames && shown_ >= *options_.frames;
+        if (last && !options_.screenshot.empty()) saveScreenshot();
+        glfwSwapBuffers(window_);
+        obey();
+        return !last;
+    }
+
+    void obey() {
+        if (action_ == Panel::Action::restart) simulation_->restart();
+        if (action_ == Panel::Action::resetCamera) camera_.reset();
+        if (action_ == Panel::Action::rebuild) rebuild();
+    }
+
+    // Another number or kind of molecules; what cannot be had is said and the old scene runs on.
+    void rebuild() {
+        const Scene old = scene_;
+        try {
+            Group& group = scene_.groups[size_t(panel_.choice.group)];
+            group.count = panel_.choice.count;
+            group.molecule = panel_.choice.molecule < 0
+                                 ? original_.groups[size_t(panel_.choice.group)].molecule
+                                 : readMolecule(panel_.molecules[size_t(panel_.choice.molecule)]);
+            build(compileStably());
+            message_.clear();
+        } catch (const Error& error) {
+            message_ = error.what();
+            scene_ = old;
+            build(compile(scene_, {context_.info().maxTextureSize}));
+        }
+    }
+
+    // A stiffer molecule takes more substeps instead of being refused.
+    Plan compileStably() {
+        const PlanLimits limits{context_.info().maxTextureSize};
+        for (int tries = 0; tries < 12; ++tries) {
+            try {
+                return compile(scene_, limits);
+            } catch (const Error&) {
+                if (scene_.solver.substeps >= 256) throw;
+                scene_.solver.substeps *= 2;
+            }
+        }
+        return compile(scene_, limits);
+    }
+
+    void showMessage() {
+        ImGui::SetNextWindowPos(ImVec2(330, 12), ImGuiCond_Always);
+        ImGui::SetNextWindowSize(ImVec2(std::max(200.0f, float(width_) - 350), 0));
+        ImGui::Begin("Message", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
+        ImGui::TextWrapped("%s", message_.c_str());
+        if (ImGui::Button("Close")) message_.clear();
+        ImGui::End();
+    }
+
+    void moveCamera() {
+        const ImGuiIO& io = ImGui::GetIO();
+        if (io.WantCaptureMouse) return;
+        const double dx = io.MouseDelta.x / height_, dy = io.MouseDelta.y / height_;
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera_.turn(dx, dy);
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
+            camera_.pan(dx, dy);
+        if (io.MouseWheel != 0) camera_.zoom(io.MouseWheel);
+    }
+
+    void pressKeys() {
+        if (ImGui::GetIO().WantCaptureKeyboard) return;
+        const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+        if (pressed(GLFW_KEY_SPACE)) controls_.paused = !controls_.paused;
+        if (pressed(GLFW_KEY_R)) action_ = Panel::Action::restart;
+        if (pressed(GLFW_KEY_C)) action_ = Panel::Action::resetCamera;
+        if (pressed(GLFW_KEY_ESCAPE)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+        if (pressed(GLFW_KEY_PERIOD)) {
+            controls_.paused = true;
+            action_ = Panel::Action::step;
+        }
+    }
+
+    // The window as the user sees it, panel and all.
+    void saveScreenshot() {
+        Image image{width_, height_, 4, std::vector<uint8_t>(size_t(width_) * size_t(height_) * 4)};
+        const size_t row = size_t(width_) * 4;
+        glPixelStorei(GL_PACK_ALIGNMENT, 1);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+        std::vector<uint8_t> bottomUp(image.pixels.size());
+        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
+        for (size_t y = 0; y < size_t(height_); ++y)
+            std::copy_n(bottomUp.begin() + std::ptrdiff_t((size_t(height_) - 1 - y) * row), row,
+                        image.pixels.begin() + std::ptrdiff_t(y * row));
+        for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+        writePng(options_.screenshot, image);
+        std::cout << "screenshot: " << options_.screenshot << "\n";
+    }
+
+    const Options& options_;
+    gpu::Context& context_;
+    GLFWwindow* window_;
+    Scene original_, scene_;
+    Controls controls_;
+    Panel panel_;
+    OrbitCamera camera_;
+    Interface interface_;
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<Renderer> renderer_;
+    Panel::Action action_ = Panel::Action::none;
+    gpu::Traffic lastFrame_;
+    std::string message_;
+    double framesPerSecond_ = 0;
+    int width_ = 0, height_ = 0, shown_ = 0;
+};
+
+}  // namespace
+
+int runWindow(const Options& options, gpu::Context& context, Loaded loaded) {
+    WindowRun(options, context, std::move(loaded)).go();
+    return 0;
+}
+
+}  // namespace shoal::app
