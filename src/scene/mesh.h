@@ -21,7 +21,7 @@ struct Mesh {
 
     std::vector<int> weld;                    // corner vertex -> welded vertex
     std::vector<glm::dvec3> weldedPositions;  // one per welded vertex
-    std::vector<glm::dvec3> weldedNormals;    // unit: area-weighted over the welded vertex's triangles
+    std::vector<glm::dvec3> weldedNormals;    // unit: the vertex's triangles weighted by their angles there
 
     struct Object {
         std::string name;  // the file's object, mesh or node name

@@ -40,9 +40,9 @@ class Selector {
         if (!selection_.object.empty()) keepObject();
         if (selection_.color) keepColor();
         if (selection_.minHeight || selection_.maxHeight) keepHeights();
-        if (selection_.maxThickness || selection_.thinnest) thickness_ = localThickness(mesh_);
+        if (selection_.maxThickness || selection_.thinnest) thickness_ = localThickness(mesh_, mask_);
         if (selection_.maxThickness)
-            keep(concat("maxThickness ", *selection_.maxThickness, " m"),
+            keep(concat("maxThickness ", *selection_.maxThickness, " m (of the rest)"),
                  [&](size_t v) { return thickness_[v] <= *selection_.maxThickness; });
         if (selection_.thinnest) keepThinnest();
         return collect();

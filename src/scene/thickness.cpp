@@ -6,7 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
+#include <utility>
 
 namespace shoal {
 
@@ -27,30 +29,37 @@ class TriangleTree {
             faces_.push_back(face(mesh.triangles[size_t(t)]));
     }
 
-    // Distance from `from` along the unit `direction` to the first triangle left through its back.
+    // Distance from `from` along the unit `direction` to the first triangle further than `least`;
+    // infinite when there is none or when the ray meets its front, so that it started outside.
     double exit(const glm::dvec3& from, const glm::dvec3& direction, double least) const {
         if (nodes_.empty()) return infinity;
         glm::dvec3 inverse;  // finite, so that no face that the ray runs along turns 0 * infinity into NaN
         for (int i = 0; i < 3; ++i)
             inverse[i] = direction[i] != 0 ? 1 / direction[i] : 1e300;
-        double nearest = infinity;
-        std::array<size_t, 64> stack;
+        Hit hit;
+        struct Entry {
+            size_t node;
+            double distance;
+        };
+        std::array<Entry, 64> stack;
         size_t depth = 0;
-        stack[depth++] = 0;
+        stack[depth++] = {0, enter(nodes_[0], from, inverse)};
         while (depth > 0) {
-            const Node& node = nodes_[stack[--depth]];
-            if (enter(node, from, inverse) >= nearest) continue;
+            const Entry entry = stack[--depth];
+            if (entry.distance >= hit.distance) continue;
+            const Node& node = nodes_[entry.node];
             if (node.count > 0) {
                 for (size_t i = node.first; i < node.first + node.count; ++i)
-                    nearest = std::min(nearest, leave(faces_[i], from, direction, least));
+                    meet(faces_[i], from, direction, least, hit);
                 continue;
             }
-            const size_t first = static_cast<size_t>(&node - nodes_.data()) + 1, second = node.second;
-            const bool nearFirst = enter(nodes_[first], from, inverse) < enter(nodes_[second], from, inverse);
-            stack[depth++] = nearFirst ? second : first;
-            stack[depth++] = nearFirst ? first : second;
+            Entry close{entry.node + 1, enter(nodes_[entry.node + 1], from, inverse)};
+            Entry far{node.second, enter(nodes_[node.second], from, inverse)};
+            if (far.distance < close.distance) std::swap(close, far);
+            if (far.distance < hit.distance) stack[depth++] = far;
+            if (close.distance < hit.distance) stack[depth++] = close;
         }
-        return nearest;
+        return hit.leaving ? hit.distance : infinity;
     }
 
   private:
@@ -61,6 +70,10 @@ class TriangleTree {
     };
     struct Face {
         glm::dvec3 a, ab, ac;
+    };
+    struct Hit {
+        double distance = infinity;
+        bool leaving = false;
     };
 
     const glm::dvec3& at(int vertex) const { return mesh_.positions[size_t(vertex)]; }
@@ -113,19 +126,20 @@ class TriangleTree {
         return enterAt <= leaveAt * (1 + 1e-12) ? enterAt : infinity;
     }
 
-    // Moeller and Trumbore's test, for triangles seen from behind only.
-    static double leave(const Face& f, const glm::dvec3& from, const glm::dvec3& direction, double least) {
+    // Moeller and Trumbore's test.
+    static void meet(const Face& f, const glm::dvec3& from, const glm::dvec3& direction, double least,
+                     Hit& hit) {
         const glm::dvec3 p = glm::cross(direction, f.ac);
-        const double determinant = glm::dot(f.ab, p);
-        if (determinant >= 0) return infinity;  // entering, or along the triangle
+        const double determinant = glm::dot(f.ab, p);  // below 0 when the ray leaves through the back
+        if (determinant == 0) return;
         const glm::dvec3 t = from - f.a;
         const double u = glm::dot(t, p) / determinant;
-        if (!(u >= -1e-9 && u <= 1 + 1e-9)) return infinity;
+        if (!(u >= -1e-9 && u <= 1 + 1e-9)) return;
         const glm::dvec3 q = glm::cross(t, f.ab);
         const double v = glm::dot(direction, q) / determinant;
-        if (!(v >= -1e-9 && u + v <= 1 + 1e-9)) return infinity;
+        if (!(v >= -1e-9 && u + v <= 1 + 1e-9)) return;
         const double distance = glm::dot(f.ac, q) / determinant;
-        return distance > least ? distance : infinity;
+        if (distance > least && distance < hit.distance) hit = {distance, determinant < 0};
     }
 
     const Mesh& mesh_;
@@ -137,26 +151,33 @@ class TriangleTree {
 
 }  // namespace
 
-std::vector<double> localThickness(const Mesh& mesh) {
+std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wanted) {
     const TriangleTree tree(mesh);
     // A vertex lies on its own triangles: hits closer than this are those.
     const double least = 1e-6 * glm::distance(mesh.low, mesh.high);
-    const double cosine = std::cos(0.5235987755982988), sine = 0.5;
+
+    // In a frame with z inward: the middle, three at 15 degrees, four at 30.
+    std::array<glm::dvec3, 8> fan = {glm::dvec3(0, 0, 1)};
+    for (size_t i = 1; i < fan.size(); ++i) {
+        const double angle = (i < 4 ? 15 : 30) * std::numbers::pi / 180;
+        const double round = 2 * std::numbers::pi * (i < 4 ? double(i) / 3 + 0.05 : double(i) / 4);
+        fan[i] = {std::sin(angle) * std::cos(round), std::sin(angle) * std::sin(round), std::cos(angle)};
+    }
 
     std::vector<double> thickness(mesh.weldedPositions.size(), infinity);
     for (size_t v = 0; v < thickness.size(); ++v) {
+        if (!wanted.empty() && !wanted[v]) continue;
         const glm::dvec3 inward = -mesh.weldedNormals[v];
         const glm::dvec3 other = std::abs(inward.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
         const glm::dvec3 s = glm::normalize(glm::cross(inward, other)), t = glm::cross(inward, s);
-        const glm::dvec3& from = mesh.weldedPositions[v];
-        std::array<double, 5> lengths = {tree.exit(from, inward, least),
-                                         tree.exit(from, cosine * inward + sine * s, least),
-                                         tree.exit(from, cosine * inward - sine * s, least),
-                                         tree.exit(from, cosine * inward + sine * t, least),
-                                         tree.exit(from, cosine * inward - sine * t, least)};
+        std::array<double, fan.size()> lengths;
+        for (size_t i = 0; i < fan.size(); ++i)
+            lengths[i] =
+                tree.exit(mesh.weldedPositions[v], fan[i].x * s + fan[i].y * t + fan[i].z * inward, least);
         const double middle = lengths[0];
-        std::nth_element(lengths.begin(), lengths.begin() + 2, lengths.end());
-        thickness[v] = std::min(middle, lengths[2]);
+        std::sort(lengths.begin(), lengths.end());
+        const auto found = std::lower_bound(lengths.begin(), lengths.end(), infinity) - lengths.begin();
+        if (found > 0) thickness[v] = std::min(middle, lengths[size_t(found - 1) / 2]);
     }
     return thickness;
 }

@@ -57,15 +57,21 @@ class WeldGrid {
     std::vector<int> next_;  // per welded vertex: the next in its cell, -1 at the end
 };
 
-// Twice the area, along the normal.
-glm::dvec3 areaVector(const Mesh& mesh, const glm::ivec3& t) {
-    const glm::dvec3& a = mesh.positions[size_t(t.x)];
-    return glm::cross(mesh.positions[size_t(t.y)] - a, mesh.positions[size_t(t.z)] - a);
-}
-
 glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
     const double length = glm::length(v);
     return std::isfinite(length) && length > 0 ? v / length : otherwise;
+}
+
+// The triangle's normal times its angle at a corner: sums do not depend on how polygons were cut
+// (Thuermer and Wuethrich 1998). On a three-sided twig a sum weighted by areas would lie along a side.
+glm::dvec3 angleNormal(const Mesh& mesh, const glm::ivec3& t, int corner) {
+    const glm::dvec3& at = mesh.positions[size_t(t[corner])];
+    const glm::dvec3 next = mesh.positions[size_t(t[(corner + 1) % 3])] - at;
+    const glm::dvec3 last = mesh.positions[size_t(t[(corner + 2) % 3])] - at;
+    const glm::dvec3 across = glm::cross(next, last);
+    const double sine = glm::length(across);
+    if (!(sine > 0)) return glm::dvec3(0);
+    return across / sine * std::atan2(sine, glm::dot(next, last));
 }
 
 }  // namespace
@@ -92,10 +98,10 @@ void completeMesh(Mesh& mesh) {
     std::vector<glm::dvec3> corner(mesh.positions.size(), glm::dvec3(0));
     mesh.weldedNormals.assign(mesh.weldedPositions.size(), glm::dvec3(0));
     for (const glm::ivec3& t : mesh.triangles) {
-        const glm::dvec3 area = areaVector(mesh, t);
         for (int i = 0; i < 3; ++i) {
-            corner[size_t(t[i])] += area;
-            mesh.weldedNormals[size_t(mesh.weld[size_t(t[i])])] += area;
+            const glm::dvec3 normal = angleNormal(mesh, t, i);
+            corner[size_t(t[i])] += normal;
+            mesh.weldedNormals[size_t(mesh.weld[size_t(t[i])])] += normal;
         }
     }
     const glm::dvec3 up(0, 1, 0);
