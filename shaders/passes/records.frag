@@ -1,12 +1,11 @@
 // records: once a frame, per molecule: the anchor follows the molecule, and pins may let go.
 // Positions are moved to the new anchor by the frame's first advect, from the same shift.
+#include "lib/state.glsl"
+#include "physics/anchor.glsl"
 #ifdef RELEASE
 #include "lib/springs.glsl"
 #include "physics/random.glsl"
-#else
-#include "lib/state.glsl"
 #endif
-#include "physics/anchor.glsl"
 
 #ifdef RELEASE
 uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule let go

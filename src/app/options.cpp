@@ -10,7 +10,9 @@
 #pragma GCC diagnostic pop
 #endif
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <iostream>
 
 namespace shoal::app {
@@ -55,16 +57,16 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
 }
 
 // All long option names of a command, for suggestions.
-std::vector<std::string> optionNames(const CLI::App& command) {
+std::vector<std::string> optionNames(CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
         for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
     return names;
 }
 
-std::string explainExtras(const CLI::App& app, int argc, char** argv) {
-    const CLI::App* command = &app;
-    for (const CLI::App* sub : app.get_subcommands()) command = sub;
+std::string explainExtras(CLI::App& app, int argc, char** argv) {
+    CLI::App* command = &app;
+    for (CLI::App* sub : app.get_subcommands()) command = sub;
     const std::vector<std::string> names = optionNames(*command);
     for (int i = 1; i < argc; ++i) {
         std::string word = argv[i];

@@ -1,4 +1,5 @@
 // The window: a scene that runs, a camera to move, and the panel.
+#define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
@@ -219,11 +220,11 @@ class WindowRun {
     void moveCamera() {
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantCaptureMouse) return;
-        const double dx = io.MouseDelta.x / height_, dy = io.MouseDelta.y / height_;
+        const double dx = double(io.MouseDelta.x) / height_, dy = double(io.MouseDelta.y) / height_;
         if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera_.turn(dx, dy);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
             camera_.pan(dx, dy);
-        if (io.MouseWheel != 0) camera_.zoom(io.MouseWheel);
+        if (io.MouseWheel != 0) camera_.zoom(double(io.MouseWheel));
     }
 
     void pressKeys() {

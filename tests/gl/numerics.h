@@ -1,0 +1,92 @@
+// Scenes made in code, run by the passes on the GPU, and the same problem for the double reference.
+#pragma once
+
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gl/gl_test.h"
+#include "reference/solve.h"
+#include "simulate/simulation.h"
+#include "support/shapes.h"
+
+namespace shoal::test {
+
+using Item = Placement::Item;
+
+inline Item at(const glm::dvec3& position, const glm::dquat& rotation = {1, 0, 0, 0}, double scale = 1) {
+    return {position, rotation, scale};
+}
+
+// One group of molecules, each where an item says and nothing random.
+inline Scene sceneOf(Molecule molecule, SolverKind solver, std::vector<Item> items = {Item{}}) {
+    Scene scene;
+    scene.name = "numerics";
+    scene.solver.kind = solver;
+    Group group;
+    group.name = molecule.name;
+    group.molecule = std::move(molecule);
+    group.count = int(items.size());
+    group.place.kind = Placement::Kind::list;
+    group.place.turn = Placement::Turn::none;
+    group.place.items = std::move(items);
+    scene.groups.push_back(std::move(group));
+    return scene;
+}
+
+inline void setSteps(Scene& scene, double frameTime, int substeps) {
+    scene.frameRate = 1 / frameTime;
+    scene.solver.substeps = substeps;
+}
+
+inline Simulation simulationOf(const Scene& scene, bool drawn = false) {
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), drawn);
+}
+
+inline void run(Simulation& simulation, int frames) {
+    for (int i = 0; i < frames; ++i)
+        simulation.frame();
+}
+
+// The state of one molecule, in world coordinates.
+inline reference::State stateOf(const Snapshot& snapshot, int molecule) {
+    const auto first = ptrdiff_t(molecule) * snapshot.vertexCount, last = first + snapshot.vertexCount;
+    reference::State out;
+    out.time = snapshot.time;
+    out.position.assign(snapshot.positions.begin() + first, snapshot.positions.begin() + last);
+    out.velocity.assign(snapshot.velocities.begin() + first, snapshot.velocities.begin() + last);
+    return out;
+}
+
+// The equations of one molecule of a scene; borrows the scene's molecule.
+inline reference::Problem problemOf(const Scene& scene, int molecule) {
+    const Group& group = scene.groups[0];
+    reference::Problem out{.molecule = &group.molecule};
+    out.scale = place(scene, 0)[size_t(molecule)].scale;
+    out.stiffness = group.stiffness;
+    out.damping = group.damping;
+    out.phase = double(compile(scene).constants[size_t(molecule)].z);
+    out.held = group.held;
+    out.gravity = scene.gravity;
+    out.drag = group.drag;
+    out.fields = scene.fields;
+    return out;
+}
+
+inline bool finite(const Snapshot& snapshot) {
+    for (size_t i = 0; i < snapshot.positions.size(); ++i) {
+        const glm::dvec3 sum =
+            snapshot.positions[i] + snapshot.velocities[i] + glm::dvec3(snapshot.normals[i]);
+        if (!std::isfinite(sum.x) || !std::isfinite(sum.y) || !std::isfinite(sum.z)) return false;
+    }
+    return true;
+}
+
+constexpr SolverKind bothSolvers[] = {SolverKind::euler, SolverKind::leapfrog};
+
+inline int orderOf(SolverKind kind) {
+    return kind == SolverKind::euler ? 1 : 2;
+}
+
+}  // namespace shoal::test

@@ -1,0 +1,211 @@
+// Contact on the GPU: bounce, slope and rest against closed forms that know no step.
+#include <cmath>
+#include <numbers>
+
+#include "gl/numerics.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using test::at;
+using test::bothSolvers;
+using test::run;
+using test::setSteps;
+
+namespace {
+
+constexpr double g = 9.81;
+
+Collider collider(ColliderShape shape, double restitution, double friction) {
+    Collider out;
+    out.shape = std::move(shape);
+    out.restitution = restitution;
+    out.friction = friction;
+    out.thickness = 0.01;
+    return out;
+}
+
+PlaneCollider plane(const glm::dvec3& point, const glm::dvec3& normal) {
+    PlaneCollider out;
+    out.point = point;
+    out.normal = normal;
+    return out;
+}
+
+// Gentle waves on a grid of 0.25 m, with a flat rim. The height at a sample, and between them bilinear.
+HeightFieldCollider waves(bool sampledNormals) {
+    HeightFieldCollider out;
+    out.columns = 41, out.rows = 33;
+    out.low = {-5, -4}, out.high = {5, 4};
+    out.sampledNormals = sampledNormals;
+    for (int z = 0; z < out.rows; ++z) {
+        for (int x = 0; x < out.columns; ++x) {
+            out.heights.push_back(
+                float(0.3 * std::sin(0.9 * (0.25 * x - 5)) * std::cos(0.7 * (0.25 * z - 4))));
+        }
+    }
+    return out;
+}
+
+double heightOf(const HeightFieldCollider& field, double x, double z) {
+    const double i = (x - field.low.x) / 0.25, k = (z - field.low.y) / 0.25;
+    const int column = std::min(int(i), field.columns - 2), row = std::min(int(k), field.rows - 2);
+    const double fx = i - column, fz = k - row;
+    auto sample = [&](int dx, int dz) {
+        return double(field.heights[size_t(row + dz) * size_t(field.columns) + size_t(column + dx)]);
+    };
+    return (sample(0, 0) * (1 - fx) + sample(1, 0) * fx) * (1 - fz) +
+           (sample(0, 1) * (1 - fx) + sample(1, 1) * fx) * fz;
+}
+
+}  // namespace
+
+TEST_CASE("passes: a bounce reaches e^2 of its height at 16 phases", "[numerics][contact]") {
+    const double h = 1 / 240.0, thickness = 0.01;
+    for (SolverKind kind : bothSolvers) {
+        for (double e : {0.0, 0.25, 0.5, 0.75, 1.0}) {
+            std::vector<test::Item> items;
+            for (int phase = 0; phase < 16; ++phase) {
+                items.push_back(at({3 * phase, 1 + phase / 16.0 * std::sqrt(2 * g) * h + thickness + 2, 0}));
+            }
+            Scene scene = test::sceneOf(test::point(1), kind, items);
+            scene.gravity = {0, -g, 0};
+            // friction must not matter, so that half of the plane's runs have some speed along it
+            scene.groups[0].velocity = {0.7, kind == SolverKind::euler ? g * h / 2 : 0, 0};
+            scene.colliders = {collider(plane({0, 2, 0}, {0, 1, 0}), e, 0.4)};
+            setSteps(scene, h, 1);
+            Simulation simulation = test::simulationOf(scene);
+            std::vector<double> best(16, 0), last(16, -1);
+            std::vector<int> bounces(16, 0);
+            for (int i = 0; i < 300; ++i) {
+                simulation.frame();
+                const Snapshot now = simulation.snapshot(0);
+                for (size_t m = 0; m < 16; ++m) {
+                    const double lag =
+                        kind == SolverKind::euler ? h / 2 : 0;  // to the velocity at the position
+                    const double v = now.velocities[m].y - g * lag;
+                    if (now.velocities[m].y > last[m] + 1e-3) ++bounces[m];
+                    last[m] = now.velocities[m].y;
+                    const double height = now.positions[m].y - 2 - thickness;
+                    if (bounces[m] == 1) best[m] = std::max(best[m], height + (v > 0 ? v * v / (2 * g) : 0));
+                }
+            }
+            for (size_t m = 0; m < 16; ++m) {
+                const double drop = 1 + double(m) / 16 * std::sqrt(2 * g) * h;
+                INFO(name(kind) << " e " << e << " phase " << m << " ratio " << best[m] / drop);
+                CHECK(bounces[m] >= 1);
+                CHECK(std::abs(best[m] / drop - e * e) < 0.02 * std::max(e * e, 0.05));
+            }
+        }
+    }
+}
+
+TEST_CASE("passes: a slope slides at g (sin a - mu cos a) and holds below atan mu", "[numerics][contact]") {
+    const double mu = 0.5, seconds = 1.5;
+    for (SolverKind kind : bothSolvers) {
+        for (double degrees : {15.0, 26.0, 28.0, 45.0}) {
+            const double a = degrees * std::numbers::pi / 180;
+            const glm::dvec3 normal{std::sin(a), std::cos(a), 0}, down{std::cos(a), -std::sin(a), 0};
+            Scene scene =
+                test::sceneOf(test::point(1), kind, {at(0.01 * normal), at(0.01 * normal - 4.0 * down)});
+            scene.gravity = {0, -g, 0};
+            scene.colliders = {collider(plane({0, 0, 0}, normal), 0.3, mu)};
+            setSteps(scene, 1 / 60.0, 4);
+            Simulation simulation = test::simulationOf(scene);
+            for (int substeps : {1, 4, 16}) {
+                simulation.restart();
+                simulation.parameters.substeps = substeps;
+                const Snapshot start = simulation.snapshot(0);
+                run(simulation, int(std::lround(60 * seconds)));
+                const Snapshot now = simulation.snapshot(0);
+                const double slide = g * (std::sin(a) - mu * std::cos(a));
+                for (size_t m = 0; m < 2; ++m) {
+                    INFO(name(kind) << " angle " << degrees << " substeps " << substeps << " molecule " << m);
+                    if (slide <= 0) {
+                        CHECK(glm::length(now.positions[m] - start.positions[m]) < 1e-5);
+                        CHECK(glm::length(now.velocities[m]) < 1e-6);
+                    } else {
+                        CHECK(glm::dot(now.velocities[m], down) / seconds == Approx(slide).epsilon(0.01));
+                        CHECK(std::abs(glm::dot(now.positions[m], normal) - 0.01) < 1e-3);
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST_CASE("passes: points come to rest on a plane, a sphere's top and a height field, and stay",
+          "[numerics][contact]") {
+    for (SolverKind kind : bothSolvers) {
+        for (int shape = 0; shape < 4; ++shape) {
+            std::vector<test::Item> items;
+            SphereCollider sphere;
+            sphere.center = {1, 2, 3};
+            sphere.radius = 0.7;
+            const HeightFieldCollider field = waves(shape == 3);
+            for (int i = 0; i < 25; ++i) {
+                const double x = i % 5 - 2, z = i / 5 - 2;
+                if (shape == 1) {
+                    items.push_back(at({1 + 0.02 * x, 2.9, 3 + 0.02 * z}));
+                } else {
+                    items.push_back(at({x * 0.93, 0.8, z * 0.77}));
+                }
+            }
+            Scene scene = test::sceneOf(test::point(1), kind, items);
+            scene.gravity = {0, -g, 0};
+            scene.groups[0].velocity = {0.05, 0, 0};
+            const ColliderShape shapes[] = {plane({0, 0.2, 0}, {0, 1, 0}), sphere, field, field};
+            scene.colliders = {collider(shapes[shape], 0.1, 1.0)};
+            setSteps(scene, 1 / 60.0, 4);
+            Simulation simulation = test::simulationOf(scene);
+            run(simulation, 120);
+            const Snapshot rest = simulation.snapshot(0);
+            run(simulation, 120);
+            const Snapshot later = simulation.snapshot(0);
+            for (size_t m = 0; m < items.size(); ++m) {
+                const glm::dvec3 x = later.positions[m];
+                INFO(name(kind) << " shape " << shape << " point " << m << " at " << x.x << " " << x.y << " "
+                                << x.z);
+                CHECK(glm::length(later.velocities[m]) < 1e-6);
+                CHECK(glm::length(x - rest.positions[m]) < 1e-6);
+                if (shape == 0) CHECK(x.y == Approx(0.21).margin(1e-5));
+                if (shape == 1) CHECK(glm::length(x - sphere.center) == Approx(0.71).margin(1e-5));
+                // thickness is along the normal, so that it is a little more along y on a slope
+                if (shape >= 2) CHECK(x.y - heightOf(field, x.x, x.z) == Approx(0.0105).margin(0.001));
+            }
+        }
+    }
+}
+
+TEST_CASE("passes: leaves land and stay without sinking in", "[numerics][contact]") {
+    for (SolverKind kind : bothSolvers) {
+        std::vector<test::Item> items;
+        for (int i = 0; i < 16; ++i) {
+            const glm::dvec3 axis = glm::normalize(glm::dvec3(i - 7.5, 3, 2));
+            items.push_back(
+                at({i % 4 * 1.5 - 2, 1 + 0.1 * i, i / 4 * 1.5 - 2}, glm::angleAxis(0.4 * i, axis), 0.5));
+        }
+        Scene scene = test::sceneOf(test::leaf(2000, 20), kind, items);
+        scene.gravity = {0, -g, 0};
+        scene.groups[0].drag = {4, 0.5};
+        scene.colliders = {collider(plane({0, 0, 0}, {0, 1, 0}), 0.1, 0.6)};
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation, 360);
+        const Snapshot rest = simulation.snapshot(0);
+        run(simulation, 60);
+        const Snapshot later = simulation.snapshot(0);
+        double lowest = 1, fastest = 0, moved = 0;
+        for (size_t i = 0; i < later.positions.size(); ++i) {
+            lowest = std::min(lowest, later.positions[i].y);
+            fastest = std::max(fastest, glm::length(later.velocities[i]));
+            moved = std::max(moved, glm::length(later.positions[i] - rest.positions[i]));
+        }
+        INFO(name(kind) << " lowest " << lowest << " fastest " << fastest << " moved " << moved);
+        CHECK(lowest > 0.01 - 1e-4);
+        CHECK(fastest < 0.01);
+        CHECK(moved < 1e-3);
+    }
+}
+
+}  // namespace shoal

@@ -1,0 +1,160 @@
+#include <set>
+#include <tuple>
+
+#include "gl/render_scene.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// The same scene with the molecules out of sight.
+Image withoutMolecules(Scene scene) {
+    for (Group& group : scene.groups)
+        for (Placement::Item& item : group.place.items)
+            item.position.z += 1000;
+    return show(scene).image;
+}
+
+// Pixels of a length at a distance, in a picture 120 high.
+double pixels(const Scene& scene, double length, double distance) {
+    return length / distance * 120 / (2 * std::tan(scene.camera.fieldOfView / 2));
+}
+
+}  // namespace
+
+TEST_CASE("a molecule covers the pixels that a pinhole camera would show it on", "[render]") {
+    const glm::dvec3 place(0.5, -0.25, 0);
+    const Scene scene = sceneOfSquares({place});
+    const Shown shown = show(scene);
+    const Changed found = changed(shown.image, withoutMolecules(scene), 30);
+
+    const double side = pixels(scene, 0.4, 3);
+    CHECK(found.count == Approx(side * side).epsilon(0.08));
+    CHECK(found.centroid.x == Approx(80 + pixels(scene, place.x, 3)).margin(0.5));
+    CHECK(found.centroid.y == Approx(60 - pixels(scene, place.y, 3)).margin(0.5));
+}
+
+TEST_CASE("a picture 100 km from the origin is the picture at it", "[render]") {
+    Scene near = sceneOfSquares({{0.3, 0.1, 0}, {-0.4, -0.2, -0.3}, {0.33, 0.05, -0.7}});
+    near.camera.eye = {0.3, 0.2, 3.03};
+    Scene far = near;
+    const glm::dvec3 shift(1e5, -2e4, 7e4);  // whole steps of the anchors' lattice
+    for (Placement::Item& item : far.groups[0].place.items)
+        item.position += shift;
+    far.camera.eye += shift;
+    far.camera.target += shift;
+    // Interior and edges alike. The placement itself is rounded to doubles, 1e-11 m out there: that may move
+    // an edge across one sample of one pixel, and nothing else.
+    const Changed found = changed(show(near).image, show(far).image, 2);
+    CHECK(found.count <= 1);
+}
+
+TEST_CASE("alpha cuts holes into a molecule", "[render]") {
+    const Scratch scratch;
+    Image image{64, 64, 4, std::vector<uint8_t>(64 * 64 * 4, 255)};
+    for (int y = 0; y < 64; ++y)
+        for (int x = 32; x < 64; ++x)
+            image.pixels[size_t(y * 64 + x) * 4 + 3] = 0;
+    writePng(scratch.path("half.png"), image);
+
+    Scene scene = sceneOfSquares({{0, 0, 0}}, 1);
+    scene.groups[0].molecule.file = scratch.path("square.json");
+    scene.groups[0].molecule.material.texture = "half.png";
+    const Changed found = changed(show(scene).image, withoutMolecules(scene), 30);
+
+    const double side = pixels(scene, 1, 3);
+    CHECK(found.count == Approx(side * side / 2).epsilon(0.08));
+    CHECK(found.centroid.x == Approx(80 - side / 4).margin(0.6));
+}
+
+TEST_CASE("both sides are drawn, and light shines through what is translucent", "[render]") {
+    Scene scene = sceneOfSquares({{0, 0, 0}}, 1);
+    const auto middle = [&] { return brightness(pixel(show(scene).image, 80, 60)); };
+    const int front = middle();
+    scene.camera.eye = {0, 0, -3};
+    const int back = middle();
+    scene.groups[0].molecule.material.translucency = 0.8;
+    const int through = middle();
+    CHECK(back > 30);  // the sky lights it
+    CHECK(back < front - 60);
+    CHECK(through > back + 30);
+}
+
+TEST_CASE("a molecule's shadow darkens the ground below it, and nothing else", "[render]") {
+    Scene scene = sceneOfSquares({{0, 1, 0}}, 1);
+    scene.groups[0].place.items[0].rotation = glm::angleAxis(-1.5707963267948966, glm::dvec3(1, 0, 0));
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
+    scene.light.direction = {0, -1, 0};
+    scene.camera.eye = {0, 0.8, 4};  // below the square's edge, so that it hides none of its shadow
+    scene.camera.target = {0, 0, 0};
+    const Image shaded = show(scene).image;
+    scene.light.shadows = false;
+    const Image lit = show(scene).image;
+    CHECK(brightness(pixel(shaded, 80, 60)) < brightness(pixel(lit, 80, 60)) * 3 / 4);
+    CHECK(difference(pixel(shaded, 10, 60), pixel(lit, 10, 60)) <= 1);
+    CHECK(difference(pixel(shaded, 80, 115), pixel(lit, 80, 115)) <= 1);
+}
+
+TEST_CASE("instances differ in colour, the same ones every time", "[render]") {
+    std::vector<glm::dvec3> places;
+    for (int i = 0; i < 9; ++i)
+        places.emplace_back(i % 3 - 1, i / 3 - 1, 0);
+    Scene scene = sceneOfSquares(places, 0.4);
+    scene.groups[0].molecule.material.secondColor = glm::dvec3(0.1, 0.5, 0.1);
+    const auto colors = [&] {
+        const Image image = show(scene).image;
+        std::vector<std::tuple<int, int, int>> out;
+        for (const glm::dvec3& place : places) {
+            const glm::ivec3 c =
+                pixel(image, int(80 + pixels(scene, place.x, 3)), int(60 - pixels(scene, place.y, 3)));
+            out.emplace_back(c.x, c.y, c.z);
+        }
+        return out;
+    };
+    const auto first = colors();
+    CHECK(std::set(first.begin(), first.end()).size() >= 7);
+    CHECK(first == colors());
+}
+
+TEST_CASE("molecules without triangles are round", "[render]") {
+    Scene scene = sceneOfSquares({{0.25, 0, 0}});
+    Molecule& molecule = scene.groups[0].molecule;
+    molecule.vertices.resize(1);
+    molecule.vertices[0].position = {0, 0, 0};
+    molecule.triangles.clear();
+    molecule.material.pointSize = 0.6;
+    const Changed found = changed(show(scene).image, withoutMolecules(scene), 20);
+    const double diameter = pixels(scene, 0.6, 3);
+    CHECK(found.count == Approx(3.14159 / 4 * diameter * diameter).epsilon(0.1));
+    CHECK(found.centroid.x == Approx(80 + pixels(scene, 0.25, 3)).margin(0.6));
+}
+
+TEST_CASE("drawing writes no state and moves none", "[render]") {
+    Scene scene = sceneOfSquares({{0, 0, 0}, {0.3, 0.4, -1}});
+    scene.gravity = {0, -9.81, 0};
+    const Shown shown = show(scene, 5);
+    CHECK(shown.stateUnchanged);
+    CHECK(shown.moved.total(gpu::Traffic::Kind::state) == 0);
+    CHECK(shown.moved.total(gpu::Traffic::Kind::parameters) == 0);
+    CHECK(shown.moved.total(gpu::Traffic::Kind::control) == 0);
+}
+
+TEST_CASE("a picture takes another size, and every number of samples", "[render]") {
+    Scene scene = sceneOfSquares({{0, 0, 0}});
+    const Plan plan = compile(scene);
+    for (const int samples : {1, 4}) {
+        Renderer renderer(testContext(), shaderRoot(), scene, plan,
+                          {.width = 64, .height = 48, .samples = samples});
+        const Simulation simulation(testContext(), shaderRoot(), plan);
+        renderer.resize(101, 37);
+        renderer.draw(simulation.state(), View::of(scene.camera));
+        const Image image = renderer.capture();
+        REQUIRE(image.width == 101);
+        REQUIRE(image.height == 37);
+        const glm::ivec3 middle = pixel(image, 50, 18);
+        CHECK(middle.x > middle.z + 40);  // the red square, also before the first frame
+    }
+}
