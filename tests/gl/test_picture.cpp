@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <functional>
 
+#include "core/error.h"
 #include "render/picture.h"
 #include "support/catch.h"
 #include "support/scratch.h"
