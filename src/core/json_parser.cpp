@@ -1,8 +1,8 @@
 // Text to a tree of JsonValues, through RapidJSON's event reader.
 //
-// RapidJSON tells the stream's position at an event, which is the end of a token for scalars and keys and
-// the bracket itself for containers. A token's start is therefore found here: the first byte after the
-// previous token that is neither white space, comma nor colon.
+// RapidJSON's events carry no dependable position (the stream is advanced before or after an event, by kind),
+// so tokens are followed here: one starts at the first byte behind the previous one that is neither white
+// space, comma nor colon, and its end is plain since the reader has accepted it.
 #include <algorithm>
 #include <cctype>
 #include <charconv>
@@ -51,8 +51,7 @@ Position positionOf(std::string_view text, size_t offset) {
 
 class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
   public:
-    TreeBuilder(std::string_view text, const std::string& file, const rapidjson::StringStream& stream)
-        : text_(text), file_(file), stream_(stream), lines_(text) {}
+    TreeBuilder(std::string_view text, const std::string& file) : text_(text), file_(file), lines_(text) {}
 
     JsonValue takeRoot() { return std::move(root_); }
 
@@ -73,7 +72,7 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
     bool Key(const char* characters, rapidjson::SizeType length, bool) {
         Open& object = open_.back();
         const Position start = nextToken();
-        last_ = stream_.Tell();
+        skipToken();
         object.key.assign(characters, length);
         object.keyAt = start;
         if (!object.seen.insert(object.key).second) fail(start, "key \"" + object.key + "\" appears twice");
@@ -111,9 +110,19 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
             ++last_;
         return lines_.at(last_);
     }
+    // Over a string, number or word.
+    void skipToken() {
+        if (text_[last_] == '"') {
+            for (++last_; text_[last_] != '"'; ++last_)
+                if (text_[last_] == '\\') ++last_;
+            ++last_;
+        } else {
+            last_ = std::min(text_.find_first_of(" \t\r\n,:]}", last_), text_.size());
+        }
+    }
     bool scalar(JsonValue value) {
         const Position start = nextToken();
-        last_ = stream_.Tell();
+        skipToken();
         place(std::move(value), start);
         return true;
     }
@@ -154,7 +163,6 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
 
     std::string_view text_;
     const std::string& file_;
-    const rapidjson::StringStream& stream_;
     LineCounter lines_;
     size_t last_ = 0;  // just behind the previous token
     std::vector<Open> open_;
@@ -222,7 +230,7 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
         throw Error({file, position.line, position.column, {}}, "expected JSON, found a zero byte");
     }
     rapidjson::StringStream stream(text.data());
-    TreeBuilder builder(text, file, stream);
+    TreeBuilder builder(text, file);
     rapidjson::Reader reader;
     constexpr unsigned flags = rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag |
                                rapidjson::kParseValidateEncodingFlag;

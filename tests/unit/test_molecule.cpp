@@ -159,7 +159,7 @@ TEST_CASE("everything optional comes back from writing, in the order of the orig
   "name": "pair",
   "format": "shoal-molecule-1",
   "springs": [
-    {"b": 1, "a": 0, "stiffness": 3, "comment": "thick", "damping": 0.25, "restLength": 0.5, "actuation": )"
+    {"b": 1, "a": 0, "stiffness": 3, "restLength": 0.5, "actuation": )"
                              R"({"phase": 1, "amplitude": 0.1, "frequency": 2}}
   ],
   "vertices": [
