@@ -1,4 +1,4 @@
-// Scene files: strict JSON, format "shoal-scene-1", described in docs/scene-file.md and
+// Scene files: strict JSON, format "shoal-scene-1", described by
 // models/scene.schema.json. Keys are named like the members of the structs in scene.h; anything left out
 // keeps the struct's default. File names inside are relative to the scene file's folder.
 #pragma once

@@ -53,9 +53,9 @@ TEST_CASE("bad input: files that a scene names", "[badInput]") {
                Contains("nowhere/x.scene.json: no such file"));
     const std::string missing = wrong.scene("\"blade.json\"", "\"../laef.json\"");
     CHECK_THAT(missing,
-               Contains("s.json:33:35: no such file: ") && Contains("laef.json (at $.groups[0].molecule)"));
+               Contains("s.json:30:35: no such file: ") && Contains("laef.json (at $.groups[0].molecule)"));
     CHECK_THAT(wrong.scene("hill.obj", "hall.obj"),
-               Contains("s.json:29:30: no such file: ") && Contains("hall.obj"));
+               Contains("s.json:26:30: no such file: ") && Contains("hall.obj"));
     CHECK_THAT(wrong.scene("wind.fga", "wand.fga"),
                Contains("no such file: ") && Contains("$.fields[7].file"));
     CHECK_THAT(wrong.scene("wind.fga", "hill.obj"), Contains("expected a vector field as .fga"));
@@ -83,7 +83,7 @@ TEST_CASE("bad input: scenes that are not scenes", "[badInput]") {
     CHECK_THAT(whole("{\"format\": \"shoal-scene-1\"}"), Contains("\"groups\""));
     CHECK_THAT(whole("{\"format\": \"shoal-scene-1\",\n\"groups\": []}"),
                Contains("s.json:2:11: expected at least one group"));
-    CHECK_THAT(wrong.scene("\"camera\"", "\"camera\" 5"), Contains("s.json:46:"));
+    CHECK_THAT(wrong.scene("\"camera\"", "\"camera\" 5"), Contains("s.json:42:"));
     CHECK_THAT(wrong.scene("\"gravity\"", "\"gravty\""),
                Contains("gravty") && Contains("did you mean \"gravity\"?"));
     CHECK_THAT(wrong.scene("\"substeps\"", "\"subSteps\""),
@@ -105,7 +105,7 @@ TEST_CASE("bad input: values of a scene", "[badInput]") {
         {"[0, -9.81, 0]", "-9.81", "s.json:6:14: expected an array", "found a number"},
         {"\"frameRate\": 30", "\"frameRate\": 0", "s.json:5:16: expected a number from 1 to 100000",
          "found 0"},
-        {"\"substeps\": 12", "\"substeps\": 1.5", "s.json:7:43: expected", "whole"},
+        {"\"substeps\": 12", "\"substeps\": 1.5", "s.json:7:45: expected", "whole"},
         {"\"euler\"", "\"eular\"", "s.json:7:", "did you mean \"euler\"?"},
         {"\"vortex\"", "\"vortx\"", "did you mean \"vortex\"?", "$.fields[3].type"},
         {"\"radius\": 0.5, \"lift\"", "\"radius\": 0, \"lift\"", "expected a number", "$.fields[3].radius"},
@@ -119,7 +119,7 @@ TEST_CASE("bad input: values of a scene", "[badInput]") {
          "no model is named \"hall\"", "did you mean \"hill\"?"},
         {"\"model\": \"hill\", \"resolution\": 5", "\"resolution\": 5", "either \"image\" or \"model\"", ""},
         {"\"resolution\": 5", "\"resolution\": 1", "from 2 to 4096", ""},
-        {"\"count\": 3", "\"count\": 0", "s.json:33:58: expected a whole count of at least 1, found 0", ""},
+        {"\"count\": 3", "\"count\": 0", "s.json:30:58: expected a whole count of at least 1, found 0", ""},
         {"\"count\": 3", "\"count\": -3", "expected a whole count of at least 1, found -3",
          "$.groups[0].count"},
         {"\"count\": 3", "\"count\": 16777217", "at most 16777216 (2^24: single precision", "found 16777217"},
@@ -143,7 +143,7 @@ TEST_CASE("bad input: values of a scene", "[badInput]") {
         {"\"tangent\": 1}", "\"tangnt\": 1}", "\"tangent\"", "$.groups[0].drag"},
         {"[0, 0, 2, 2]", "[0, 0, 0, 0]", "expected a quaternion", "found zero"},
         {"[0, 0, 2, 2]", "[0, 0, 2]", "expected a quaternion [x, y, z, w], found 3 numbers", ""},
-        {"\"target\": [0, 0, 0]", "\"target\": [1, 2, 3]", "s.json:46:", "eye and target apart"},
+        {"\"target\": [0, 0, 0]", "\"target\": [1, 2, 3]", "s.json:42:", "eye and target apart"},
         {"{\"type\": \"abc\"", "{\"name\": \"wind\", \"type\": \"abc\"", "the name \"wind\" is already taken",
          ""},
     };
