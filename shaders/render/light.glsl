@@ -83,7 +83,8 @@ vec3 shade(Surface s)
 {
     vec3 toEye = -normalize(s.place);
     float facing = dot(s.normal, sunDirection);
-    float visible = sunVisibility(s.place, s.face);
+    bool sunlit = facing > 0.0 || s.translucency > 0.0;
+    float visible = sunlit ? sunVisibility(s.place, s.face) : 0.0;
 
     vec3 radiance = s.albedo * ambientLight(s.normal) * s.openness;
     float front = max(facing, 0.0);

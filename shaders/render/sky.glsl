@@ -6,11 +6,14 @@ uniform vec3 skyGround;
 uniform vec3 sunDirection;  // towards the sun, unit
 uniform vec3 sunColor;      // radiance of a white surface that faces the sun
 
+// The sky's colours are given as a picture shows them; next to full sunlight a clear sky is this much brighter.
+const float skyBrightness = 1.55;
+
 vec3 skyGradient(vec3 direction)
 {
     float height = max(direction.y, 0.0);
     // The air is thickest near the horizon: the gradient is steep there and flat above.
-    return mix(skyHorizon, skyZenith, 1.0 - exp(-4.5 * height));
+    return skyBrightness * mix(skyHorizon, skyZenith, 1.0 - exp(-4.5 * height));
 }
 
 // Light scattered forward by haze around the sun.

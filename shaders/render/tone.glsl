@@ -16,7 +16,7 @@ vec3 unsqueeze(vec3 squeezed)
 // highlights that roll off instead of clipping.
 vec3 toneMap(vec3 radiance)
 {
-    vec3 x = radiance * 0.8;
+    vec3 x = radiance * 0.5;  // exposure 1 suits sunlight of the default strength
     return x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14);
 }
 

@@ -1,9 +1,9 @@
 // The picture of the hello scene against the one in tests/golden.
 //
-// Tolerance: the mean difference of a channel is below 1.5 of 255 and fewer than 1 % of the pixels differ by
-// more than 24. Two rasterisers place the four samples of a pixel elsewhere and round positions to other
-// fractions of a pixel, which changes pixels along edges (about 0.5 % of this picture); filters and powers
-// differ in the last bit everywhere. A square that is turned or moved by three pixels breaks both limits.
+// Tolerance: the mean difference of a channel is below 0.45 of 255 and fewer than 0.7 % of the pixels differ
+// by more than 24. Rasterisers place the four samples of a pixel elsewhere and round to other fractions of
+// it, which changes pixels along edges. Measured: a camera moved by 0.14 pixels both ways gives 0.27 and 0.28
+// %; one frame too few gives 0.61 and 1.5 %, a wind stronger by a third 0.51 and 1.2 %.
 //
 // SHOAL_UPDATE_GOLDEN=1 writes the picture instead of comparing it: look at it before it is committed.
 #include <cstdlib>
@@ -31,6 +31,6 @@ TEST_CASE("the hello scene looks as it did", "[golden]") {
     double sum = 0;
     for (size_t i = 0; i < image.pixels.size(); ++i)
         sum += std::abs(int(image.pixels[i]) - int(golden.pixels[i]));
-    CHECK(sum / double(image.pixels.size()) < 1.5);
-    CHECK(changed(image, golden, 24).count < image.width * image.height / 100);
+    CHECK(sum / double(image.pixels.size()) < 0.45);
+    CHECK(changed(image, golden, 24).count < image.width * image.height * 7 / 1000);
 }
