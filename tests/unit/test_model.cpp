@@ -98,7 +98,8 @@ TEST_CASE("a cube of quads welds to eight vertices", "[model]") {
     // Vertex colours of an OBJ are sRGB and become linear.
     REQUIRE(mesh.colors.size() == mesh.positions.size());
     for (size_t corner = 0; corner < mesh.weld.size(); ++corner)
-        if (mesh.positions[corner] == glm::dvec3(0, 1, 1)) checkClose(mesh.colors[corner], {0.2140411, 0.0508761, 0});
+        if (mesh.positions[corner] == glm::dvec3(0, 1, 1))
+            checkClose(mesh.colors[corner], {0.2140411, 0.0508761, 0});
 }
 
 TEST_CASE("nested node transforms move positions and normals", "[model]") {
