@@ -12,7 +12,6 @@
 
 #include <cstdlib>
 #include <cstring>
-#include <map>
 #include <vector>
 
 #include "core/error.h"
@@ -26,7 +25,6 @@ struct EglApi {
     PFNEGLGETERRORPROC getError = nullptr;
     PFNEGLQUERYSTRINGPROC queryString = nullptr;
     PFNEGLINITIALIZEPROC initialize = nullptr;
-    PFNEGLTERMINATEPROC terminate = nullptr;
     PFNEGLBINDAPIPROC bindApi = nullptr;
     PFNEGLCHOOSECONFIGPROC chooseConfig = nullptr;
     PFNEGLCREATECONTEXTPROC createContext = nullptr;
@@ -48,7 +46,6 @@ struct EglApi {
         load(library, getError, "eglGetError");
         load(library, queryString, "eglQueryString");
         load(library, initialize, "eglInitialize");
-        load(library, terminate, "eglTerminate");
         load(library, bindApi, "eglBindAPI");
         load(library, chooseConfig, "eglChooseConfig");
         load(library, createContext, "eglCreateContext");
@@ -112,30 +109,14 @@ std::string errorText() {
     }
 }
 
-// A display is the same object for all who ask for it, and eglTerminate ends it for all of them: so users are
-// counted here, once per process.
-class DisplayUse {
-  public:
-    explicit DisplayUse(EGLDisplay display) : display_(display) {
-        if (egl().initialize(display, nullptr, nullptr) != EGL_TRUE) {
-            throw Error("cannot be initialised, " + errorText());
-        }
-        ++users()[display];
+// A display is the same object for all who ask for it, and eglTerminate would end it for all of them. So it
+// is left to the end of the process, as the libraries are.
+EGLDisplay initialised(EGLDisplay display) {
+    if (egl().initialize(display, nullptr, nullptr) != EGL_TRUE) {
+        throw Error("cannot be initialised, " + errorText());
     }
-    ~DisplayUse() {
-        if (--users()[display_] == 0) egl().terminate(display_);
-    }
-    DisplayUse(const DisplayUse&) = delete;
-    DisplayUse& operator=(const DisplayUse&) = delete;
-    EGLDisplay get() const { return display_; }
-
-  private:
-    static std::map<EGLDisplay, int>& users() {
-        static std::map<EGLDisplay, int> counts;
-        return counts;
-    }
-    EGLDisplay display_;
-};
+    return display;
+}
 
 struct Candidate {
     EGLDisplay display = EGL_NO_DISPLAY;
@@ -146,12 +127,12 @@ struct Candidate {
 class EglPlatform final : public Platform {
   public:
     EglPlatform(const Candidate& candidate, bool debug)
-        : display_(candidate.display), description_(candidate.description) {
+        : display_(initialised(candidate.display)), description_(candidate.description) {
         if (egl().bindApi(EGL_OPENGL_API) != EGL_TRUE) throw Error("has no desktop OpenGL, " + errorText());
         const EGLConfig config = chooseConfig();
         try {
             createContext(config, debug);
-            if (!displayHas(display_.get(), "EGL_KHR_surfaceless_context")) createSurface(config);
+            if (!displayHas(display_, "EGL_KHR_surfaceless_context")) createSurface(config);
             makeCurrent();
         } catch (...) {
             destroy();
@@ -163,13 +144,11 @@ class EglPlatform final : public Platform {
     void makeCurrent() override {
         // The bound API belongs to the thread, and others (such as a toolkit) may have changed it.
         egl().bindApi(EGL_OPENGL_API);
-        if (egl().makeCurrent(display_.get(), surface_, surface_, context_) != EGL_TRUE) {
+        if (egl().makeCurrent(display_, surface_, surface_, context_) != EGL_TRUE) {
             throw Error("the context cannot be made current, " + errorText());
         }
     }
-    void release() override {
-        egl().makeCurrent(display_.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
+    void release() override { egl().makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
     Loader loader() const override { return egl().getProcAddress; }
     std::string description() const override { return description_; }
 
@@ -188,7 +167,7 @@ class EglPlatform final : public Platform {
                                          EGL_NONE};
             EGLConfig config = nullptr;
             EGLint count = 0;
-            if (egl().chooseConfig(display_.get(), attributes, &config, 1, &count) == EGL_TRUE && count > 0) {
+            if (egl().chooseConfig(display_, attributes, &config, 1, &count) == EGL_TRUE && count > 0) {
                 return config;
             }
         }
@@ -209,7 +188,7 @@ class EglPlatform final : public Platform {
                 }
             }
             attributes.push_back(EGL_NONE);
-            context_ = egl().createContext(display_.get(), config, EGL_NO_CONTEXT, attributes.data());
+            context_ = egl().createContext(display_, config, EGL_NO_CONTEXT, attributes.data());
             if (context_ != EGL_NO_CONTEXT) return;
             reason = errorText();
         }
@@ -218,7 +197,7 @@ class EglPlatform final : public Platform {
 
     void createSurface(EGLConfig config) {
         const EGLint attributes[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
-        surface_ = egl().createPbufferSurface(display_.get(), config, attributes);
+        surface_ = egl().createPbufferSurface(display_, config, attributes);
         if (surface_ == EGL_NO_SURFACE) {
             throw Error("has neither contexts without a surface nor a pbuffer, " + errorText());
         }
@@ -226,11 +205,11 @@ class EglPlatform final : public Platform {
 
     void destroy() {
         if (context_ != EGL_NO_CONTEXT && egl().getCurrentContext() == context_) release();
-        if (surface_ != EGL_NO_SURFACE) egl().destroySurface(display_.get(), surface_);
-        if (context_ != EGL_NO_CONTEXT) egl().destroyContext(display_.get(), context_);
+        if (surface_ != EGL_NO_SURFACE) egl().destroySurface(display_, surface_);
+        if (context_ != EGL_NO_CONTEXT) egl().destroyContext(display_, context_);
     }
 
-    DisplayUse display_;
+    EGLDisplay display_ = EGL_NO_DISPLAY;
     std::string description_;
     EGLContext context_ = EGL_NO_CONTEXT;
     EGLSurface surface_ = EGL_NO_SURFACE;

@@ -25,7 +25,8 @@ class Texture {
     // Error: larger than the context allows, or out of memory; says how much it would take.
     Texture(Context& context, Format format, int width, int height, const char* label);
 
-    // A rectangle of texels; `bytes` must be w * h * texelBytes(format). Counted in the context's traffic.
+    // Binds itself to the unit that is active. A rectangle of texels; `bytes` must be w * h *
+    // texelBytes(format). Counted in the context's traffic.
     void upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes);
     void download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes) const;
 
