@@ -1,4 +1,5 @@
 // The main of every test program that needs no preparation of its own.
+#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC 12 in std::regex, with sanitizers
 #define CATCH_CONFIG_RUNNER
 #include "support/catch.h"
 

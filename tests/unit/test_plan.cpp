@@ -1,0 +1,201 @@
+// A scene compiles to what it needs: passes, buffers and shader text.
+#include <algorithm>
+
+#include "compile/generate.h"
+#include "compile/plan.h"
+#include "molecule/analysis.h"
+#include "molecule/molecule_file.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace shoal;
+
+namespace {
+
+Scene sceneWith(const std::string& molecule, int count = 3) {
+    Scene scene;
+    Group group;
+    group.molecule = readMolecule(SHOAL_SOURCE_DIR "/molecules/" + molecule + ".json");
+    group.count = count;
+    scene.groups.push_back(group);
+    return scene;
+}
+
+Field field(FieldShape shape) {
+    Field out;
+    out.shape = std::move(shape);
+    return out;
+}
+
+Collider collider(ColliderShape shape) {
+    Collider out;
+    out.shape = std::move(shape);
+    return out;
+}
+
+// "records restore | advect collide restore | normals": the passes at a frame's start, a substep, its end.
+std::string passes(const Plan& plan) {
+    std::string out;
+    using When = PassPlan::When;
+    for (const When when : {When::frameStart, When::substep, When::frameEnd}) {
+        if (when != When::frameStart) out += "|";
+        for (const PassPlan& pass : plan.passes)
+            if (pass.when == when) out += std::string(out.empty() || out.back() == '|' ? "" : " ") + name(pass.kind);
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a bare point is only advected", "[plan]") {
+    const Plan plan = compile(sceneWith("point"));
+    CHECK(passes(plan) == "records|advect|");
+    CHECK(plan.fieldSource.empty());
+    CHECK(plan.collideSource.empty());
+}
+
+TEST_CASE("each need brings its pass and no other", "[plan]") {
+    Scene scene = sceneWith("quad");
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+
+    scene.solver.kind = SolverKind::euler;
+    CHECK(passes(compile(scene)) == "records|restore advect|normals");
+    scene.solver.kind = SolverKind::leapfrog;
+
+    scene.colliders.push_back(collider(PlaneCollider{}));
+    CHECK(passes(compile(scene)) == "records restore|advect collide restore|normals");
+    scene.groups[0].collide = false;
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    CHECK(compile(scene).collideSource.empty());
+
+    scene.groups[0].drag = {4, 1};
+    CHECK(passes(compile(scene)) == "records restore|normals advect restore|normals");
+    scene.groups[0].drag = {2, 2};
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+}
+
+TEST_CASE("fields are read only where there is drag", "[plan]") {
+    Scene scene = sceneWith("quad");
+    scene.fields.push_back(field(UniformField{{1, 0, 0}}));
+    CHECK_FALSE(compile(scene).groups[0].needs.fields);
+    CHECK(compile(scene).fieldSource.empty());
+    scene.groups[0].drag = {1, 1};
+    const Plan plan = compile(scene);
+    CHECK(plan.groups[0].needs.fields);
+    CHECK(plan.fieldSource.find("fieldParameters[0].xyz") != std::string::npos);
+}
+
+TEST_CASE("what hangs on pins for good keeps no records pass", "[plan]") {
+    Scene scene = sceneWith("leaf");
+    CHECK(passes(compile(scene)) == "restore|advect restore|normals");
+    scene.groups[0].release = Release{0.1, std::nullopt, 0};
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    scene.groups[0].release.reset();
+    scene.groups[0].held = false;
+    const Plan plan = compile(scene);
+    CHECK(passes(plan) == "records restore|advect restore|normals");
+    CHECK_FALSE(plan.groups[0].needs.pins);
+}
+
+TEST_CASE("changing a number changes no shader text", "[plan]") {
+    Scene scene = sceneWith("quad");
+    scene.groups[0].drag = {1, 1};
+    GustField gust;
+    scene.fields.push_back(field(gust));
+    scene.fields.push_back(field(VortexField{}));
+    scene.fields[1].box = Box{};
+    scene.colliders.push_back(collider(SphereCollider{}));
+    const Plan before = compile(scene);
+    gust.speed = 9;
+    gust.direction = {0, 0, 1};
+    scene.fields[0] = field(gust);
+    scene.fields[0].weight = 0.25;
+    scene.fields[1].box = Box{glm::dvec3(-7), glm::dvec3(7)};
+    scene.colliders[0] = collider(SphereCollider{{1, 2, 3}, 4});
+    scene.colliders[0].restitution = 0.9;
+    const Plan after = compile(scene);
+    CHECK(after.fieldSource == before.fieldSource);
+    CHECK(after.collideSource == before.collideSource);
+    CHECK(after.fieldParameters != before.fieldParameters);
+    CHECK(after.colliderParameters != before.colliderParameters);
+}
+
+TEST_CASE("groups share the textures row by row", "[plan]") {
+    Scene scene = sceneWith("quad", 1025);
+    scene.groups.push_back(sceneWith("point", 5).groups[0]);
+    const Plan plan = compile(scene);
+    REQUIRE(plan.groups.size() == 2);
+    CHECK(plan.groups[0].slabRows == 2);
+    CHECK(plan.groups[0].rows == 8);
+    CHECK(plan.groups[1].firstRow == 8);
+    CHECK(plan.groups[1].firstRecordRow == 2);
+    CHECK(plan.rows == 9);
+    CHECK(plan.recordRows == 3);
+    CHECK(plan.positions.size() == size_t(9 * stateWidth));
+}
+
+TEST_CASE("start positions are the placed vertices, relative to an anchor on the lattice", "[plan]") {
+    Scene scene = sceneWith("quad", 2);
+    Group& group = scene.groups[0];
+    group.place.kind = Placement::Kind::list;
+    group.place.turn = Placement::Turn::none;
+    group.place.items = {{{1e5, 2, -3}, {1, 0, 0, 0}, 2}, {{0.03, 0, 0}, {1, 0, 0, 0}, 1}};
+    const Plan plan = compile(scene);
+    for (size_t m = 0; m < 2; ++m) {
+        const glm::vec4 record = plan.records[m];
+        const glm::vec3 cells = glm::vec3(record) * 16.0f;
+        CHECK(cells == glm::floor(cells));
+        for (size_t v = 0; v < 4; ++v) {
+            const glm::dvec3 world = glm::dvec3(record) + glm::dvec3(plan.positions[v * stateWidth + m]);
+            const Placement::Item& item = group.place.items[m];
+            const glm::dvec3 expected = item.position + item.scale * group.molecule.vertices[v].position;
+            // half a float's spacing within 1 m of the anchor, however far the anchor is
+            CHECK(glm::length(world - expected) < 1e-7);
+        }
+    }
+}
+
+TEST_CASE("topology lists each spring at both ends and each triangle at its corners", "[plan]") {
+    const Scene scene = sceneWith("fish", 1);
+    const Plan plan = compile(scene);
+    const Molecule& fish = scene.groups[0].molecule;
+    int springs = 0, triangles = 0;
+    for (size_t v = 0; v < fish.vertices.size(); ++v) {
+        const glm::vec4 spans = plan.topology[v];
+        springs += int(spans.y);
+        triangles += int(spans.w);
+        for (int i = 0; i < int(spans.y); ++i) {
+            const glm::vec4 spring = plan.topology[size_t(spans.x) + 2 * size_t(i)];
+            const double length = glm::length(fish.vertices[v].position - fish.vertices[size_t(spring.x)].position);
+            CHECK(double(spring.w) == Approx(length).epsilon(1e-6));
+        }
+    }
+    CHECK(springs == 2 * 96);
+    CHECK(triangles == 3 * int(fish.triangles.size()));
+}
+
+TEST_CASE("a step beyond the solver's limit is refused with the substeps that would do", "[plan]") {
+    Scene scene = sceneWith("quad");
+    scene.solver.substeps = 1;
+    for (Spring& spring : scene.groups[0].molecule.springs) spring.stiffness = 1e6;
+    const std::string message = messageOf([&] { compile(scene); });
+    REQUIRE_THAT(message, Catch::Contains("use at least "));
+    scene.solver.substeps = std::stoi(message.substr(message.find("use at least ") + 13));
+    CHECK_NOTHROW(compile(scene));
+    --scene.solver.substeps;
+    CHECK_THROWS_AS(compile(scene), Error);
+}
+
+TEST_CASE("sliders ask for the substeps that a stiffer or more damped molecule needs", "[plan]") {
+    const Plan plan = compile(sceneWith("quad"));
+    CHECK(substepsNeeded(plan, 1.0 / 60, 1, 1, 4) == 4);
+    const int stiff = substepsNeeded(plan, 1.0 / 60, 100, 1, 4);
+    CHECK(stiff > 4);
+    CHECK(1.0 / 60 / stiff * 10 <= plan.groups[0].stableStep);
+}
+
+TEST_CASE("more than the context holds is refused with what would fit", "[plan]") {
+    const Scene scene = sceneWith("fish", 100000);
+    CHECK_THAT(messageOf([&] { compile(scene, {2048}); }), Catch::Contains("MiB") && Catch::Contains("about 87381"));
+    CHECK_NOTHROW(compile(sceneWith("fish", 80000), {2048}));
+}
