@@ -31,7 +31,11 @@ function(shoal_room name)
     set(scope PUBLIC)
     add_library(shoal_${name} STATIC ${sources} ${headers})
     target_link_libraries(shoal_${name} PRIVATE $<BUILD_INTERFACE:shoal_options>)
+    # Header-only packages end at the build; what must be linked reaches whoever links the archive.
     foreach(library ${ROOM_PRIVATE_LIBRARIES})
+      if(library MATCHES "^(RapidJSON|GLHeaders|Eigen3::Eigen)$")
+        set(library $<BUILD_INTERFACE:${library}>)
+      endif()
       target_link_libraries(shoal_${name} PRIVATE ${library})
     endforeach()
   else()
@@ -50,7 +54,8 @@ function(shoal_room name)
     target_link_libraries(shoal_${name}_forward PRIVATE $<BUILD_INTERFACE:shoal_options>
         ${ROOM_LIBRARIES})
     target_sources(shoal_${name} INTERFACE
-        $<BUILD_INTERFACE:$<TARGET_OBJECTS:shoal_${name}_forward>>)
+        $<BUILD_INTERFACE:$<TARGET_OBJECTS:shoal_${name}_forward>>
+        $<INSTALL_INTERFACE:$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/shoal/forward.cpp.o>)
   endif()
   set(SHOAL_ROOMS ${SHOAL_ROOMS} ${name} CACHE INTERNAL "")
 endfunction()

@@ -1,0 +1,21 @@
+# Installs into a scratch prefix, builds tests/example against the package there and runs it; also runs the
+# installed command from another folder.
+# Run as: cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DSCRATCH=... -P install.cmake
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE output ERROR_VARIABLE output
+      WORKING_DIRECTORY ${SCRATCH})
+  if(NOT code EQUAL 0)
+    message(FATAL_ERROR "${ARGN} failed:\n${output}")
+  endif()
+  message("${output}")
+endfunction()
+
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${SCRATCH}/prefix)
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE_DIR}/tests/example -B ${SCRATCH}/example
+    -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_BUILD_TYPE=Release)
+run(${CMAKE_COMMAND} --build ${SCRATCH}/example)
+run(${SCRATCH}/example/example ${SCRATCH}/prefix/share/shoal/models/hello/hello.scene.json)
+run(${SCRATCH}/prefix/bin/shoal explain prefix/share/shoal/models/hello/hello.scene.json)
+file(REMOVE_RECURSE ${SCRATCH})
