@@ -62,9 +62,9 @@ void main()
 #ifdef SPRINGS
     v += texelFetch(accelerations, texel, 0).xyz * halfStep;
 #endif
-    x += v * halfStep;
-    v = accelerate(v, anchor, x, time + halfStep, texel);
-    x += v * halfStep;
+    vec3 before = v;
+    v = accelerate(v, anchor, x + before * halfStep, time + halfStep, texel);
+    x += (before + v) * halfStep;  // added at once: one rounding, so that contact can take a drift back exactly
 #else
     v = accelerate(v, anchor, x, time, texel);
     x += v * substep;

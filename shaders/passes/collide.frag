@@ -1,4 +1,6 @@
 // collide: vertices that entered a collider bounce, slide or rest on its surface.
+// Leapfrog's velocity here still lacks the springs' second half kick: contact acts on the velocity that will have
+// it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
 #include "lib/state.glsl"
 #include "generated/colliders.glsl"
 
@@ -16,9 +18,14 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-        Contact contact = collideAll(anchor, x, v, gravity, Drift(drift.x, drift.y, drift.z));
+        vec3 kick = vec3(0.0);
+#if defined(LEAPFROG) && defined(SPRINGS)
+        kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);
+#endif
+        vec3 whole = v + kick;
+        Contact contact = collideAll(anchor, x, whole, gravity, Drift(drift.x, drift.y, drift.z));
         x = contact.position;
-        v = contact.velocity;
+        if (contact.velocity != whole) v = contact.velocity - kick;
     }
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);

@@ -19,6 +19,9 @@ struct Drift {
     float lag;
 };
 
+// A vertex within this of a surface, in m, may rest where it is: float's rounding a metre from the anchor.
+const float restingSlack = 1e-6f;
+
 // The vertex at x with velocity v lies `distance` from the surface (negative: inside); n is the unit normal.
 //
 // The speed at the moment of impact follows from energy, v_i^2 = v_n^2 - 2 |g_n| depth, and the time since
@@ -51,6 +54,11 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     // the impulse acts over the whole resting step, or at the impact
     float normalChange = bounces ? rebound + impact : -vn;
     float lost = min(friction * normalChange, speed);
+    // What started its drift on the surface, at rest, goes back exactly: anything else would add up a rounding a
+    // step. The slack stays well below the drift itself, or what rests above the surface would seem to bounce.
+    float started = distance - vn * drift.kickDrift;
+    float slack = min(restingSlack, -0.02f * vn * drift.kickDrift);
+    if (!bounces && lost >= speed && abs(started) < slack) return Contact(x - v * drift.kickDrift, vec3(0.0f));
     vec3 lostVelocity = speed > 0.0f ? tangential * (lost / speed) : vec3(0.0f);
     return Contact(surface + n * height - lostVelocity * frictionTime, tangential - lostVelocity + n * newNormal);
 }

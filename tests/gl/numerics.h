@@ -66,7 +66,7 @@ inline reference::Problem problemOf(const Scene& scene, int molecule) {
     out.scale = place(scene, 0)[size_t(molecule)].scale;
     out.stiffness = group.stiffness;
     out.damping = group.damping;
-    out.phase = double(compile(scene).constants[size_t(molecule)].z);
+    if (group.phaseSpread > 0) out.phase = double(compile(scene).constants[size_t(molecule)].z);
     out.held = group.held;
     out.gravity = scene.gravity;
     out.drag = group.drag;
