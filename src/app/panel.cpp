@@ -38,7 +38,7 @@ static void heading(const char* text) {
     ImGui::Separator();
 }
 
-Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double framesPerSecond,
+Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double frameSeconds,
                           const gpu::Traffic& lastFrame) {
     ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(ImVec2(304, 0), ImGuiCond_Always);
@@ -48,7 +48,7 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double fra
     Action action = drawClock(controls, simulation);
     drawForces(controls, simulation);
     const Action groupAction = drawGroups(simulation);
-    drawCost(simulation, framesPerSecond, lastFrame);
+    drawCost(simulation, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
     return action == Action::none ? groupAction : action;
@@ -124,9 +124,9 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
     return changed ? Action::rebuild : Action::none;
 }
 
-void Panel::drawCost(Simulation& simulation, double framesPerSecond, const gpu::Traffic& lastFrame) {
+void Panel::drawCost(Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame) {
     heading("Cost");
-    ImGui::Text("%.1f frames/s, ping-pong, %s", framesPerSecond, name(simulation.plan().solver));
+    ImGui::Text("%.1f frames/s, ping-pong, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0, name(simulation.plan().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
     if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("pass");

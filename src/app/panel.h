@@ -34,7 +34,7 @@ class Panel {
     Panel(const Scene& scene, std::vector<std::string> moleculeFiles);
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, Simulation& simulation, double framesPerSecond, const gpu::Traffic& lastFrame);
+    Action draw(Controls& controls, Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame);
 
     GroupChoice choice;
     std::vector<std::string> molecules;  // files
@@ -43,7 +43,7 @@ class Panel {
     Action drawClock(Controls& controls, const Simulation& simulation);
     void drawForces(Controls& controls, const Simulation& simulation);
     Action drawGroups(const Simulation& simulation);
-    void drawCost(Simulation& simulation, double framesPerSecond, const gpu::Traffic& lastFrame);
+    void drawCost(Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame);
 
     std::vector<std::string> groupNames_;
     std::vector<int> groupCounts_;

@@ -120,7 +120,8 @@ class WindowRun {
             const auto now = std::chrono::steady_clock::now();
             const double seconds = std::chrono::duration<double>(now - last).count();
             last = now;
-            framesPerSecond_ += (1 / std::max(seconds, 1e-6) - framesPerSecond_) * 0.1;
+            // the first intervals hold start-up, not frames
+            if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
             if (!showFrame()) return;
         }
     }
@@ -156,7 +157,7 @@ class WindowRun {
         lastFrame_ = context_.traffic() - before;
 
         interface_.begin();
-        action_ = panel_.draw(controls_, *simulation_, framesPerSecond_, lastFrame_);
+        action_ = panel_.draw(controls_, *simulation_, frameSeconds_, lastFrame_);
         moveCamera();
         pressKeys();
         if (!message_.empty()) showMessage();
@@ -269,7 +270,7 @@ class WindowRun {
     Panel::Action action_ = Panel::Action::none;
     gpu::Traffic lastFrame_;
     std::string message_;
-    double framesPerSecond_ = 0;
+    double frameSeconds_ = 0;  // s, wall clock, smoothed
     int width_ = 0, height_ = 0, shown_ = 0;
 };
 

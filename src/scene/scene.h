@@ -129,7 +129,7 @@ struct Collider {
     double friction = 0.5;     // Coulomb's mu, at least 0
     double thickness = 0.002;  // m: vertices rest this far from the surface
     bool draw = true;          // planes and spheres are drawn; height fields show as their model
-    glm::dvec3 color{0.4, 0.42, 0.38};
+    glm::dvec3 color{0.2, 0.21, 0.19};
 };
 
 // ---- Models
