@@ -1,5 +1,8 @@
 #!/usr/bin/env python3
-"""Checks that the schemas are valid and accept every shipped file. Exits with 77 without python3-jsonschema."""
+"""Checks that the schemas are valid, accept every shipped file and refuse broken ones.
+
+Exits with 77 without python3-jsonschema."""
+import copy
 import json
 import pathlib
 import sys
@@ -11,23 +14,111 @@ except ImportError:
     sys.exit(77)
 
 root = pathlib.Path(__file__).resolve().parent.parent
+
+# What each change breaks: the path of a value, and what takes its place (GONE: its key is left out).
+GONE = object()
+broken_molecules = [
+    (["format"], GONE),
+    (["format"], "shoal-molecule-2"),
+    (["noSuchKey"], 1),
+    (["vertices"], GONE),
+    (["vertices"], {}),
+    (["vertices"], []),
+    (["vertices", 0, "position"], GONE),
+    (["vertices", 0, "position"], [0, 0]),
+    (["vertices", 0, "position"], [0, 0, "0"]),
+    (["vertices", 0, "mass"], 0),
+    (["vertices", 0, "mass"], -1),
+    (["vertices", 0, "pinned"], 1),
+    (["vertices", 0, "pined"], True),
+    (["springs", 0, "a"], -1),
+    (["springs", 0, "a"], 0.5),
+    (["springs", 0, "b"], GONE),
+    (["springs", 0, "stiffness"], -1),
+    (["springs", 0, "stifness"], 1),
+    (["triangles", 0], [0, 1]),
+    (["triangles", 0], [0, 1, -1]),
+    (["material"], []),
+    (["material", "colour"], [1, 1, 1]),
+]
+broken_scenes = [
+    (["format"], GONE),
+    (["format"], "shoal-molecule-1"),
+    (["noSuchKey"], 1),
+    (["seed"], -1),
+    (["frameRate"], 0),
+    (["gravity"], [0, -9.81]),
+    (["gravity"], -9.81),
+    (["solver"], {"method": "eulr"}),
+    (["solver"], {"substeps": 0}),
+    (["fields"], [{"type": "wind"}]),
+    (["fields"], [{"type": "uniform"}]),
+    (["fields"], [{"type": "gust", "velocity": [1, 0, 0]}]),
+    (["colliders"], [{"type": "box"}]),
+    (["colliders"], [{"type": "plane", "restitution": 1.5}]),
+    (["colliders"], [{"type": "plane", "friction": -1}]),
+    (["groups"], GONE),
+    (["groups"], {}),
+    (["groups", 0, "molecule"], GONE),
+    (["groups", 0, "count"], 0),
+    (["groups", 0, "count"], 1.5),
+    (["groups", 0, "place"], "volume"),
+    (["groups", 0, "place"], {"on": "air"}),
+    (["groups", 0, "drag"], -1),
+    (["groups", 0, "velocities"], [0, 0, 0]),
+    (["camera", "eye"], [0, 0]),
+    (["light"], {"color": "white"}),
+]
+
+
+def broken(document, path, value):
+    """A copy with one value replaced; None where the document does not reach that far."""
+    copied = copy.deepcopy(document)
+    inner = copied
+    for key in path[:-1]:
+        try:
+            inner = inner[key]
+        except (KeyError, IndexError):
+            return None
+    if value is GONE:
+        if path[-1] not in inner:
+            return None
+        del inner[path[-1]]
+    else:
+        inner[path[-1]] = value
+    return copied
+
+
 failures = 0
-for schema, files in (
-    ("molecules/molecule.schema.json", sorted(root.glob("molecules/*.json"))),
-    ("models/scene.schema.json", sorted(root.glob("models/*/*.scene.json"))),
+for schema, files, changes in (
+    ("molecules/molecule.schema.json", root.glob("molecules/*.json"), broken_molecules),
+    ("models/scene.schema.json", root.glob("models/**/*.scene.json"), broken_scenes),
 ):
     rules = json.loads((root / schema).read_text())
     Draft202012Validator.check_schema(rules)
     validator = Draft202012Validator(rules)
+    refused = [0] * len(changes)
+    files = sorted(file for file in files if not file.name.endswith(".schema.json"))
     for file in files:
-        if file.name.endswith(".schema.json"):
-            continue
         document = json.loads(file.read_text())
         for error in validator.iter_errors(document):
             print(f"{file}: {error.json_path}: {error.message}")
             failures += 1
-        # A schema that accepts anything would prove nothing.
-        if validator.is_valid({**document, "noSuchKey": 1}):
-            print(f"{schema} accepts an unknown key in {file}")
+        for index, (path, value) in enumerate(changes):
+            variant = broken(document, path, value)
+            if variant is None:
+                continue
+            refused[index] += 1
+            if validator.is_valid(variant):
+                shown = "left out" if value is GONE else json.dumps(value)
+                print(f"{schema} accepts {file.name} with {'.'.join(map(str, path))} {shown}")
+                failures += 1
+    # Nothing checked is nothing proved.
+    for (path, value), count in zip(changes, refused):
+        if count == 0:
+            print(f"{schema}: no file has {'.'.join(map(str, path))} to break")
             failures += 1
+    print(f"{schema}: {len(files)} files, {sum(refused)} broken ones")
+    if not files:
+        failures += 1
 sys.exit(1 if failures else 0)

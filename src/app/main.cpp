@@ -12,13 +12,14 @@ int main(int argc, char** argv) {
     std::signal(SIGPIPE, SIG_IGN);
     try {
         const std::optional<Options> options = parseOptions(argc, argv);
-        if (!options) return 0;
         int code = 0;
-        switch (options->command) {
-        case Options::Command::run: code = runCommand(*options); break;
-        case Options::Command::check: code = checkCommand(*options); break;
-        case Options::Command::explain: code = explainCommand(*options); break;
-        case Options::Command::info: code = infoCommand(*options); break;
+        if (options) {
+            switch (options->command) {
+            case Options::Command::run: code = runCommand(*options); break;
+            case Options::Command::check: code = checkCommand(*options); break;
+            case Options::Command::explain: code = explainCommand(*options); break;
+            case Options::Command::info: code = infoCommand(*options); break;
+            }
         }
         std::cout.flush();
         if (!std::cout) throw shoal::Error("standard output cannot be written");

@@ -11,6 +11,7 @@
 #endif
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
@@ -27,12 +28,35 @@ void addScene(CLI::App& command, Options& options) {
     command.add_option("scene", options.files, "Scene file (.scene.json)")->required()->expected(1);
 }
 
+// Whether all of the text is a T: no sign that an unsigned number would swallow, nothing behind it.
+template <typename T>
+bool isAll(const std::string& text) {
+    T value;
+    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return code == std::errc() && end == text.data() + text.size();
+}
+
+CLI::Validator kindOf(bool (*test)(const std::string&), const std::string& what) {
+    return CLI::Validator(
+        [test, what](const std::string& text) {
+            return test(text) ? std::string() : concat("expected ", what, ", found \"", text, "\"");
+        },
+        "");
+}
+CLI::Validator wholeNumber() {
+    return kindOf(isAll<int>, "a whole number");
+}
+
 void addOverrides(CLI::App& command, Options& options) {
-    command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's");
+    command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's")
+        ->check(kindOf(isAll<double>, "a time in seconds"));
     command.add_option("--solver", options.solver, "euler or leapfrog, instead of the scene's");
-    command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
-    command.add_option("--count", options.count, "Molecules in each group that is placed at random");
-    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's");
+    command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
+        ->check(wholeNumber());
+    command.add_option("--count", options.count, "Molecules in each group that is placed at random")
+        ->check(wholeNumber());
+    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
+        ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
 }
 
 void addContext(CLI::App& command, Options& options, Texts& texts) {
@@ -45,13 +69,17 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     addOverrides(command, options);
     addContext(command, options, texts);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
-    command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)");
+    command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
+        ->check(wholeNumber());
     command.add_option("--size", texts.size, "Picture size in pixels")->capture_default_str();
     command.add_option("--capture", options.capture, "Folder for PNG frames, or a video (.mp4, .mkv, .webm)");
-    command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")->capture_default_str();
+    command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
+        ->check(wholeNumber())
+        ->capture_default_str();
     command.add_option("--export", options.exports, "State: folder (CSV), or a name ending in .csv or .ply");
     command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(wholeNumber());
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     command.add_option("--screenshot", options.screenshot, "Window: save its picture after --frames and close");
 }

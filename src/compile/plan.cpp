@@ -36,6 +36,11 @@ Needs findNeeds(const Scene& scene, const Group& group) {
     return needs;
 }
 
+// Without a sum that could overflow.
+int slabRows(int count) {
+    return (count - 1) / stateWidth + 1;
+}
+
 // Rows of the state textures, and the group's limits.
 GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     const Group& group = scene.groups[index];
@@ -44,7 +49,7 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.index = index;
     out.count = group.count;
     out.vertexCount = int(group.molecule.vertices.size());
-    out.slabRows = (group.count + stateWidth - 1) / stateWidth;
+    out.slabRows = slabRows(group.count);
     out.needs = findNeeds(scene, group);
     out.solver = scene.solver.kind;
     out.drag = group.drag;
@@ -63,7 +68,7 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
 void checkSize(const Scene& scene, const Plan& plan, const PlanLimits& limits) {
     int64_t rows = 0;
     for (const Group& group : scene.groups) {
-        rows += int64_t((group.count + stateWidth - 1) / stateWidth) * int64_t(group.molecule.vertices.size());
+        rows += slabRows(group.count) * int64_t(group.molecule.vertices.size());
         if (rows <= limits.maxTextureSize) continue;
         const int64_t fits = int64_t(limits.maxTextureSize) * stateWidth / int64_t(group.molecule.vertices.size());
         throw Error(group.location,

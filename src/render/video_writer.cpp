@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <pthread.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/file.h"
 
 namespace shoal {
 
@@ -47,7 +47,6 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
     // The extension stays last: ffmpeg chooses the container by it.
     const std::string unfinished = concat(".", file_.stem().string(), ".", getpid(), ".partial");
     partial_ = std::filesystem::absolute(file_).parent_path() / (unfinished + file_.extension().string());
-    log_ = std::filesystem::absolute(file_).parent_path() / (unfinished + ".log");
     start(frameRate);
 }
 
@@ -69,27 +68,23 @@ void VideoWriter::start(double frameRate) {
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0)
         throw Error(concat("cannot make a pipe to ffmpeg: ", std::strerror(errno)));
-    const int log = open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-    const int logError = errno;
-    process_ = log >= 0 ? fork() : -1;
+    // In memory: what ffmpeg has to say about a full disk must not need that disk.
+    log_ = memfd_create("ffmpeg's log", MFD_CLOEXEC);
+    process_ = log_ >= 0 ? fork() : -1;
     if (process_ == 0) {
         // Only calls that are safe between fork and exec.
         dup2(ends[0], STDIN_FILENO);
-        dup2(log, STDOUT_FILENO);
-        dup2(log, STDERR_FILENO);
+        dup2(log_, STDOUT_FILENO);
+        dup2(log_, STDERR_FILENO);
         execv(argv[0], argv.data());
         _exit(127);
     }
     const int forkError = errno;
     close(ends[0]);
     pipe_ = ends[1];
-    if (log >= 0) close(log);
     if (process_ > 0) return;
     closePipe();
-    std::error_code ignored;
-    std::filesystem::remove(log_, ignored);
-    if (log < 0)
-        throw Error(concat(file_.string(), ": cannot write in this folder: ", std::strerror(logError)));
+    closeLog();
     throw Error(concat("cannot start ffmpeg: ", std::strerror(forkError)));
 }
 
@@ -101,7 +96,12 @@ VideoWriter::~VideoWriter() {
     }
     std::error_code ignored;
     std::filesystem::remove(partial_, ignored);
-    std::filesystem::remove(log_, ignored);
+    closeLog();
+}
+
+void VideoWriter::closeLog() {
+    if (log_ >= 0) close(log_);
+    log_ = -1;
 }
 
 void VideoWriter::closePipe() {
@@ -120,21 +120,21 @@ int VideoWriter::wait() {
 }
 
 std::string VideoWriter::complaint() const {
-    try {
-        std::string text = readFile(log_);
-        while (!text.empty() && text.back() == '\n')
-            text.pop_back();
-        if (text.size() > 600) text = "..." + text.substr(text.size() - 600);
-        return text.empty() ? "it gave no reason" : text;
-    } catch (const Error&) {
-        return "it gave no reason";
-    }
+    std::string text;
+    char chunk[1024];
+    ssize_t count;
+    while ((count = pread(log_, chunk, sizeof chunk, off_t(text.size()))) > 0)
+        text.append(chunk, size_t(count));
+    while (!text.empty() && text.back() == '\n')
+        text.pop_back();
+    return text.size() > 600 ? "..." + text.substr(text.size() - 600) : text;
 }
 
 void VideoWriter::fail(const std::string& what) {
     closePipe();
     if (process_ > 0) wait();
-    throw Error(concat(file_.string(), ": ", what, ": ", complaint()));
+    const std::string reason = complaint();
+    throw Error(concat(file_.string(), ": ", what, ": ", reason.empty() ? "it gave no reason" : reason));
 }
 
 namespace {
@@ -193,7 +193,8 @@ void VideoWriter::write(const Image& picture) {
 void VideoWriter::finish() {
     closePipe();
     const int status = wait();
-    if (status != 0) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
+    // It ends well even when the file's end could not be written; then it has said so.
+    if (status != 0 || !complaint().empty()) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
     std::error_code error;
     std::filesystem::rename(partial_, file_, error);
     if (error)

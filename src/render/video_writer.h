@@ -27,13 +27,14 @@ class VideoWriter {
   private:
     void start(double frameRate);
     void closePipe();
+    void closeLog();
     int wait();  // exit status of ffmpeg, -1 when a signal ended it
     [[noreturn]] void fail(const std::string& what);
     std::string complaint() const;  // the end of what ffmpeg said
 
-    std::filesystem::path file_, partial_, log_;
+    std::filesystem::path file_, partial_;
     int width_, height_;
-    int pipe_ = -1;
+    int pipe_ = -1, log_ = -1;
     pid_t process_ = -1;
 };
 

@@ -1,0 +1,57 @@
+// The program as a user runs it: started with arguments, without a shell, and ended when it hangs.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+
+namespace shoal::test {
+
+struct Outcome {
+    int code = -1;  // exit code; -1: ended by a signal or by the time limit
+    bool late = false;
+    std::string out, err;
+
+    // The lines that the program says on standard error as itself: "shoal: ...".
+    std::vector<std::string> messages() const;
+    JsonValue json() const;  // standard output, read strictly
+};
+
+struct Surroundings {
+    std::string folder = {};  // where it starts; empty: where the test runs
+    std::map<std::string, std::optional<std::string>> environment =
+        {};                                  // nothing: the variable is taken away
+    std::optional<size_t> largestFile = {};  // bytes, as on a disk with that much left
+    std::string standardOutput = {};         // a file instead of Outcome::out
+    double seconds = 60;
+};
+
+using Words = std::vector<std::string>;
+
+Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {});
+
+// Whether this machine has the context ("egl", "osmesa", "window"); asked once.
+bool hasContext(const std::string& name);
+
+// Expects a refusal: an exit code that is not zero, nothing on standard output, exactly one message, and in
+// it `part`. Returns the message.
+std::string refusal(const Words& arguments, const std::string& part, const Surroundings& surroundings = {});
+
+// Files below a folder, as paths relative to it; hidden ones, too.
+std::vector<std::string> filesIn(const std::string& folder);
+
+// A member of an object that must be there.
+const JsonValue& member(const JsonValue& object, const std::string& key);
+
+inline std::string sourceFile(const std::string& name) {
+    return std::string(SHOAL_SOURCE_DIR) + "/" + name;
+}
+inline std::string helloScene() {
+    return sourceFile("models/hello/hello.scene.json");
+}
+
+}  // namespace shoal::test

@@ -1,0 +1,191 @@
+// `check` over everything that is shipped; `explain`: a scene pays for what it holds, and for nothing else.
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include "cli/shoal_command.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+Words shippedFiles(const std::string& folder, const std::string& ending) {
+    Words found;
+    for (const std::string& file : filesIn(sourceFile(folder)))
+        if (file.ends_with(ending) && file.find(".schema.") == std::string::npos)
+            found.push_back(sourceFile(folder + "/" + file));
+    return found;
+}
+
+Words both() {
+    Words files = shippedFiles("molecules", ".json"), scenes = shippedFiles("models", ".scene.json");
+    REQUIRE(files.size() >= 7);
+    REQUIRE(scenes.size() >= 2);
+    files.insert(files.end(), scenes.begin(), scenes.end());
+    return files;
+}
+
+constexpr const char* vertices = R"("vertices": [{"position": [0, 0, 0], "mass": 0.01, "pinned": true},
+    {"position": [0.2, 0, 0], "mass": 0.01}, {"position": [0, 0.2, 0], "mass": 0.01}])";
+constexpr const char* springs =
+    R"(, "springs": [{"a": 0, "b": 1, "stiffness": 5}, {"a": 1, "b": 2, "stiffness": 5},
+    {"a": 0, "b": 2, "stiffness": 5}])";
+constexpr const char* triangles = R"(, "triangles": [[0, 1, 2]])";
+
+// A scene of three molecules, pinned at one vertex unless the group says otherwise.
+std::string writeScene(const Scratch& scratch, const std::string& molecule, const std::string& group,
+                       const std::string& scene) {
+    scratch.write("part.json", R"({"format": "shoal-molecule-1", "name": "part", )" + molecule + "}");
+    return scratch.write("small.scene.json",
+                         R"({"format": "shoal-scene-1", )" + scene +
+                             R"("groups": [{"name": "parts", "molecule": "part.json", "count": 3,
+        "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}})" +
+                             group + "}]}");
+}
+
+// The passes of the only group, as "name" or "name!" for those of every substep.
+std::multiset<std::string> passes(const std::string& scene, const Words& options = {}) {
+    Words words{"explain", scene, "--json"};
+    words.insert(words.end(), options.begin(), options.end());
+    const Outcome outcome = runShoal(words);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    for (const char* key : {"scene", "solver", "frameRate", "substeps", "stateBytes", "tableBytes"})
+        member(report, key);
+    const std::vector<JsonValue>& groups = member(report, "groups").items;
+    REQUIRE(groups.size() == 1);
+    CHECK(member(groups[0], "name").text == "parts");
+    CHECK(member(groups[0], "molecules").number == 3);
+    CHECK(member(groups[0], "vertices").number == 3);
+    std::multiset<std::string> found;
+    for (const JsonValue& pass : member(groups[0], "passes").items) {
+        CHECK_FALSE(member(pass, "why").text.empty());
+        const bool often = member(pass, "when").text == "every substep";
+        found.insert(member(pass, "pass").text + (often ? "!" : ""));
+    }
+    return found;
+}
+
+using Set = std::multiset<std::string>;
+
+}  // namespace
+
+TEST_CASE("everything shipped passes its check", "[cli]") {
+    Words words = both();
+    const size_t count = words.size();
+    words.insert(words.begin(), "check");
+    const Outcome plain = runShoal(words);
+    INFO(plain.err);
+    CHECK(plain.code == 0);
+    CHECK(plain.err.empty());
+
+    words.emplace_back("--json");
+    const Outcome outcome = runShoal(words);
+    CHECK(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    REQUIRE(report.items.size() == count);
+    for (const JsonValue& entry : report.items) {
+        const std::string file = member(entry, "file").text, kind = member(entry, "kind").text;
+        INFO(file);
+        CHECK(member(entry, "ok").boolean);
+        CHECK(kind == (file.ends_with(".scene.json") ? "scene" : "molecule"));
+        CHECK(member(entry, "warnings").kind == JsonValue::Kind::array);
+        const JsonValue& facts = member(entry, kind);
+        CHECK_FALSE(member(facts, "name").text.empty());
+        if (kind == "scene") {
+            CHECK(member(facts, "groups").number >= 1);
+            CHECK(member(facts, "molecules").number >= 1);
+            continue;
+        }
+        CHECK(member(facts, "vertices").number >= 1);
+        CHECK(member(facts, "totalMass").number > 0);
+        CHECK(member(facts, "restEnergy").number == Approx(0).margin(1e-12));
+        for (const char* key : {"triangles", "zeroModes", "lowestFrequency", "highestFrequency"})
+            member(facts, key);
+        if (member(facts, "springs").number > 0) CHECK(member(facts, "stableStepLeapfrog").number > 0);
+    }
+}
+
+TEST_CASE("one bad file among good ones fails the check and is named", "[cli]") {
+    const Scratch scratch;
+    const std::string bad =
+        scratch.write("bad.json", "{\"format\": \"shoal-molecule-1\",\n \"vertices\": {}}");
+    const Outcome outcome = runShoal({"check", helloScene(), bad, "--json"});
+    CHECK(outcome.code == 1);
+    const JsonValue report = outcome.json();
+    REQUIRE(report.items.size() == 2);
+    CHECK(member(report.items[0], "ok").boolean);
+    CHECK_FALSE(member(report.items[1], "ok").boolean);
+    CHECK_THAT(member(report.items[1], "error").text, Catch::Contains("bad.json:2:"));
+    const Outcome plain = runShoal({"check", bad, helloScene()});
+    CHECK(plain.code == 1);
+    CHECK(plain.messages().size() == 1);
+    CHECK_THAT(plain.out, Catch::Contains("scene \"hello\""));  // the others are still checked
+}
+
+TEST_CASE("a warning is told and does not fail", "[cli]") {
+    const Outcome outcome = runShoal({"check", sourceFile("molecules/quad.json")});
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("warning: "));
+    CHECK_THAT(outcome.out, Catch::Contains("without any stiffness"));
+}
+
+TEST_CASE("a scene has the passes that it needs", "[cli]") {
+    const Scratch scratch;
+    const std::string whole = std::string(vertices) + springs + triangles;
+    const std::string drag = R"(, "drag": 1)", plane = R"("colliders": [{"type": "plane"}], )",
+                      wind = R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )";
+    SECTION("held by its pins, with springs") {
+        const std::string scene = writeScene(scratch, whole, drag, wind);
+        CHECK(passes(scene) == Set{"restore", "advect!", "restore!", "normals"});
+        CHECK(passes(scene, {"--solver", "euler"}) == Set{"restore!", "advect!", "normals"});
+    }
+    SECTION("colliders") {
+        CHECK(passes(writeScene(scratch, whole, drag, plane)).contains("collide!"));
+        CHECK_FALSE(passes(writeScene(scratch, whole, R"(, "collide": false)", plane)).contains("collide!"));
+    }
+    SECTION("without springs nothing restores") {
+        CHECK(passes(writeScene(scratch, std::string(vertices) + triangles, drag, wind)) ==
+              Set{"advect!", "normals"});
+    }
+    SECTION("without triangles there are no normals") {
+        CHECK(passes(writeScene(scratch, std::string(vertices) + springs, drag, wind)) ==
+              Set{"restore", "advect!", "restore!"});
+    }
+    SECTION("records run for what flies or may come to fly") {
+        CHECK(passes(writeScene(scratch, whole, R"(, "held": false)", "")).contains("records"));
+        CHECK(passes(writeScene(scratch, whole, R"(, "release": {"rate": 0.5})", "")).contains("records"));
+        CHECK_FALSE(passes(writeScene(scratch, whole, "", "")).contains("records"));
+    }
+    SECTION("drag across and along needs normals in the step") {
+        CHECK(passes(writeScene(scratch, whole, R"(, "drag": {"normal": 5, "tangent": 1})", ""))
+                  .contains("normals!"));
+    }
+}
+
+TEST_CASE("explain says what was left out, and why", "[cli]") {
+    const Scratch scratch;
+    const std::string wind = R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )";
+    const Outcome outcome = runShoal({"explain", writeScene(scratch, vertices, "", wind)});
+    CHECK(outcome.code == 0);
+    for (const char* part : {"no springs: no restore", "no colliders: no collide",
+                             "no drag: no field is read", "no triangles: no normals", "no records"})
+        CHECK_THAT(outcome.out, Catch::Contains(part));
+    CHECK_THAT(outcome.out, !Catch::Contains("every substep        the"));
+    // a field that nothing feels is worth a word
+    CHECK_THAT(outcome.out, !Catch::Contains("dragged by the fields"));
+}
+
+TEST_CASE("explain takes the same overrides as run", "[cli]") {
+    const JsonValue report = runShoal({"explain", helloScene(), "--json", "--count", "2000", "--substeps",
+                                       "7", "--dt", "0.02", "--solver", "euler"})
+                                 .json();
+    CHECK(member(report, "substeps").number == 7);
+    CHECK(member(report, "frameRate").number == Approx(50));
+    CHECK(member(report, "solver").text == "euler");
+    CHECK(member(member(report, "groups").items[0], "molecules").number == 2000);
+}

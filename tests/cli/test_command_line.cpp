@@ -1,0 +1,140 @@
+// What the command says about itself, and about words that it does not know.
+#include <filesystem>
+
+#include "cli/shoal_command.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+TEST_CASE("version and help", "[cli]") {
+    const Outcome version = runShoal({"--version"});
+    CHECK(version.code == 0);
+    CHECK(version.out.rfind("shoal ", 0) == 0);
+    CHECK(version.err.empty());
+
+    const Outcome help = runShoal({"--help"});
+    CHECK(help.code == 0);
+    for (const char* command : {"run", "check", "explain", "info"})
+        CHECK_THAT(help.out, Catch::Contains(command));
+
+    const Outcome run = runShoal({"run", "--help"});
+    CHECK(run.code == 0);
+    for (const char* option : {"--context", "--headless", "--frames", "--dt", "--solver", "--substeps",
+                               "--count", "--seed", "--size", "--capture", "--export", "--json"})
+        CHECK_THAT(run.out, Catch::Contains(option));
+}
+
+TEST_CASE("unknown words are refused with the nearest known one", "[cli]") {
+    const std::string scene = helloScene();
+    refusal({}, "subcommand is required");
+    refusal({"rn", scene}, "unknown command \"rn\" (did you mean \"run\"?)");
+    refusal({"run", scene, "--headles"}, "unknown option --headles (did you mean \"--headless\"?)");
+    refusal({"run", scene, "--captur=x"}, "unknown option --captur (did you mean \"--capture\"?)");
+    refusal({"explain", scene, "--jsn"}, "did you mean \"--json\"?");
+    refusal({"run"}, "scene is required");
+    refusal({"run", scene, scene}, "scene");
+    refusal({"check"}, "files is required");
+}
+
+TEST_CASE("values out of range are refused", "[cli]") {
+    struct Case {
+        const char *option, *value, *message;
+    };
+    const Case cases[] = {
+        {"--size", "160", "--size: expected WIDTHxHEIGHT"},
+        {"--size", "0x90", "--size: expected WIDTHxHEIGHT"},
+        {"--size", "160x90x3", "--size: expected WIDTHxHEIGHT"},
+        {"--size", "160x99999", "--size: expected WIDTHxHEIGHT"},
+        {"--dt", "0", "--dt: expected a time above 0 s, found 0"},
+        {"--dt", "-0.1", "--dt: expected a time above 0 s"},
+        {"--dt", "nan", "--dt: expected a time above 0 s, found nan"},
+        {"--dt", "1s", "--dt: expected a time in seconds, found \"1s\""},
+        {"--solver", "eulr", "unknown solver \"eulr\" (did you mean \"euler\"?)"},
+        {"--frames", "0", "--frames: expected at least 1, found 0"},
+        {"--frames", "1.5", "--frames: expected a whole number, found \"1.5\""},
+        {"--frames", "99999999999", "--frames: expected a whole number"},
+        {"--substeps", "0", "--substeps: expected at least 1, found 0"},
+        {"--count", "0", "--count: expected at least 1, found 0"},
+        {"--context", "egll", "unknown context \"egll\" (did you mean \"egl\"?)"},
+        {"--seed", "x", "--seed: expected a whole number"},
+        {"--seed", "-1", "--seed: expected a whole number from 0"},
+        {"--capture-every", "0", "--capture-every: expected at least 1"},
+        {"--export-frames", "-1", "--export-frames: expected at least 0"},
+        {"--export-frames", "1,x", "--export-frames: expected a whole number, found \"x\""},
+    };
+    for (const Case& one : cases)
+        refusal({"run", helloScene(), "--headless", concat(one.option, "=", one.value)}, one.message);
+    refusal({"run", helloScene(), "--headless", "--frames"}, "--frames");
+    refusal({"run", helloScene(), "--headless", "--frames", "2", "--export", "x.csv", "--export-frames", "3"},
+            "frame 3 is beyond the last, 2");
+    refusal({"run", helloScene(), "--headless", "--context", "window"}, "exclude each other");
+}
+
+TEST_CASE("a report that cannot be written is an error", "[cli]") {
+    Surroundings full;
+    full.standardOutput = "/dev/full";
+    if (!std::filesystem::exists(full.standardOutput)) {
+        WARN("skipped: this system has no /dev/full");
+        return;
+    }
+    for (const Words& words :
+         {Words{"--version"}, Words{"--help"}, Words{"info", "--json"},
+          Words{"explain", helloScene(), "--json"}, Words{"check", helloScene(), "--json"},
+          Words{"run", helloScene(), "--headless", "--frames", "1", "--json"}})
+        refusal(words, "standard output cannot be written", full);
+}
+
+TEST_CASE("info names each context and why one is missing", "[cli]") {
+    const Outcome outcome =
+        runShoal({"info", "--json"}, {.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}});
+    const JsonValue report = outcome.json();
+    CHECK_FALSE(member(report, "version").text.empty());
+    const std::vector<JsonValue>& contexts = member(report, "contexts").items;
+    REQUIRE(contexts.size() == 3);
+    bool any = false;
+    for (size_t i = 0; i < 3; ++i) {
+        const char* const names[] = {"window", "egl", "osmesa"};
+        CHECK(member(contexts[i], "context").text == names[i]);
+        if (!member(contexts[i], "available").boolean) {
+            CHECK_FALSE(member(contexts[i], "reason").text.empty());
+            continue;
+        }
+        any = true;
+        for (const char* key : {"platform", "renderer", "vendor", "version", "glslVersion"})
+            CHECK_FALSE(member(contexts[i], key).text.empty());
+        CHECK(member(contexts[i], "maxTextureSize").number >= 1024);
+        REQUIRE(member(contexts[i], "paths").items.size() >= 1);
+        CHECK(member(contexts[i], "paths").items[0].text == "ping-pong");
+    }
+    CHECK_FALSE(member(contexts[0], "available").boolean);
+    CHECK_THAT(member(contexts[0], "reason").text, Catch::Contains("display"));
+    CHECK(outcome.code == (any ? 0 : 1));
+    CHECK(
+        runShoal({"info", "--context", "window"}, {.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}})
+            .code == 1);
+}
+
+TEST_CASE("a context that cannot be had says what helps", "[cli]") {
+    const Surroundings noDisplay{.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}};
+    const std::string window = refusal({"run", helloScene(), "--context", "window", "--frames", "1"},
+                                       "there is no display", noDisplay);
+    CHECK_THAT(window, Catch::Contains("xvfb-run"));
+
+    Surroundings noEgl = noDisplay;
+    noEgl.environment["__EGL_VENDOR_LIBRARY_DIRS"] = "/nonexistent";
+    noEgl.environment["__EGL_VENDOR_LIBRARY_FILENAMES"] = std::nullopt;
+    if (runShoal({"info", "--context", "egl"}, noEgl).code == 0) {
+        WARN("skipped: this libEGL takes no notice of __EGL_VENDOR_LIBRARY_DIRS");
+        return;
+    }
+    const std::string egl =
+        refusal({"run", helloScene(), "--context", "egl", "--frames", "1"}, "egl: ", noEgl);
+    CHECK_THAT(egl, Catch::Contains("install libegl1"));
+    if (!hasContext("osmesa")) return;
+    // without EGL, "auto" goes on to OSMesa
+    const Outcome other = runShoal({"run", helloScene(), "--headless", "--frames", "1", "--json"}, noEgl);
+    REQUIRE(other.code == 0);
+    CHECK(member(member(other.json(), "context"), "kind").text == "osmesa");
+}
