@@ -84,7 +84,7 @@ TEST_CASE("leaves in gust, curl noise and shear: orders 1 and 2 against the refe
         const auto exact = exactStates(leavesInWind(SolverKind::leapfrog, drag, pinned));
         for (SolverKind kind : bothSolvers) {
             const Scene scene = leavesInWind(kind, drag, pinned);
-            const int steps = kind == SolverKind::euler ? 64 : 4;
+            const int steps = kind == SolverKind::euler ? 64 : 3;
             const Errors coarse = errorsOf(scene, steps, exact), fine = errorsOf(scene, 2 * steps, exact);
             const double order = std::log2(coarse.total / fine.total);
             UNSCOPED_INFO(name(kind) << (pinned ? " pinned" : " free") << ": order " << order << ", error "
