@@ -1,5 +1,6 @@
-// Fields and colliders as straight-line GLSL. Numbers live in uniform arrays of 4-vectors, so that the text
-// depends only on which kinds there are; grids and height fields put their samples into one shared table.
+// Fields and colliders as straight-line GLSL. Numbers that a slider may move live in uniform arrays of
+// 4-vectors, so that moving them compiles nothing; kinds, seeds, octaves and the sizes of grids are in the text.
+// Grids and height fields put their samples into one shared table.
 #pragma once
 
 #include <string>
@@ -20,6 +21,9 @@ struct Generated {
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
 // Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift).
 Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
+
+// A name as part of a comment in the text: whatever could end or continue the line is replaced.
+std::string inComment(const std::string& name);
 
 const char* kindName(const FieldShape& shape);
 const char* kindName(const ColliderShape& shape);

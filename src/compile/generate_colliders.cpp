@@ -21,7 +21,7 @@ class Emitter {
     void collider(const Collider& collider) {
         const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
         const std::string surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        result.source += concat("    // ", kindName(collider.shape), collider.name.empty() ? "" : " ", collider.name,
+        result.source += concat("    // ", kindName(collider.shape), " ", inComment(collider.name),
                                 "\n    surface = ", surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
                                 material, ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
     }

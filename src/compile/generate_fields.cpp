@@ -1,5 +1,6 @@
 // Adding a field: its struct in scene/scene.h, its formula in shaders/physics/field.glsl, one overload of
 // `emit` here, its reader in scene/, its double-precision twin in reference/fields.cpp, one test.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -24,7 +25,7 @@ class Emitter {
     std::string origin(const glm::dvec3& v) { return "(anchor - " + slot(v) + ".xyz) + position"; }
 
     void field(const Field& field) {
-        result.source += concat("    // ", kindName(field.shape), field.name.empty() ? "" : " ", field.name, "\n");
+        result.source += concat("    // ", kindName(field.shape), " ", inComment(field.name), "\n");
         const std::string call = std::visit([this](const auto& shape) { return emit(shape); }, field.shape);
         const std::string weight = slot({}, field.weight) + ".w";
         std::string guard;
@@ -100,6 +101,13 @@ Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4
                         "uniform vec4 fieldParameters[", out.parameters.size(), "];\n\n",
                         "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                         out.source, "    return u;\n}\n");
+    return out;
+}
+
+std::string inComment(const std::string& name) {
+    std::string out = name;
+    std::replace_if(
+        out.begin(), out.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
     return out;
 }
 

@@ -1,0 +1,252 @@
+// Every shader through the reference compiler: the passes as desktop 3.3 and as WebGL 2's language, with each
+// set of defines that a plan can ask for; the renderer's as 3.3. A driver that is generous hides mistakes.
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compile/generate.h"
+#include "gpu/shader_source.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+
+namespace {
+
+using Defines = std::vector<std::string>;
+
+bool hasValidator() {
+    static const bool found = std::system("glslangValidator --version >/dev/null 2>&1") == 0;
+    if (!found)
+        WARN("skipped: glslangValidator is not installed (on Debian and Ubuntu: apt install glslang-tools)");
+    return found;
+}
+
+struct Output {
+    bool ok = false;
+    std::string log;
+};
+
+Output validate(const std::string& files) {
+    std::FILE* pipe = ::popen(("glslangValidator " + files + " 2>&1").c_str(), "r");
+    if (!pipe) return {false, "glslangValidator cannot be started"};
+    Output out;
+    char chunk[4096];
+    while (const size_t count = std::fread(chunk, 1, sizeof chunk, pipe))
+        out.log.append(chunk, count);
+    out.ok = ::pclose(pipe) == 0;
+    return out;
+}
+
+// What the validator says about a file, with its lines led back to the files that they came from.
+std::string complaint(const std::string& file, const gpu::ShaderSource& source) {
+    const Output output = validate(file);
+    return output.ok ? std::string() : source.rewriteLog(output.log);
+}
+
+// Gathers shaders, each text once, and validates them together; one by one only when something is wrong.
+class Validator {
+  public:
+    std::map<std::string, std::string> generated;
+
+    void add(const std::string& file, const Defines& defines, const char* header) {
+        gpu::ShaderSource source =
+            gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, defines, generated, header);
+        if (!seen_.insert(source.text).second) return;
+        const std::string stage = file.substr(file.rfind('.'));
+        const std::string path = scratch_.write("shader" + std::to_string(seen_.size()) + stage, source.text);
+        std::string what =
+            file + " as " + std::string(header).substr(0, std::string(header).find('\n')) + ", defines:";
+        for (const std::string& define : defines)
+            what += " " + define;
+        shaders_.push_back({path, what, std::move(source)});
+    }
+    void addBoth(const std::string& file, const Defines& defines) {
+        add(file, defines, gpu::header330());
+        add(file, defines, gpu::header300es());
+    }
+    void check() const {
+        std::string all;
+        for (const Shader& shader : shaders_)
+            all += shader.path + " ";
+        REQUIRE(!all.empty());
+        const bool sound = validate(all).ok;
+        CHECK(sound);
+        if (sound) return;
+        for (const Shader& shader : shaders_) {
+            INFO(shader.what);
+            CHECK(complaint(shader.path, shader.source) == "");
+        }
+    }
+    size_t count() const { return shaders_.size(); }
+
+  private:
+    struct Shader {
+        std::string path, what;
+        gpu::ShaderSource source;
+    };
+    test::Scratch scratch_;
+    std::set<std::string> seen_;
+    std::vector<Shader> shaders_;
+};
+
+template <typename Shape>
+Field field(Shape shape, bool boxed = false) {
+    Field out;
+    out.shape = std::move(shape);
+    if (boxed) out.box = Box{};
+    return out;
+}
+
+std::vector<Field> everyField() {
+    GridField clamped;
+    clamped.resolution = {2, 1, 1};
+    clamped.high = {1, 1, 1};
+    clamped.values.resize(2);
+    GridField wrapped = clamped;
+    wrapped.wrap = true;
+    CurlNoiseField eddies;
+    eddies.octaves = 4;
+    eddies.seed = 0xffffffffu;  // beyond an int
+    GustField vertical;
+    vertical.direction = {0, 1, 0};
+    return {field(UniformField{}, true), field(GustField{}),
+            field(vertical, true),       field(ShearField{}),
+            field(VortexField{}),        field(AbcField{}),
+            field(TaylorGreenField{}),   field(eddies),
+            field(std::move(clamped)),   field(std::move(wrapped), true)};
+}
+
+std::vector<Collider> everyCollider() {
+    HeightFieldCollider stored;
+    stored.columns = stored.rows = 2;
+    stored.high = {1, 1};
+    stored.heights.resize(4);
+    HeightFieldCollider sampled = stored;
+    sampled.sampledNormals = true;
+    std::vector<Collider> out(4);
+    out[0].shape = PlaneCollider{};
+    out[1].shape = SphereCollider{};
+    out[2].shape = std::move(stored);
+    out[3].shape = std::move(sampled);
+    return out;
+}
+
+// Every combination of the words given.
+std::vector<Defines> combinations(const Defines& words) {
+    std::vector<Defines> out;
+    for (size_t bits = 0; bits < size_t(1) << words.size(); ++bits) {
+        Defines set;
+        for (size_t i = 0; i < words.size(); ++i)
+            if (bits >> i & 1) set.push_back(words[i]);
+        out.push_back(std::move(set));
+    }
+    return out;
+}
+
+std::map<std::string, std::string> generate(const std::vector<Field>& fields,
+                                            const std::vector<Collider>& colliders) {
+    std::vector<glm::vec4> samples;
+    return {{"generated/fields.glsl", generateFields(fields, samples).source},
+            {"generated/colliders.glsl", generateColliders(colliders, samples).source}};
+}
+
+}  // namespace
+
+TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    validator.generated = generate(everyField(), everyCollider());
+    validator.addBoth("passes/fullscreen.vert", {});
+    for (const Defines& set : combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "RECORDS"}))
+        validator.addBoth("passes/advect.frag", set);
+    for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
+        validator.addBoth("passes/collide.frag", pins);
+        for (Defines set : combinations({"LEAPFROG", "ACTUATION"})) {
+            set.insert(set.end(), pins.begin(), pins.end());
+            set.emplace_back("SPRINGS");
+            validator.addBoth("passes/restore.frag", set);
+            validator.addBoth("passes/records.frag", set);
+            set.emplace_back("SPRING_DAMPING");
+            if (set.front() == "LEAPFROG") set.emplace_back("PREDICT");
+            validator.addBoth("passes/restore.frag", set);
+            validator.addBoth("passes/records.frag", set);
+        }
+    }
+    for (const Defines& set : combinations({"AHEAD", "SPRINGS"}))
+        validator.addBoth("passes/normals.frag", set);
+    CHECK(validator.count() > 80);
+    validator.check();
+}
+
+TEST_CASE("each field and each collider is sound GLSL by itself", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const Field& one : everyField()) {
+        validator.generated = generate({one}, everyCollider());
+        validator.addBoth("passes/advect.frag", {"LEAPFROG", "SPRINGS", "FIELDS"});
+    }
+    for (const Collider& one : everyCollider()) {
+        validator.generated = generate(everyField(), {one});
+        validator.addBoth("passes/collide.frag", {});
+    }
+    validator.check();
+}
+
+TEST_CASE("names of fields and colliders cannot leave their comment", "[shaders]") {
+    if (!hasValidator()) return;
+    std::vector<Field> fields{field(UniformField{})};
+    std::vector<Collider> colliders(1);
+    fields[0].name = colliders[0].name = "wind\n}}} #error \\";
+    Validator validator;
+    validator.generated = generate(fields, colliders);
+    validator.addBoth("passes/advect.frag", {"FIELDS"});
+    validator.addBoth("passes/collide.frag", {});
+    validator.check();
+}
+
+TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    const char* header = gpu::header330();
+    for (const char* file : {"render/screen.vert", "render/sky.frag", "render/picture.frag"})
+        validator.add(file, {}, header);
+    for (const Defines& lit : combinations({"SHADOWS"})) {
+        for (const char* file :
+             {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"}) {
+            for (Defines set : combinations({"TEXTURED"})) {
+                set.insert(set.end(), lit.begin(), lit.end());
+                set.emplace_back("STATE_WIDTH 1024");
+                validator.add(file, set, header);
+            }
+        }
+        for (Defines set : {Defines{}, Defines{"PLANE"}, Defines{"PLANE", "GRID"}}) {
+            set.insert(set.end(), lit.begin(), lit.end());
+            validator.add("render/surface.vert", set, header);
+            validator.add("render/surface.frag", set, header);
+        }
+    }
+    for (Defines set : combinations({"TEXTURED"})) {
+        set.insert(set.end(), {"STATE_WIDTH 1024", "DEPTH_ONLY"});
+        for (const char* file : {"render/molecule.vert", "render/molecule_shadow.frag", "render/points.vert",
+                                 "render/points.frag"})
+            validator.add(file, set, header);
+    }
+    validator.add("render/surface.vert", {"DEPTH_ONLY"}, header);
+    validator.add("render/surface_shadow.frag", {"DEPTH_ONLY"}, header);
+    validator.check();
+}
+
+TEST_CASE("a mistake in a shader is found, and located in its own file", "[shaders]") {
+    if (!hasValidator()) return;
+    const test::Scratch scratch;
+    scratch.write("shaders/lib/part.glsl", "\nint half(float x) { return x; }\n");
+    const gpu::ShaderSource source = gpu::resolveShader(
+        scratch.path("shaders"), "main.frag", {},
+        {{"main.frag", "#include \"lib/part.glsl\"\nvoid main() {}\n"}}, gpu::header300es());
+    const std::string log = complaint(scratch.write("wrong.frag", source.text), source);
+    CHECK_THAT(log, Catch::Contains("part.glsl:2: "));
+}
