@@ -1,6 +1,8 @@
+#include <filesystem>
 #include <iostream>
 
 #include "app/commands.h"
+#include "core/image.h"
 #include "core/json.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
@@ -18,15 +20,28 @@ struct Verdict {
     std::string summary;
 };
 
-// The format key decides; a file without one is refused by the reader of its likely kind.
+// The format key decides; where it says neither, the reader of the likely kind refuses it.
 bool isScene(const std::string& file) {
     const JsonValue json = readJson(file);
     const JsonValue* format = json.find("format");
-    return format ? format->text.rfind("shoal-scene", 0) == 0 : json.find("groups") != nullptr;
+    if (format && format->text.rfind("shoal-scene-", 0) == 0) return true;
+    if (format && format->text.rfind("shoal-molecule-", 0) == 0) return false;
+    return json.find("groups") != nullptr;
+}
+
+std::string many(size_t count, const char* thing) {
+    return concat(count, " ", thing, count == 1 ? "" : "s");
+}
+
+// A texture is read by the renderer only: here it is looked for, so that `check` finds it missing.
+void checkTexture(const Molecule& molecule) {
+    if (molecule.material.texture.empty()) return;
+    readPng(std::filesystem::path(molecule.file).parent_path() / molecule.material.texture);
 }
 
 Verdict checkMolecule(const std::string& file) {
     const Molecule molecule = readMolecule(file);
+    checkTexture(molecule);
     const Analysis free = analyse(molecule, false);
     Verdict out;
     out.kind = "molecule";
@@ -40,13 +55,15 @@ Verdict checkMolecule(const std::string& file) {
         .add("zeroModes", JsonValue::makeNumber(free.zeroModes))
         .add("lowestFrequency", JsonValue::makeNumber(free.lowestFrequency))
         .add("highestFrequency", JsonValue::makeNumber(free.highestFrequency));
-    out.summary = concat("molecule \"", molecule.name, "\": ", molecule.vertices.size(), " vertices, ",
-                         molecule.springs.size(), " springs, ", molecule.triangles.size(), " triangles, mass ",
-                         free.totalMass, " kg, rest energy ", free.restEnergy, " J");
+    out.summary =
+        concat("molecule \"", molecule.name, "\": ", molecule.vertices.size(),
+               molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
+               many(molecule.springs.size(), "spring"), ", ", many(molecule.triangles.size(), "triangle"),
+               ", mass ", free.totalMass, " kg, rest energy ", free.restEnergy, " J");
     if (molecule.springs.empty()) return out;
     out.summary += concat("\n  frequencies ", free.lowestFrequency, " to ", free.highestFrequency, " rad/s, ",
-                          free.zeroModes, " zero-stiffness modes\n  stable steps: euler ", free.stableStepEuler,
-                          " s, leapfrog ", free.stableStepLeapfrog, " s");
+                          many(size_t(free.zeroModes), "zero-stiffness mode"), "\n  stable steps: euler ",
+                          free.stableStepEuler, " s, leapfrog ", free.stableStepLeapfrog, " s");
     out.facts.add("stableStepEuler", JsonValue::makeNumber(free.stableStepEuler))
         .add("stableStepLeapfrog", JsonValue::makeNumber(free.stableStepLeapfrog));
     return out;
@@ -55,18 +72,23 @@ Verdict checkMolecule(const std::string& file) {
 Verdict checkScene(const std::string& file) {
     const Scene scene = readScene(file);
     const Plan plan = compile(scene);
+    for (const Group& group : scene.groups)
+        checkTexture(group.molecule);
     Verdict out;
     out.kind = "scene";
     out.warnings = plan.warnings;
     for (const Group& group : scene.groups)
-        for (const Warning& warning : check(group.molecule)) out.warnings.push_back(warning);
+        for (const Warning& warning : check(group.molecule))
+            out.warnings.push_back(warning);
     int molecules = 0;
-    for (const GroupPlan& group : plan.groups) molecules += group.count;
+    for (const GroupPlan& group : plan.groups)
+        molecules += group.count;
     out.facts.add("name", JsonValue::makeString(scene.name))
         .add("groups", JsonValue::makeNumber(double(plan.groups.size())))
         .add("molecules", JsonValue::makeNumber(molecules));
-    out.summary = concat("scene \"", scene.name, "\": ", plan.groups.size(), " groups, ", molecules, " molecules, ",
-                         scene.fields.size(), " fields, ", scene.colliders.size(), " colliders");
+    out.summary = concat("scene \"", scene.name, "\": ", many(plan.groups.size(), "group"), ", ",
+                         many(size_t(molecules), "molecule"), ", ", many(scene.fields.size(), "field"), ", ",
+                         many(scene.colliders.size(), "collider"));
     return out;
 }
 
@@ -81,14 +103,16 @@ int checkCommand(const Options& options) {
         try {
             Verdict verdict = isScene(file) ? checkScene(file) : checkMolecule(file);
             JsonValue warnings = JsonValue::makeArray();
-            for (const Warning& warning : verdict.warnings) warnings.items.push_back(JsonValue::makeString(text(warning)));
+            for (const Warning& warning : verdict.warnings)
+                warnings.items.push_back(JsonValue::makeString(text(warning)));
             entry.add("ok", JsonValue::makeBoolean(true))
                 .add("kind", JsonValue::makeString(verdict.kind))
                 .add("warnings", std::move(warnings))
                 .add(verdict.kind, std::move(verdict.facts));
             if (!options.json) {
                 std::cout << file << ": " << verdict.summary << "\n";
-                for (const Warning& warning : verdict.warnings) std::cout << "  warning: " << text(warning) << "\n";
+                for (const Warning& warning : verdict.warnings)
+                    std::cout << "  warning: " << text(warning) << "\n";
             }
         } catch (const Error& error) {
             failed = true;

@@ -23,7 +23,8 @@ std::string shaderRoot() {
         if (fs::exists(root / "shaders" / "passes" / "advect.frag", code)) return (root / "shaders").string();
         tried += "\n  " + (root / "shaders").string();
     }
-    throw Error("the shaders are missing; looked in" + tried + "\nset SHOAL_DATA to the folder that holds them");
+    throw Error("the shaders are missing; looked in" + tried +
+                "\nset SHOAL_DATA to the folder that holds them");
 }
 
 }  // namespace shoal::app

@@ -10,7 +10,8 @@ Loaded load(const Options& options, const PlanLimits& limits) {
     Loaded out{readScene(options.files.front()), {}};
     apply(options, out.scene);
     out.plan = compile(out.scene, limits);
-    for (const Warning& warning : out.plan.warnings) std::cerr << "shoal: warning: " << text(warning) << "\n";
+    for (const Warning& warning : out.plan.warnings)
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
     return out;
 }
 

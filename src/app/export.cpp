@@ -25,9 +25,10 @@ std::string csv(Simulation& simulation) {
         for (size_t i = 0; i < state.positions.size(); ++i) {
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
-            print(out, "%d,%.9g,%zu,%zu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.frames(),
-                  state.time, g, i / size_t(state.vertexCount), i % size_t(state.vertexCount), x.x, x.y, x.z, v.x, v.y,
-                  v.z, double(n.x), double(n.y), double(n.z));
+            print(out, "%d,%.9g,%zu,%zu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+                  simulation.frames(), state.time, g, i / size_t(state.vertexCount),
+                  i % size_t(state.vertexCount), x.x, x.y, x.z, v.x, v.y, v.z, double(n.x), double(n.y),
+                  double(n.z));
         }
     }
     return out;
@@ -42,13 +43,14 @@ std::string ply(Simulation& simulation, const Scene& scene) {
         for (size_t i = 0; i < state.positions.size(); ++i) {
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
-            print(vertices, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", x.x, x.y, x.z, double(n.x),
-                  double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
+            print(vertices, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", x.x, x.y, x.z,
+                  double(n.x), double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
         }
         for (size_t m = 0; m < size_t(state.count); ++m) {
             for (const Triangle& t : scene.groups[g].molecule.triangles) {
                 const size_t first = vertexCount + m * perMolecule;
-                print(faces, "3 %zu %zu %zu\n", first + size_t(t.a), first + size_t(t.b), first + size_t(t.c));
+                print(faces, "3 %zu %zu %zu\n", first + size_t(t.a), first + size_t(t.b),
+                      first + size_t(t.c));
                 ++faceCount;
             }
         }
@@ -59,7 +61,8 @@ std::string ply(Simulation& simulation, const Scene& scene) {
           simulation.frames(), simulation.time(), vertexCount);
     for (const char* property : {"x", "y", "z", "nx", "ny", "nz", "vx", "vy", "vz"})
         print(out, "property double %s\n", property);
-    for (const char* property : {"group", "molecule", "vertex"}) print(out, "property int %s\n", property);
+    for (const char* property : {"group", "molecule", "vertex"})
+        print(out, "property int %s\n", property);
     print(out, "element face %zu\nproperty list uchar int vertex_indices\nend_header\n", faceCount);
     return out + vertices + faces;
 }
@@ -71,7 +74,8 @@ std::string exportName(const std::string& target, int frame, bool several) {
     const std::string extension = path.extension().string();
     char number[16];
     std::snprintf(number, sizeof number, "-%05d", frame);
-    if (extension != ".csv" && extension != ".ply") return (path / ("state" + std::string(number) + ".csv")).string();
+    if (extension != ".csv" && extension != ".ply")
+        return (path / ("state" + std::string(number) + ".csv")).string();
     if (!several) return target;
     return (path.parent_path() / (path.stem().string() + number + extension)).string();
 }

@@ -42,14 +42,16 @@ void print(const gpu::ContextProbe& probe) {
     const gpu::ContextInfo& info = *probe.info;
     const int vertices = info.maxTextureSize;
     std::cout << "  platform     " << info.platform << "\n  renderer     " << info.renderer << " ("
-              << (info.software ? "software" : "hardware") << ")\n  OpenGL       " << info.version << ", GLSL "
-              << info.glslVersion << "\n  limits       textures " << info.maxTextureSize << " a side, "
-              << info.maxColorAttachments << " draw buffers, " << info.maxSamples << " samples, "
-              << info.maxVertexTextureUnits << " vertex texture units\n               " << info.maxBufferTexels
-              << " buffer texels";
-    if (info.maxStorageBlockBytes > 0) std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes";
+              << (info.software ? "software" : "hardware") << ")\n  OpenGL       " << info.version
+              << ", GLSL " << info.glslVersion << "\n  limits       textures " << info.maxTextureSize
+              << " a side, " << info.maxColorAttachments << " draw buffers, " << info.maxSamples
+              << " samples, " << info.maxVertexTextureUnits << " vertex texture units\n               "
+              << info.maxBufferTexels << " buffer texels";
+    if (info.maxStorageBlockBytes > 0)
+        std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes";
     std::cout << "\n  paths        ping-pong (up to " << int64_t(vertices) * stateWidth << " vertices)"
-              << (info.computeShaders ? "; compute shaders are there, the fused path is not built yet" : "") << "\n";
+              << (info.computeShaders ? "; compute shaders are there, the fused path is not built yet" : "")
+              << "\n";
 }
 
 }  // namespace

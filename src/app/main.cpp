@@ -15,10 +15,18 @@ int main(int argc, char** argv) {
         int code = 0;
         if (options) {
             switch (options->command) {
-            case Options::Command::run: code = runCommand(*options); break;
-            case Options::Command::check: code = checkCommand(*options); break;
-            case Options::Command::explain: code = explainCommand(*options); break;
-            case Options::Command::info: code = infoCommand(*options); break;
+            case Options::Command::run:
+                code = runCommand(*options);
+                break;
+            case Options::Command::check:
+                code = checkCommand(*options);
+                break;
+            case Options::Command::explain:
+                code = explainCommand(*options);
+                break;
+            case Options::Command::info:
+                code = infoCommand(*options);
+                break;
             }
         }
         std::cout.flush();

@@ -1,5 +1,7 @@
 #include "app/options.h"
 
+#include "scene/scene_file.h"
+
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -72,7 +74,8 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
         ->check(wholeNumber());
     command.add_option("--size", texts.size, "Picture size in pixels")->capture_default_str();
-    command.add_option("--capture", options.capture, "Folder for PNG frames, or a video (.mp4, .mkv, .webm)");
+    command.add_option("--capture", options.capture,
+                       "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)");
     command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
         ->check(wholeNumber())
         ->capture_default_str();
@@ -81,20 +84,23 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
         ->delimiter(',')
         ->check(wholeNumber());
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
-    command.add_option("--screenshot", options.screenshot, "Window: save its picture after --frames and close");
+    command.add_option("--screenshot", options.screenshot,
+                       "Window: save its picture after --frames and close");
 }
 
 // All long option names of a command, for suggestions.
 std::vector<std::string> optionNames(CLI::App& command) {
     std::vector<std::string> names;
     for (const CLI::Option* option : command.get_options())
-        for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+        for (const std::string& name : option->get_lnames())
+            names.push_back("--" + name);
     return names;
 }
 
 std::string explainExtras(CLI::App& app, int argc, char** argv) {
     CLI::App* command = &app;
-    for (CLI::App* sub : app.get_subcommands()) command = sub;
+    for (CLI::App* sub : app.get_subcommands())
+        command = sub;
     const std::vector<std::string> names = optionNames(*command);
     for (int i = 1; i < argc; ++i) {
         std::string word = argv[i];
@@ -104,7 +110,8 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
             return concat("unknown option ", word, suggestion(word, names));
     }
     std::vector<std::string> commands;
-    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; })) commands.push_back(sub->get_name());
+    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; }))
+        commands.push_back(sub->get_name());
     if (command == &app && argc > 1)
         return concat("unknown command \"", argv[1], "\"", suggestion(argv[1], commands));
     return {};
@@ -112,22 +119,39 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
 
 void parseSize(const std::string& text, Options& options) {
     char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 || options.width < 1 ||
-        options.height < 1 || options.width > 16384 || options.height > 16384)
+    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 ||
+        options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
         throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
 }
 
 void checkRanges(const Options& options) {
     const auto atLeast = [](const char* option, std::optional<int> value, int least) {
-        if (value && *value < least) throw Error(concat(option, ": expected at least ", least, ", found ", *value));
+        if (value && *value < least)
+            throw Error(concat(option, ": expected at least ", least, ", found ", *value));
+    };
+    // the limits of the scene file
+    const auto atMost = [](const char* option, std::optional<int> value, int most) {
+        if (value && *value > most)
+            throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
     atLeast("--frames", options.frames, 1);
     atLeast("--substeps", options.substeps, 1);
+    atMost("--substeps", options.substeps, 1000);
     atLeast("--count", options.count, 1);
+    atMost("--count", options.count, maxGroupCount);
     atLeast("--capture-every", options.captureEvery, 1);
-    for (const int frame : options.exportFrames) atLeast("--export-frames", frame, 0);
-    if (options.dt && !(std::isfinite(*options.dt) && *options.dt > 0))
-        throw Error(concat("--dt: expected a time above 0 s, found ", *options.dt));
+    for (const int frame : options.exportFrames)
+        atLeast("--export-frames", frame, 0);
+    if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
+        throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
+    if (!options.screenshot.empty() && (options.headless || !options.frames))
+        throw Error(
+            "--screenshot is of the window after --frames: it needs --frames and excludes --headless");
+    const bool headlessWork =
+        !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
+    if (headlessWork && (options.context == gpu::ContextKind::window || !options.screenshot.empty()))
+        throw Error(
+            "--capture, --export, --json and --timings are of headless runs: leave out the window's options");
     if (options.solver && *options.solver != "euler" && *options.solver != "leapfrog")
         throw Error(concat("--solver: unknown solver \"", *options.solver, "\"",
                            suggestion(*options.solver, {"euler", "leapfrog"})));
@@ -175,12 +199,14 @@ std::optional<Options> parseOptions(int argc, char** argv) {
 
 void apply(const Options& options, Scene& scene) {
     if (options.dt) scene.frameRate = 1 / *options.dt;
-    if (options.solver) scene.solver.kind = *options.solver == "euler" ? SolverKind::euler : SolverKind::leapfrog;
+    if (options.solver)
+        scene.solver.kind = *options.solver == "euler" ? SolverKind::euler : SolverKind::leapfrog;
     if (options.substeps) scene.solver.substeps = *options.substeps;
     if (options.seed) scene.seed = *options.seed;
     if (!options.count) return;
     for (Group& group : scene.groups) {
-        const bool counted = group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
+        const bool counted =
+            group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
         if (!counted) group.count = *options.count;
     }
 }

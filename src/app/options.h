@@ -1,4 +1,5 @@
-// What the command line says. Every command takes the same common options, as far as they mean something to it.
+// What the command line says. Every command takes the same common options, as far as they mean something to
+// it.
 #pragma once
 
 #include <cstdint>

@@ -9,9 +9,9 @@ class OrbitCamera {
   public:
     explicit OrbitCamera(const View& start);
 
-    void turn(double dx, double dy);               // in window heights
-    void pan(double dx, double dy);                // in window heights
-    void zoom(double steps);                       // of the wheel, towards the target
+    void turn(double dx, double dy);  // in window heights
+    void pan(double dx, double dy);   // in window heights
+    void zoom(double steps);          // of the wheel, towards the target
     void reset();
     View view() const;
 

@@ -19,7 +19,8 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
     follow(parameters.stiffness, stiffness);
     follow(parameters.damping, damping);
     // explicit solvers stay within their limit: stiffer springs take more substeps
-    parameters.substeps = substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping, substeps);
+    parameters.substeps =
+        substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping, substeps);
 }
 
 Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
@@ -27,7 +28,8 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
     for (const Group& group : scene.groups) {
         groupNames_.push_back(group.name.empty() ? group.molecule.name : group.name);
         groupCounts_.push_back(group.count);
-        fixedCount_.push_back(group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list);
+        fixedCount_.push_back(group.place.kind == Placement::Kind::grid ||
+                              group.place.kind == Placement::Kind::list);
     }
     choice.count = groupCounts_.front();
 }
@@ -106,12 +108,13 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
     }
     const bool fixed = fixedCount_[size_t(choice.group)];
     if (fixed) ImGui::BeginDisabled();
-    ImGui::SliderInt("Number", &choice.count, 1, std::max(20000, 2 * groupCounts_[size_t(choice.group)]), "%d",
-                     ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderInt("Number", &choice.count, 1, std::max(20000, 2 * groupCounts_[size_t(choice.group)]),
+                     "%d", ImGuiSliderFlags_Logarithmic);
     changed |= ImGui::IsItemDeactivatedAfterEdit();
     if (fixed) ImGui::EndDisabled();
     const auto name = [&](int index) {
-        return index < 0 ? std::string("as in the scene") : std::filesystem::path(molecules[size_t(index)]).stem().string();
+        return index < 0 ? std::string("as in the scene")
+                         : std::filesystem::path(molecules[size_t(index)]).stem().string();
     };
     if (ImGui::BeginCombo("Kind", name(choice.molecule).c_str())) {
         for (int i = -1; i < int(molecules.size()); ++i) {
@@ -126,7 +129,8 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
 
 void Panel::drawCost(Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame) {
     heading("Cost");
-    ImGui::Text("%.1f frames/s, ping-pong, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0, name(simulation.plan().solver));
+    ImGui::Text("%.1f frames/s, ping-pong, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
+                name(simulation.plan().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
     if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("pass");

@@ -34,7 +34,8 @@ class Panel {
     Panel(const Scene& scene, std::vector<std::string> moleculeFiles);
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame);
+    Action draw(Controls& controls, Simulation& simulation, double frameSeconds,
+                const gpu::Traffic& lastFrame);
 
     GroupChoice choice;
     std::vector<std::string> molecules;  // files

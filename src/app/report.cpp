@@ -26,7 +26,9 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash)
         .add("version", JsonValue::makeString(info.version));
 
     JsonValue bytes = JsonValue::makeObject();
-    bytes.add("start", asJson(report.start)).add("frames", asJson(report.frames)).add("outside", asJson(report.outside));
+    bytes.add("start", asJson(report.start))
+        .add("frames", asJson(report.frames))
+        .add("outside", asJson(report.outside));
 
     JsonValue passes = JsonValue::makeArray();
     for (const gpu::PassTime& pass : simulation.timers().report()) {
@@ -38,7 +40,8 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash)
         passes.items.push_back(std::move(entry));
     }
     JsonValue written = JsonValue::makeArray();
-    for (const std::string& file : report.written) written.items.push_back(JsonValue::makeString(file));
+    for (const std::string& file : report.written)
+        written.items.push_back(JsonValue::makeString(file));
 
     char hashText[20];
     std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash));

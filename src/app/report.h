@@ -13,10 +13,10 @@ namespace shoal::app {
 
 struct RunReport {
     std::string scene;
-    double seconds = 0;         // wall-clock time of the frames
-    gpu::Traffic start;         // bytes moved before the first frame
-    gpu::Traffic frames;        // by the frames alone: simulate and draw
-    gpu::Traffic outside;       // by captures, exports and the final hash
+    double seconds = 0;                // wall-clock time of the frames
+    gpu::Traffic start;                // bytes moved before the first frame
+    gpu::Traffic frames;               // by the frames alone: simulate and draw
+    gpu::Traffic outside;              // by captures, exports and the final hash
     std::vector<std::string> written;  // pictures, videos, exports
 };
 

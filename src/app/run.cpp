@@ -20,6 +20,7 @@ namespace shoal::app {
 namespace {
 
 constexpr int headlessFrames = 240;
+constexpr int largestTexture = 32768;  // texels a side: no context takes more
 
 bool hasDisplay() {
     for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
@@ -31,13 +32,15 @@ bool hasDisplay() {
 
 bool wantsWindow(const Options& options) {
     if (options.headless) {
-        if (options.context == gpu::ContextKind::window) throw Error("--headless and --context window exclude each other");
+        if (options.context == gpu::ContextKind::window)
+            throw Error("--headless and --context window exclude each other");
         return false;
     }
     if (options.context == gpu::ContextKind::window) return true;
     // pictures, exports and reports are headless work unless a window is asked for
-    const bool batch = !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
-    return options.context == gpu::ContextKind::automatic && hasDisplay() && (!batch || !options.screenshot.empty());
+    const bool batch =
+        !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
+    return options.context == gpu::ContextKind::automatic && hasDisplay() && !batch;
 }
 
 // The pictures of a run that asked for none: eight of them, in a folder named after the scene.
@@ -49,7 +52,8 @@ std::string defaultFolder(const std::string& sceneFile) {
 bool exportsFrame(const Options& options, int frame, int last) {
     if (options.exports.empty()) return false;
     if (options.exportFrames.empty()) return frame == last;
-    return std::find(options.exportFrames.begin(), options.exportFrames.end(), frame) != options.exportFrames.end();
+    return std::find(options.exportFrames.begin(), options.exportFrames.end(), frame) !=
+           options.exportFrames.end();
 }
 
 // One headless run, step by step; keeps the bytes of frames apart from those of captures and exports.
@@ -60,20 +64,24 @@ class HeadlessRun {
           context_(context),
           frames_(options.frames.value_or(headlessFrames)),
           loaded_(std::move(loaded)),
-          simulation_(context, shaderRoot(), loaded_.plan, true,
-                      options.timings ? gpu::PassTimers::suitedTo(context.info()) : gpu::PassTimers::Mode::off) {
+          simulation_(
+              context, shaderRoot(), loaded_.plan, true,
+              options.timings ? gpu::PassTimers::suitedTo(context.info()) : gpu::PassTimers::Mode::off) {
         report_.scene = options.files.front();
-        const bool nothingAsked = options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
+        const bool nothingAsked =
+            options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
         const std::string target = nothingAsked ? defaultFolder(options.files.front()) : options.capture;
         every_ = nothingAsked ? std::max(1, frames_ / 8) : options.captureEvery;
         for (const int frame : options.exportFrames)
-            if (frame > frames_) throw Error(concat("--export-frames: frame ", frame, " is beyond the last, ", frames_));
+            if (frame > frames_)
+                throw Error(concat("--export-frames: frame ", frame, " is beyond the last, ", frames_));
         if (target.empty()) return;
         RenderOptions size;
         size.width = options.width;
         size.height = options.height;
         renderer_ = std::make_unique<Renderer>(context, shaderRoot(), loaded_.scene, loaded_.plan, size);
-        pictures_ = std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_, frames_ > every_);
+        pictures_ =
+            std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_, frames_ > every_);
     }
 
     void go() {
@@ -110,12 +118,12 @@ class HeadlessRun {
             std::cout << writeJson(asJson(report_, simulation_, hash));
             return;
         }
-        std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds << " s on "
-                  << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
+        std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds
+                  << " s on " << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_) std::cout << "pictures: " << pictures_->target() << "\n";
         for (const gpu::PassTime& pass : simulation_.timers().report())
-            std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3 << " ms, median "
-                      << pass.median * 1e3 << " ms\n";
+            std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
+                      << " ms, median " << pass.median * 1e3 << " ms\n";
     }
 
   private:
@@ -132,7 +140,8 @@ class HeadlessRun {
         }
     }
     void note(const std::string& file) {
-        if (!file.empty() && (report_.written.empty() || report_.written.back() != file)) report_.written.push_back(file);
+        if (!file.empty() && (report_.written.empty() || report_.written.back() != file))
+            report_.written.push_back(file);
     }
     void exportIfAsked(int frame) {
         if (!exportsFrame(options_, frame, frames_)) return;
@@ -162,8 +171,8 @@ int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
 
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
-    // mistakes in the files are told before any context is made
-    Loaded loaded = load(options, {});
+    // mistakes in the files are told before any context is made; what the context can hold, once it is there
+    Loaded loaded = load(options, {largestTexture});
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.preferWindow = window;
@@ -171,8 +180,9 @@ int runCommand(const Options& options) {
     wanted.height = options.height;
     wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
     gpu::Context context(wanted);
-    const PlanLimits limits{context.info().maxTextureSize};
-    if (loaded.plan.rows > limits.maxTextureSize) loaded.plan = compile(loaded.scene, limits);
+    const int most = context.info().maxTextureSize;
+    if (std::max({loaded.plan.rows, loaded.plan.topologyRows, loaded.plan.sampleRows}) > most)
+        compile(loaded.scene, {most});  // says what does not fit
     return context.window() ? runWindow(options, context, std::move(loaded))
                             : runHeadless(options, context, std::move(loaded));
 }

@@ -151,7 +151,8 @@ class WindowRun {
             glfwWaitEventsTimeout(0.1);
             return true;
         }
-        if (width_ != renderer_->width() || height_ != renderer_->height()) renderer_->resize(width_, height_);
+        if (width_ != renderer_->width() || height_ != renderer_->height())
+            renderer_->resize(width_, height_);
         renderer_->draw(simulation_->state(), camera_.view());
         renderer_->present(width_, height_);
         lastFrame_ = context_.traffic() - before;
@@ -252,7 +253,8 @@ class WindowRun {
         for (size_t y = 0; y < size_t(height_); ++y)
             std::copy_n(bottomUp.begin() + std::ptrdiff_t((size_t(height_) - 1 - y) * row), row,
                         image.pixels.begin() + std::ptrdiff_t(y * row));
-        for (size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = 255;
+        for (size_t i = 3; i < image.pixels.size(); i += 4)
+            image.pixels[i] = 255;
         writePng(options_.screenshot, image);
         std::cout << "screenshot: " << options_.screenshot << "\n";
     }

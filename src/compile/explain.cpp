@@ -26,7 +26,8 @@ std::string explain(const Plan& plan) {
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
     out << "frame    1/" << plan.frameRate << " s in " << plan.substeps << " substeps of "
         << 1 / plan.frameRate / plan.substeps << " s, solver " << name(plan.solver) << "\n";
-    out << "memory   state " << mebibytes(plan.stateBytes()) << ", tables " << mebibytes(plan.tableBytes()) << "\n";
+    out << "memory   state " << mebibytes(plan.stateBytes()) << ", tables " << mebibytes(plan.tableBytes())
+        << "\n";
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         out << "\ngroup \"" << group.name << "\": " << group.count << " molecules of " << group.vertexCount
@@ -36,8 +37,8 @@ std::string explain(const Plan& plan) {
                 << " is stable up to " << group.stableStep << " s\n";
         for (const PassPlan& pass : plan.passes) {
             if (pass.group != g) continue;
-            out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when) << pass.why
-                << "\n";
+            out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when)
+                << pass.why << "\n";
         }
         std::string absent;
         const auto without = [&](bool need, const char* what) {

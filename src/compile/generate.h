@@ -1,6 +1,6 @@
 // Fields and colliders as straight-line GLSL. Numbers that a slider may move live in uniform arrays of
-// 4-vectors, so that moving them compiles nothing; kinds, seeds, octaves and the sizes of grids are in the text.
-// Grids and height fields put their samples into one shared table.
+// 4-vectors, so that moving them compiles nothing; kinds, seeds, octaves and the sizes of grids are in the
+// text. Grids and height fields put their samples into one shared table.
 #pragma once
 
 #include <string>

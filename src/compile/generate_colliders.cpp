@@ -20,10 +20,12 @@ class Emitter {
 
     void collider(const Collider& collider) {
         const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
-        const std::string surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        result.source += concat("    // ", kindName(collider.shape), " ", inComment(collider.name),
-                                "\n    surface = ", surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
-                                material, ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
+        const std::string surface =
+            std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
+        result.source +=
+            concat("    // ", kindName(collider.shape), " ", inComment(collider.name),
+                   "\n    surface = ", surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
+                   material, ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
     }
 
   private:
@@ -44,8 +46,9 @@ class Emitter {
         appendSamples(field, cell);
         const std::string low = slot({field.low.x, 0, field.low.y});
         const std::string cells = slot({1 / cell.x, cell.x, cell.y}, 1 / cell.y);
-        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "((anchor - ", low,
-                      ".xyz) + c.position, ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ", base, ")");
+        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "((anchor - ",
+                      low, ".xyz) + c.position, ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ",
+                      base, ")");
     }
 
     // One texel a sample: unit normal by central differences, and height.
@@ -60,8 +63,9 @@ class Emitter {
             for (int x = 0; x < field.columns; ++x) {
                 const double spanX = cell.x * (std::min(x + 1, field.columns - 1) - std::max(x - 1, 0));
                 const double spanZ = cell.y * (std::min(z + 1, field.rows - 1) - std::max(z - 1, 0));
-                const glm::dvec3 normal = glm::normalize(glm::dvec3((height(x - 1, z) - height(x + 1, z)) / spanX, 1,
-                                                                    (height(x, z - 1) - height(x, z + 1)) / spanZ));
+                const glm::dvec3 normal =
+                    glm::normalize(glm::dvec3((height(x - 1, z) - height(x + 1, z)) / spanX, 1,
+                                              (height(x, z - 1) - height(x, z + 1)) / spanZ));
                 samples_->emplace_back(glm::vec3(normal), float(height(x, z)));
             }
         }
@@ -74,13 +78,15 @@ class Emitter {
 
 Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples) {
     Emitter emitter(samples);
-    for (const Collider& collider : colliders) emitter.collider(collider);
+    for (const Collider& collider : colliders)
+        emitter.collider(collider);
     Generated out = std::move(emitter.result);
-    out.source = concat("#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
-                        "uniform vec4 colliderParameters[", out.parameters.size(), "];\n\n",
-                        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
-                        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
-                        "    return c;\n}\n");
+    out.source = concat(
+        "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
+        "uniform vec4 colliderParameters[", out.parameters.size(), "];\n\n",
+        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
+        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
+        "    return c;\n}\n");
     return out;
 }
 

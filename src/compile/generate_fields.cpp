@@ -43,10 +43,11 @@ class Emitter {
         const glm::dvec3 along = glm::normalize(f.direction);
         // an axis across: horizontal unless the wind blows vertically
         const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-        const std::string a = slot(along, f.speed), b = slot(glm::normalize(glm::cross(up, along)), f.strength);
+        const std::string a = slot(along, f.speed),
+                          b = slot(glm::normalize(glm::cross(up, along)), f.strength);
         const std::string c = slot({f.length, f.width, 0}, f.frontSpeed);
-        return concat("gustVelocity(anchor + position, time, ", a, ".xyz, ", b, ".xyz, ", a, ".w, ", b, ".w, ", c,
-                      ".w, ", c, ".xy, ", f.seed, "u)");
+        return concat("gustVelocity(anchor + position, time, ", a, ".xyz, ", b, ".xyz, ", a, ".w, ", b,
+                      ".w, ", c, ".w, ", c, ".xy, ", f.seed, "u)");
     }
 
     std::string emit(const ShearField& f) {
@@ -63,29 +64,32 @@ class Emitter {
     }
 
     std::string emit(const AbcField& f) {
-        const std::string o = origin(f.origin), a = slot({f.a, f.b, f.c}, 2 * std::numbers::pi / f.wavelength);
+        const std::string o = origin(f.origin),
+                          a = slot({f.a, f.b, f.c}, 2 * std::numbers::pi / f.wavelength);
         return concat("abcVelocity(", o, ", ", a, ".x, ", a, ".y, ", a, ".z, ", a, ".w)");
     }
 
     std::string emit(const TaylorGreenField& f) {
-        const std::string o = origin(f.origin), a = slot({f.speed, 0, 0}, 2 * std::numbers::pi / f.wavelength);
+        const std::string o = origin(f.origin),
+                          a = slot({f.speed, 0, 0}, 2 * std::numbers::pi / f.wavelength);
         return concat("taylorGreenVelocity(", o, ", ", a, ".x, ", a, ".w)");
     }
 
     std::string emit(const CurlNoiseField& f) {
         const std::string a = slot({f.speed, f.length, f.period});
-        return concat("curlNoiseVelocity(anchor + position, time, ", a, ".x, ", a, ".y, ", a, ".z, ", f.octaves,
-                      ", ", f.seed, "u)");
+        return concat("curlNoiseVelocity(anchor + position, time, ", a, ".x, ", a, ".y, ", a, ".z, ",
+                      f.octaves, ", ", f.seed, "u)");
     }
 
     std::string emit(const GridField& f) {
         const size_t base = samples_->size();
         samples_->reserve(base + f.values.size());
-        for (const glm::vec3& value : f.values) samples_->emplace_back(value, 0.0f);
+        for (const glm::vec3& value : f.values)
+            samples_->emplace_back(value, 0.0f);
         const glm::dvec3 perMetre = glm::dvec3(f.resolution) / (f.high - f.low);
         const std::string o = origin(f.low), scale = slot(perMetre);
-        return concat("gridVelocity(", o, ", ", scale, ".xyz, ivec3(", f.resolution.x, ", ", f.resolution.y, ", ",
-                      f.resolution.z, "), ", base, ", ", f.wrap ? "true" : "false", ")");
+        return concat("gridVelocity(", o, ", ", scale, ".xyz, ivec3(", f.resolution.x, ", ", f.resolution.y,
+                      ", ", f.resolution.z, "), ", base, ", ", f.wrap ? "true" : "false", ")");
     }
 
     std::vector<glm::vec4>* samples_;
@@ -95,12 +99,14 @@ class Emitter {
 
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
     Emitter emitter(samples);
-    for (const Field& field : fields) emitter.field(field);
+    for (const Field& field : fields)
+        emitter.field(field);
     Generated out = std::move(emitter.result);
-    out.source = concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
-                        "uniform vec4 fieldParameters[", out.parameters.size(), "];\n\n",
-                        "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
-                        out.source, "    return u;\n}\n");
+    out.source =
+        concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
+               "uniform vec4 fieldParameters[", out.parameters.size(), "];\n\n",
+               "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
+               out.source, "    return u;\n}\n");
     return out;
 }
 

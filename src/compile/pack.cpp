@@ -22,9 +22,11 @@ void packState(const Scene& scene, const GroupPlan& group, Plan& plan) {
         const glm::dvec3 anchor = anchorOf(instance.position + arm(source.molecule.vertices[0]));
         for (int v = 0; v < group.vertexCount; ++v) {
             const glm::dvec3 offset = arm(source.molecule.vertices[size_t(v)]);
-            const size_t texel = size_t(group.firstRow + v * group.slabRows + slabRow) * stateWidth + size_t(column);
+            const size_t texel =
+                size_t(group.firstRow + v * group.slabRows + slabRow) * stateWidth + size_t(column);
             const bool still = group.needs.pins && source.molecule.vertices[size_t(v)].pinned;
-            const glm::dvec3 velocity = still ? glm::dvec3(0) : source.velocity + glm::cross(source.spin, offset);
+            const glm::dvec3 velocity =
+                still ? glm::dvec3(0) : source.velocity + glm::cross(source.spin, offset);
             plan.positions[texel] = glm::vec4(glm::vec3(instance.position + offset - anchor), 0);
             plan.velocities[texel] = glm::vec4(glm::vec3(velocity), 0);
         }
@@ -50,7 +52,8 @@ int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& to
             const Actuation actuation = spring.actuation.value_or(Actuation{});
             topology.emplace_back(spring.a == int(v) ? spring.b : spring.a, spring.stiffness, spring.damping,
                                   molecule.restLength(spring));
-            topology.emplace_back(actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase, 0);
+            topology.emplace_back(actuation.amplitude, 2 * std::numbers::pi * actuation.frequency,
+                                  actuation.phase, 0);
             ++springs;
         }
         const size_t firstTriangle = topology.size();

@@ -41,11 +41,23 @@ int slabRows(int count) {
     return (count - 1) / stateWidth + 1;
 }
 
+int slabRowsOf(const Group& group) {
+    return (group.count - 1) / stateWidth + 1;
+}
+
+// The group's own name, else its molecule's, numbered where that is taken.
+std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
+    const std::string name = group.name.empty() ? group.molecule.name : group.name;
+    const bool taken = std::any_of(plan.groups.begin(), plan.groups.end(),
+                                   [&](const GroupPlan& other) { return other.name == name; });
+    return taken ? concat(name, " ", index + 1) : name;
+}
+
 // Rows of the state textures, and the group's limits.
 GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     const Group& group = scene.groups[index];
     GroupPlan out;
-    out.name = group.name.empty() ? group.molecule.name : group.name;
+    out.name = uniqueName(group, index, plan);
     out.index = index;
     out.count = group.count;
     out.vertexCount = int(group.molecule.vertices.size());
@@ -65,19 +77,23 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     return out;
 }
 
-void checkSize(const Scene& scene, const Plan& plan, const PlanLimits& limits) {
+// All groups' vertices share the rows of one texture.
+void checkSize(const Scene& scene, const PlanLimits& limits) {
     int64_t rows = 0;
     for (const Group& group : scene.groups) {
-        rows += slabRows(group.count) * int64_t(group.molecule.vertices.size());
-        if (rows <= limits.maxTextureSize) continue;
-        const int64_t fits = int64_t(limits.maxTextureSize) * stateWidth / int64_t(group.molecule.vertices.size());
-        throw Error(group.location,
-                    concat(group.count, " molecules of ", group.molecule.vertices.size(), " vertices need ",
-                           rows * stateWidth * 16 * 4 >> 20, " MiB in textures of ", rows,
-                           " rows; this context holds ", limits.maxTextureSize, " rows, about ", fits,
-                           " such molecules in all"));
+        const int64_t vertices = int64_t(group.molecule.vertices.size());
+        const int64_t own = int64_t(slabRowsOf(group)) * vertices;
+        if (rows + own > limits.maxTextureSize) {
+            const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
+            throw Error(
+                group.location,
+                concat(group.count, " molecules of ", vertices, " vertices take ", own,
+                       " rows of the state textures (", (own * stateWidth * 16 * 4) >> 20, " MiB)",
+                       rows > 0 ? ", beside the groups before" : "", "; this context holds ",
+                       limits.maxTextureSize - rows, " more rows: at most ", fit, " such molecules fit"));
+        }
+        rows += own;
     }
-    (void)plan;
 }
 
 // Damped limits (NUMERICS: euler (wh)^2 + 4 zeta w h < 4; leapfrog wh < 2), from the molecule's analysis.
@@ -98,9 +114,9 @@ void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
     const double frame = 1 / scene.frameRate, step = frame / scene.solver.substeps;
     if (step <= plan.stableStep) return;
     throw Error(scene.solver.location.empty() ? group.location : scene.solver.location,
-                concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ", plan.stableStep,
-                       " s (highest frequency ", plan.highestFrequency, " rad/s); ", scene.solver.substeps,
-                       " substeps of a frame are ", step, " s: use at least ",
+                concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ",
+                       plan.stableStep, " s (highest frequency ", plan.highestFrequency, " rad/s); ",
+                       scene.solver.substeps, " substeps of a frame are ", step, " s: use at least ",
                        int(std::ceil(frame / plan.stableStep)), " substeps"));
 }
 
@@ -112,14 +128,19 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
     using When = PassPlan::When;
     if (needs.records)
         add(PassKind::records, When::frameStart,
-            needs.release ? "pins may be released, and anchors follow what flies" : "anchors follow what moves");
-    if (needs.acceleration) add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
+            needs.release ? "pins may be released, and anchors follow what flies"
+                          : "anchors follow what moves");
+    if (needs.acceleration)
+        add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
     if (needs.springs && group.solver == SolverKind::euler)
         add(PassKind::restore, When::substep, "the molecule has springs");
-    if (needs.directionalDrag) add(PassKind::normals, When::substep, "drag differs across and along the surface");
+    if (needs.directionalDrag)
+        add(PassKind::normals, When::substep, "drag differs across and along the surface");
     add(PassKind::advect, When::substep,
         concat("moves every vertex", needs.gravity ? " under gravity" : "",
-               needs.fields ? ", dragged by the fields" : needs.drag ? ", with drag" : ""));
+               needs.fields ? ", dragged by the fields"
+               : needs.drag ? ", with drag"
+                            : ""));
     if (needs.collide) add(PassKind::collide, When::substep, "the scene has colliders");
     if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::substep, "the molecule has springs");
@@ -165,10 +186,15 @@ Plan compile(const Scene& scene, const PlanLimits& limits) {
     plan.gravity = scene.gravity;
     plan.solver = scene.solver.kind;
     plan.warnings = scene.warnings;
-    checkSize(scene, plan, limits);
+    checkSize(scene, limits);
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         GroupPlan group = layOut(scene, i, plan);
+        if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
+            plan.warnings.push_back(
+                {scene.groups[i].location,
+                 concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
+                        "tangent rate in all directions")});
         findStableStep(scene.groups[i], group);
         checkStep(scene, scene.groups[i], group);
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
@@ -181,31 +207,39 @@ Plan compile(const Scene& scene, const PlanLimits& limits) {
     plan.velocities.resize(plan.positions.size());
     plan.records.resize(size_t(plan.recordRows) * stateWidth);
     plan.constants.resize(plan.records.size());
-    for (const GroupPlan& group : plan.groups) packState(scene, group, plan);
+    for (const GroupPlan& group : plan.groups)
+        packState(scene, group, plan);
 
     const auto any = [&](bool Needs::*need) {
-        return std::any_of(plan.groups.begin(), plan.groups.end(), [&](const GroupPlan& g) { return g.needs.*need; });
+        return std::any_of(plan.groups.begin(), plan.groups.end(),
+                           [&](const GroupPlan& g) { return g.needs.*need; });
     };
     Generated fields, colliders;
     if (any(&Needs::fields)) fields = generateFields(scene.fields, plan.samples);
     if (any(&Needs::collide)) colliders = generateColliders(scene.colliders, plan.samples);
     if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)
-        throw Error(Location{scene.file, 0, 0, {}},
-                    concat("the scene has ", scene.fields.size(), " fields and ", scene.colliders.size(),
-                           " colliders, more than the ", maxParameters, " 4-vectors of uniforms that each may take"));
+        throw Error(
+            Location{scene.file, 0, 0, {}},
+            concat("the scene has ", scene.fields.size(), " fields and ", scene.colliders.size(),
+                   " colliders, more than the ", maxParameters, " 4-vectors of uniforms that each may take"));
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameters = std::move(colliders.parameters);
     plan.sampleRows = tableRows(plan.samples);
-    if (plan.sampleRows > limits.maxTextureSize || plan.topologyRows > limits.maxTextureSize)
-        throw Error(Location{scene.file, 0, 0, {}},
-                    concat("grids and height fields need a texture of ", plan.sampleRows, " rows; this context holds ",
-                           limits.maxTextureSize));
+    const auto checkTable = [&](int rows, const char* what) {
+        if (rows > limits.maxTextureSize)
+            throw Error(Location{scene.file, 0, 0, {}},
+                        concat(what, " need a texture of ", rows, " rows; this context holds ",
+                               limits.maxTextureSize));
+    };
+    checkTable(plan.topologyRows, "the molecules' springs and triangles");
+    checkTable(plan.sampleRows, "the grids and height fields");
     return plan;
 }
 
-int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor, int substeps) {
+int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor,
+                   int substeps) {
     // Frequencies grow as sqrt(stiffness); the damped limit shrinks no faster than either factor does alone.
     const double factor = std::max({1.0, std::sqrt(stiffnessFactor), dampingFactor});
     double needed = substeps;

@@ -37,19 +37,19 @@ namespace shoal {
 
 // What of the physics a group needs. Every pass, buffer and shader branch hangs on one of these.
 struct Needs {
-    bool fields = false;           // there is a field and the group has drag
+    bool fields = false;  // there is a field and the group has drag
     bool drag = false;
     bool directionalDrag = false;
     bool gravity = false;
     bool springs = false;
     bool springDamping = false;
     bool actuation = false;
-    bool pins = false;             // some vertex is held at the start
-    bool release = false;          // and may be let go
-    bool records = false;          // anchors move or pins are released: the records pass runs
+    bool pins = false;     // some vertex is held at the start
+    bool release = false;  // and may be let go
+    bool records = false;  // anchors move or pins are released: the records pass runs
     bool collide = false;
-    bool normals = false;          // the shape has triangles
-    bool acceleration = false;     // the solver keeps the springs' acceleration
+    bool normals = false;       // the shape has triangles
+    bool acceleration = false;  // the solver keeps the springs' acceleration
 };
 
 constexpr int stateWidth = 1024;
@@ -58,16 +58,16 @@ struct GroupPlan {
     std::string name;
     size_t index = 0;  // in scene.groups
     int count = 0, vertexCount = 0;
-    int slabRows = 0;                   // rows of one vertex slab
-    int firstRow = 0, rows = 0;         // in the state textures
-    int firstRecordRow = 0;             // in the record textures; slabRows of them
+    int slabRows = 0;            // rows of one vertex slab
+    int firstRow = 0, rows = 0;  // in the state textures
+    int firstRecordRow = 0;      // in the record textures; slabRows of them
     int topologyBase = 0;
     Needs needs;
     SolverKind solver = SolverKind::leapfrog;
     Drag drag;
     Release release;
     double stiffness = 1, damping = 1;
-    double size = 1;  // m, of the molecule
+    double size = 1;              // m, of the molecule
     double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;        // s, largest substep of the solver; infinite without springs
 };
@@ -99,18 +99,18 @@ struct Plan {
     int topologyRows = 0;
 
     // Fields and colliders become straight-line GLSL that reads its numbers from uniform arrays, so that
-    // changing a number never compiles. Samples (grids, height fields) share one texture of 4-vectors, read by
-    // index like the topology.
-    std::string fieldSource;     // generated/fields.glsl
-    std::string collideSource;   // generated/colliders.glsl
+    // changing a number never compiles. Samples (grids, height fields) share one texture of 4-vectors, read
+    // by index like the topology.
+    std::string fieldSource;    // generated/fields.glsl
+    std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters, colliderParameters;
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
 
     std::vector<Warning> warnings;
 
-    size_t stateBytes() const;   // all sides of the state and record textures
-    size_t tableBytes() const;   // topology and samples
+    size_t stateBytes() const;  // all sides of the state and record textures
+    size_t tableBytes() const;  // topology and samples
 };
 
 // Limits of the context that runs the plan; the defaults are what OpenGL 3.3 promises nearly everywhere.
@@ -118,13 +118,15 @@ struct PlanLimits {
     int maxTextureSize = 16384;
 };
 
-// Error (located at the group): the state does not fit, and how much it would take; or the substep is beyond
-// what the explicit solver holds stable, and how many substeps would do.
+// Error: the state (located at the group), or a table, does not fit, and how much it would take; fields or
+// colliders take more uniforms than OpenGL 3.3 promises; or the substep is beyond what the explicit solver
+// holds stable (located at the solver, else at the group), and how many substeps would do.
 Plan compile(const Scene& scene, const PlanLimits& limits = {});
 
 // How many substeps of a frame the solver needs when stiffness and damping are scaled by these factors; at
 // least `substeps`.
-int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor, int substeps);
+int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor,
+                   int substeps);
 
 // For people: groups, passes and why each is there, memory.
 std::string explain(const Plan& plan);

@@ -62,7 +62,8 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     const std::string near = nearest(word, candidates);
     if (!near.empty()) return " (did you mean \"" + near + "\"?)";
     std::string out;
-    for (const std::string& candidate : candidates) out += (out.empty() ? "" : ", ") + candidate;
+    for (const std::string& candidate : candidates)
+        out += (out.empty() ? "" : ", ") + candidate;
     return out.empty() ? out : " (expected one of " + out + ")";
 }
 

@@ -66,8 +66,8 @@ void writeFile(const fs::path& path, std::string_view bytes) {
     const int cause = errno;
     const bool closed = std::fclose(file.release()) == 0;
     if (!written || !closed)
-        throw Error(location,
-                    concat("cannot be written: ", std::strerror(written ? errno : cause), " (nothing was kept)"));
+        throw Error(location, concat("cannot be written: ", std::strerror(written ? errno : cause),
+                                     " (nothing was kept)"));
     fs::rename(temporary.path, path, code);
     if (code) throw Error(location, concat("cannot be written: ", code.message()));
     temporary.keep = true;

@@ -68,7 +68,8 @@ struct Molecule {
         if (spring.restLength) return *spring.restLength;
         return glm::length(vertices[size_t(spring.a)].position - vertices[size_t(spring.b)].position);
     }
-    // The largest rest distance between two vertices: the length that relative errors refer to. 1 for a point.
+    // The largest rest distance between two vertices: the length that relative errors refer to. 1 for a
+    // point.
     double size() const;
     bool hasPins() const;
 };

@@ -29,8 +29,9 @@ struct UniformField {
 
 // Direction constant, strength varied in space and time: fronts of size length x width travel along the
 // direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
-// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q / width)
-// with s along the direction and p, q across it.
+// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
+// width) with s along the direction and p, q across it: p along y x direction (x x direction where
+// |direction.y| >= 0.9), q along direction x p.
 struct GustField {
     glm::dvec3 direction{1, 0, 0};  // any length above 0; normalised
     double speed = 5;               // m/s, mean
@@ -57,10 +58,11 @@ struct VortexField {
     double lift = 0;    // m/s on the axis
 };
 
-// Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi / wavelength.
+// Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi /
+// wavelength.
 struct AbcField {
     glm::dvec3 origin{0};
-    double a = 1, b = 1, c = 1;  // m/s
+    double a = 1, b = 1, c = 1;             // m/s
     double wavelength = 6.283185307179586;  // m
 };
 
@@ -85,9 +87,9 @@ struct CurlNoiseField {
 struct GridField {
     std::string file;
     glm::ivec3 resolution{0};
-    glm::dvec3 low{0}, high{0};      // m, in the scene's axes: the outer faces of the outer cells
-    std::vector<glm::vec3> values;   // m/s, x fastest, then y, then z
-    bool wrap = false;               // repeat outside the bounds, else clamp to the border
+    glm::dvec3 low{0}, high{0};     // m, in the scene's axes: the outer faces of the outer cells
+    std::vector<glm::vec3> values;  // m/s, x fastest, then y, then z
+    bool wrap = false;              // repeat outside the bounds, else clamp to the border
 };
 
 using FieldShape = std::variant<UniformField, GustField, ShearField, VortexField, AbcField, TaylorGreenField,
@@ -114,10 +116,10 @@ struct SphereCollider {
 
 // Heights over a rectangle in x and z; beyond it there is nothing.
 struct HeightFieldCollider {
-    int columns = 0, rows = 0;   // samples along x and z, at least 2
-    glm::dvec2 low{0}, high{0};  // m: x and z of the first and last sample
-    std::vector<float> heights;  // m, x fastest
-    bool sampledNormals = false; // normal from three height samples (Latta 3.4.2) instead of stored ones
+    int columns = 0, rows = 0;    // samples along x and z, at least 2
+    glm::dvec2 low{0}, high{0};   // m: x and z of the first and last sample
+    std::vector<float> heights;   // m, x fastest
+    bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
 };
 
 using ColliderShape = std::variant<PlaneCollider, SphereCollider, HeightFieldCollider>;
@@ -163,9 +165,9 @@ struct Placement {
     Kind kind = Kind::volume;
     int model = -1;  // index of the scene's model, for vertices and surface
     Selection select;
-    Box box;                                    // volume
-    glm::dvec3 origin{0}, spacing{1};           // grid
-    glm::ivec3 cells{1};                        // grid: counts along x, y, z
+    Box box;                           // volume
+    glm::dvec3 origin{0}, spacing{1};  // grid
+    glm::ivec3 cells{1};               // grid: counts along x, y, z
     struct Item {
         glm::dvec3 position{0};
         glm::dquat rotation{1, 0, 0, 0};
@@ -179,10 +181,10 @@ struct Placement {
     // Random turn about that axis, or any rotation. In files: none for lists, whose items say how they stand.
     enum class Turn { none, yaw, any };
     Turn turn = Turn::yaw;
-    double tilt = 0;              // rad: then tipped by up to this much in a random direction
-    double droop = 0;             // in [0, 1]: the axis is bent this share of the way to straight down
-    glm::dvec2 scale{1, 1};       // random between the two
-    double offset = 0;            // m along the axis, before it is bent
+    double tilt = 0;         // rad: then tipped by up to this much in a random direction
+    double droop = 0;        // in [0, 1]: the axis is bent this share of the way to straight down
+    glm::dvec2 scale{1, 1};  // random between the two
+    double offset = 0;       // m along the axis, before it is bent
 };
 
 // Stokes drag rate in 1/s (gamma = 6 pi eta r / m for a sphere of radius r and mass m).
@@ -214,7 +216,7 @@ struct Group {
     double phaseSpread = 0;             // rad: actuation phase varies by up to this between instances
     bool collide = true;
     std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
-    Location location;  // of the group in the file, for messages
+    Location location;                             // of the group in the file, for messages
 };
 
 // ---- The rest

@@ -9,7 +9,6 @@ namespace shoal {
 namespace {
 
 void readSolver(JsonReader& scene, SolverSettings& solver) {
-    solver.location = scene.here();
     auto r = scene.object("solver");
     if (!r) return;
     solver.location = r->here();

@@ -8,11 +8,11 @@
 namespace shoal {
 
 struct Parameters {
-    glm::dvec3 gravity{0};         // m/s^2
-    double wind = 1;               // factor on every field
+    glm::dvec3 gravity{0};                        // m/s^2
+    double wind = 1;                              // factor on every field
     double drag = 1, stiffness = 1, damping = 1;  // factors on top of each group's own
-    int substeps = 4;              // per frame
-    double frameTime = 1.0 / 60;   // s
+    int substeps = 4;                             // per frame
+    double frameTime = 1.0 / 60;                  // s
 };
 
 }  // namespace shoal

@@ -14,8 +14,9 @@ using gpu::Traffic;
 
 namespace {
 
-constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag", "passes/restore.frag",
-                                           "passes/advect.frag", "passes/collide.frag"};
+constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag",
+                                           "passes/restore.frag", "passes/advect.frag",
+                                           "passes/collide.frag"};
 
 std::vector<std::string> defines(const GroupPlan& group) {
     const Needs& needs = group.needs;
@@ -106,7 +107,8 @@ void Simulation::frame() {
             if (pass.when == when) runPass(pass, step);
     };
     run(PassPlan::When::frameStart, {time_, h, true});
-    for (int i = 0; i < parameters.substeps; ++i) run(PassPlan::When::substep, {time_ + i * h, h, i == 0});
+    for (int i = 0; i < parameters.substeps; ++i)
+        run(PassPlan::When::substep, {time_ + i * h, h, i == 0});
     time_ += parameters.frameTime;
     ++frames_;
     if (drawn_) run(PassPlan::When::frameEnd, {time_, h, false});
@@ -117,11 +119,16 @@ void Simulation::runPass(const PassPlan& pass, const Step& step) {
     const GroupPlan& group = plan_.groups[pass.group];
     const auto timer = timers_.time(name(pass.kind));
     switch (pass.kind) {
-    case PassKind::records: return records(group, pass.group, step);
-    case PassKind::normals: return normals(group, pass.group, step, pass.when == PassPlan::When::substep);
-    case PassKind::restore: return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
-    case PassKind::advect: return advect(group, pass.group, step);
-    case PassKind::collide: return collide(group, pass.group, step);
+    case PassKind::records:
+        return records(group, pass.group, step);
+    case PassKind::normals:
+        return normals(group, pass.group, step, pass.when == PassPlan::When::substep);
+    case PassKind::restore:
+        return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
+    case PassKind::advect:
+        return advect(group, pass.group, step);
+    case PassKind::collide:
+        return collide(group, pass.group, step);
     }
 }
 
@@ -169,7 +176,8 @@ void Simulation::drawRecords(const GroupPlan& group, const Framebuffer& target) 
 void Simulation::records(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::records, group, index);
     if (group.needs.release) {
-        const bool may = step.time >= group.release.after;
+        const bool may =
+            step.time + 0.5 * step.h >= group.release.after;  // whatever the sum of times was rounded to
         constexpr double never = std::numeric_limits<float>::max();
         const double chance = -std::expm1(-group.release.rate.value_or(0) * parameters.frameTime);
         setSprings(program, group, step.time, 0);

@@ -50,7 +50,8 @@ Snapshot Simulation::snapshot(size_t index) {
 uint64_t Simulation::hash() {
     uint64_t hash = 14695981039346656037ull;
     const auto add = [&](const glm::vec4& texel) {
-        for (int i = 0; i < 4; ++i) hash = (hash ^ std::bit_cast<uint32_t>(texel[i])) * 1099511628211ull;
+        for (int i = 0; i < 4; ++i)
+            hash = (hash ^ std::bit_cast<uint32_t>(texel[i])) * 1099511628211ull;
     };
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
         const GroupPlan& group = plan_.groups[g];

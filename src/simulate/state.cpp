@@ -11,14 +11,17 @@ using gpu::Traffic;
 
 static TwoSided makeSides(gpu::Context& context, size_t groups, int rows, const char* label) {
     TwoSided sides;
-    for (Texture& texture : sides.side) texture = Texture(context, Format::rgba32f, stateWidth, rows, label);
+    for (Texture& texture : sides.side)
+        texture = Texture(context, Format::rgba32f, stateWidth, rows, label);
     sides.current.assign(groups, 0);
     return sides;
 }
 
-static Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, int rows, const char* label) {
+static Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, int rows,
+                         const char* label) {
     Texture texture(context, Format::rgba32f, stateWidth, rows, label);
-    texture.upload(Traffic::Kind::parameters, 0, 0, stateWidth, rows, table.data(), table.size() * sizeof(glm::vec4));
+    texture.upload(Traffic::Kind::parameters, 0, 0, stateWidth, rows, table.data(),
+                   table.size() * sizeof(glm::vec4));
     return texture;
 }
 

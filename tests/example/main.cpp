@@ -12,7 +12,8 @@ int main(int argc, char** argv) {
         shoal::gpu::Context context;
         shoal::Simulation simulation(context, SHADERS, shoal::compile(shoal::readScene(argv[1])));
         const glm::dvec3 before = simulation.snapshot(0).positions[0];
-        for (int i = 0; i < 10; ++i) simulation.frame();
+        for (int i = 0; i < 10; ++i)
+            simulation.frame();
         const glm::dvec3 after = simulation.snapshot(0).positions[0];
         std::printf("fell %.4f m in %.4f s\n", before.y - after.y, simulation.time());
         return before.y > after.y ? 0 : 1;

@@ -42,7 +42,7 @@ struct Measured {
     int count;
     const char* solver;
     std::unique_ptr<Simulation> simulation;
-    std::vector<double> frames;  // s, whole frames without timers between passes
+    std::vector<double> frames;  // s, whole frames, with the waits between passes that timing them takes
 };
 
 double middle(std::vector<double> values) {
@@ -56,8 +56,9 @@ void printTable(Measured& run) {
     for (const gpu::PassTime& pass : run.simulation->timers().report())
         std::printf("  %-9s %6d %12.3f %12.3f %16.1f\n", pass.name.c_str(), pass.calls, pass.min * 1e3,
                     pass.median * 1e3, pass.median * 1e9 / pass.calls / (4.0 * run.count));
-    std::printf("  %-9s %6s %12.3f %12.3f %16.1f\n", "frame", "", *std::min_element(run.frames.begin(), run.frames.end()) * 1e3,
-                middle(run.frames) * 1e3, middle(run.frames) * 1e9 / (4.0 * run.count));
+    std::printf("  %-9s %6s %12.3f %12.3f %16.1f\n", "frame", "",
+                *std::min_element(run.frames.begin(), run.frames.end()) * 1e3, middle(run.frames) * 1e3,
+                middle(run.frames) * 1e9 / (4.0 * run.count));
 }
 
 }  // namespace
@@ -78,9 +79,11 @@ int main(int argc, char** argv) {
     std::vector<Measured> runs;
     for (const int count : {1000, 16000, 131000})
         for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
-            runs.push_back({count, name(solver),
-                            std::make_unique<Simulation>(context, SHOAL_SOURCE_DIR "/shaders", compile(quads(count, solver)),
-                                                         true, gpu::PassTimers::Mode::finish),
+            runs.push_back({count,
+                            name(solver),
+                            std::make_unique<Simulation>(context, SHOAL_SOURCE_DIR "/shaders",
+                                                         compile(quads(count, solver)), true,
+                                                         gpu::PassTimers::Mode::finish),
                             {}});
     for (int round = -1; round < rounds; ++round) {
         for (Measured& run : runs) {
@@ -88,12 +91,14 @@ int main(int argc, char** argv) {
             const auto start = std::chrono::steady_clock::now();
             run.simulation->frame();
             glFinish();
-            const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+            const double seconds =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
             if (round < 0) run.simulation->timers().reset();  // the first frame compiles and warms up
             if (round >= 0) run.frames.push_back(seconds);
         }
         std::fprintf(stderr, "round %d of %d\n", round + 1, rounds);
     }
-    for (Measured& run : runs) printTable(run);
+    for (Measured& run : runs)
+        printTable(run);
     return 0;
 }

@@ -40,7 +40,8 @@ std::string passes(const Plan& plan) {
     for (const When when : {When::frameStart, When::substep, When::frameEnd}) {
         if (when != When::frameStart) out += "|";
         for (const PassPlan& pass : plan.passes)
-            if (pass.when == when) out += std::string(out.empty() || out.back() == '|' ? "" : " ") + name(pass.kind);
+            if (pass.when == when)
+                out += std::string(out.empty() || out.back() == '|' ? "" : " ") + name(pass.kind);
     }
     return out;
 }
@@ -166,7 +167,8 @@ TEST_CASE("topology lists each spring at both ends and each triangle at its corn
         triangles += int(spans.w);
         for (int i = 0; i < int(spans.y); ++i) {
             const glm::vec4 spring = plan.topology[size_t(spans.x) + 2 * size_t(i)];
-            const double length = glm::length(fish.vertices[v].position - fish.vertices[size_t(spring.x)].position);
+            const double length =
+                glm::length(fish.vertices[v].position - fish.vertices[size_t(spring.x)].position);
             CHECK(double(spring.w) == Approx(length).epsilon(1e-6));
         }
     }
@@ -177,7 +179,8 @@ TEST_CASE("topology lists each spring at both ends and each triangle at its corn
 TEST_CASE("a step beyond the solver's limit is refused with the substeps that would do", "[plan]") {
     Scene scene = sceneWith("quad");
     scene.solver.substeps = 1;
-    for (Spring& spring : scene.groups[0].molecule.springs) spring.stiffness = 1e6;
+    for (Spring& spring : scene.groups[0].molecule.springs)
+        spring.stiffness = 1e6;
     const std::string message = messageOf([&] { compile(scene); });
     REQUIRE_THAT(message, Catch::Contains("use at least "));
     scene.solver.substeps = std::stoi(message.substr(message.find("use at least ") + 13));
@@ -196,6 +199,7 @@ TEST_CASE("sliders ask for the substeps that a stiffer or more damped molecule n
 
 TEST_CASE("more than the context holds is refused with what would fit", "[plan]") {
     const Scene scene = sceneWith("fish", 100000);
-    CHECK_THAT(messageOf([&] { compile(scene, {2048}); }), Catch::Contains("MiB") && Catch::Contains("about 87381"));
+    CHECK_THAT(messageOf([&] { compile(scene, {2048}); }),
+               Catch::Contains("MiB") && Catch::Contains("about 87381"));
     CHECK_NOTHROW(compile(sceneWith("fish", 80000), {2048}));
 }

@@ -190,7 +190,8 @@ TEST_CASE("orders in a smooth scene: Runge-Kutta 4, euler 1, leapfrog 2", "[refe
 TEST_CASE("orders where time acts: a gust that travels and a muscle", "[reference]") {
     Molecule molecule = test::leaf(100, 0.5);
     molecule.vertices[0].pinned = true;
-    for (Spring& spring : molecule.springs) spring.actuation = Actuation{0.1, 1.5, 0.5};
+    for (Spring& spring : molecule.springs)
+        spring.actuation = Actuation{0.1, 1.5, 0.5};
     Problem problem{.molecule = &molecule, .gravity = {0, -9.81, 0}, .drag = {3, 3}};
     GustField gust;
     gust.frontSpeed = 20;
