@@ -1,6 +1,7 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
 set(rooms core molecule scene compile gpu simulate render reference measure app)
+cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_molecule core)
 set(may_scene core molecule)

@@ -1,7 +1,5 @@
 #include "app/options.h"
 
-#include "scene/scene_file.h"
-
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -138,7 +136,6 @@ void checkRanges(const Options& options) {
     atLeast("--substeps", options.substeps, 1);
     atMost("--substeps", options.substeps, 1000);
     atLeast("--count", options.count, 1);
-    atMost("--count", options.count, maxGroupCount);
     atLeast("--capture-every", options.captureEvery, 1);
     for (const int frame : options.exportFrames)
         atLeast("--export-frames", frame, 0);

@@ -200,6 +200,6 @@ TEST_CASE("sliders ask for the substeps that a stiffer or more damped molecule n
 TEST_CASE("more than the context holds is refused with what would fit", "[plan]") {
     const Scene scene = sceneWith("fish", 100000);
     CHECK_THAT(messageOf([&] { compile(scene, {2048}); }),
-               Catch::Contains("MiB") && Catch::Contains("about 87381"));
+               Catch::Contains("147 MiB") && Catch::Contains("at most 87040"));
     CHECK_NOTHROW(compile(sceneWith("fish", 80000), {2048}));
 }
