@@ -3,6 +3,7 @@
 // minimum and median are reported. Figures and how to read them: docs/performance.md.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -11,6 +12,8 @@
 
 #include "gpu/gl.h"
 #include "molecule/molecule_file.h"
+#include "performance/pin_threads.h"
+#include "reference/solve.h"
 #include "simulate/simulation.h"
 
 using namespace shoal;
@@ -45,6 +48,39 @@ struct Measured {
     std::vector<double> frames;  // s, whole frames, with the waits between passes that timing them takes
 };
 
+// RMS relative error of 64 of the quads after 1 s with the benchmark's step, against the double-precision
+// reference: the same forces, in the air, with a spin that makes the springs work.
+double errorOf(gpu::Context& context, SolverKind solver) {
+    Scene scene = quads(64, solver);
+    scene.colliders.clear();
+    Group& group = scene.groups[0];
+    group.spin = {3, -4, 2};
+    Simulation simulation(context, SHOAL_SOURCE_DIR "/shaders", compile(scene), false);
+    const Snapshot start = simulation.snapshot(0);
+    for (int i = 0; i < 60; ++i)
+        simulation.frame();
+    const Snapshot end = simulation.snapshot(0);
+    reference::Problem problem;
+    problem.molecule = &group.molecule;
+    problem.gravity = scene.gravity;
+    problem.drag = group.drag;
+    problem.fields = scene.fields;
+    const auto stateOf = [](const Snapshot& snapshot, int m) {
+        const auto first = ptrdiff_t(m) * snapshot.vertexCount, last = first + snapshot.vertexCount;
+        return reference::State{snapshot.time,
+                                {snapshot.positions.begin() + first, snapshot.positions.begin() + last},
+                                {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
+    };
+    double sum = 0;
+    for (int m = 0; m < start.count; ++m) {
+        const reference::Solution exact = reference::solve(problem, stateOf(start, m), 1, 1e-7);
+        if (!exact.converged) throw Error("the reference does not converge");
+        const double error = reference::relativeError(stateOf(end, m), exact.state, group.molecule.size());
+        sum += error * error / start.count;
+    }
+    return std::sqrt(sum);
+}
+
 double middle(std::vector<double> values) {
     std::sort(values.begin(), values.end());
     return values[values.size() / 2];
@@ -64,7 +100,7 @@ void printTable(Measured& run) {
 }  // namespace
 
 // Arguments: the number of rounds (default 12); --context egl|osmesa.
-int main(int argc, char** argv) {
+static int measure(int argc, char** argv) {
     int rounds = 12;
     gpu::ContextOptions options;
     for (int i = 1; i < argc; ++i) {
@@ -74,8 +110,12 @@ int main(int argc, char** argv) {
             rounds = std::max(3, std::atoi(argv[i]));
     }
     gpu::Context context(options);
-    std::printf("%s, OpenGL %s\n%d rounds, sizes in turn\n", context.info().renderer.c_str(),
-                context.info().version.c_str(), rounds);
+    const int pinned = pinRasteriserThreads();
+    std::printf("%s, OpenGL %s\n%d rounds, sizes in turn; %d rasteriser threads pinned\n",
+                context.info().renderer.c_str(), context.info().version.c_str(), rounds, pinned);
+    for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
+        std::printf("%s: relative error %.2e after 1 s at this step, in the air\n", name(solver),
+                    errorOf(context, solver));
     std::vector<Measured> runs;
     for (const int count : {1000, 16000, 131000})
         for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
@@ -101,4 +141,13 @@ int main(int argc, char** argv) {
     for (Measured& run : runs)
         printTable(run);
     return 0;
+}
+
+int main(int argc, char** argv) {
+    try {
+        return measure(argc, argv);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "shoal-performance: %s\n", error.what());
+        return 1;
+    }
 }
