@@ -26,9 +26,7 @@ Scene quads(int count, SolverKind solver) {
     scene.gravity = {0, -9.81, 0};
     scene.solver.kind = solver;
     scene.solver.substeps = 4;
-    Field wind;
-    wind.shape = UniformField{{2, 0, 0.5}};
-    scene.fields.push_back(wind);
+    scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
     scene.colliders.emplace_back();  // a plane, y = 0
     Group group;
     group.name = "quads";

@@ -8,7 +8,7 @@
 
 #include "core/file.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/scratch.h"
 
 using namespace shoal;
 
@@ -20,7 +20,7 @@ static size_t entries(const std::filesystem::path& folder) {
 }
 
 TEST_CASE("a file reads back as it was written, zero bytes too", "[file]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     const std::string bytes("a\0b\n", 4);
     writeFile(folder / "new/deep/x.bin", bytes);
     CHECK(readFile(folder / "new/deep/x.bin") == bytes);
@@ -30,9 +30,9 @@ TEST_CASE("a file reads back as it was written, zero bytes too", "[file]") {
 }
 
 TEST_CASE("what cannot be read says why", "[file]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     CHECK(messageOf([&] { readFile(folder / "none"); }) == (folder / "none").string() + ": no such file");
-    CHECK(messageOf([&] { readFile(folder.path()); }).find("is a folder, expected a file") !=
+    CHECK(messageOf([&] { readFile(folder.folder()); }).find("is a folder, expected a file") !=
           std::string::npos);
     writeFile(folder / "large", std::string(100, 'x'));
     CHECK(messageOf([&] { readFile(folder / "large", 99); }).find("is larger than 99 bytes") !=
@@ -41,9 +41,9 @@ TEST_CASE("what cannot be read says why", "[file]") {
 }
 
 TEST_CASE("what cannot be written says why", "[file]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     writeFile(folder / "file", std::string_view("x"));
-    CHECK(messageOf([&] { writeFile(folder.path(), std::string_view("x")); }).find("is a folder") !=
+    CHECK(messageOf([&] { writeFile(folder.folder(), std::string_view("x")); }).find("is a folder") !=
           std::string::npos);
     CHECK(messageOf([&] {
               writeFile(folder / "file/below", std::string_view("x"));
@@ -51,7 +51,7 @@ TEST_CASE("what cannot be written says why", "[file]") {
 }
 
 TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     writeFile(folder / "kept", std::string_view("old"));
     // A limit on the size of files fails a write as a full disk does.
     rlimit before{};
@@ -65,5 +65,5 @@ TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
     std::signal(SIGXFSZ, handler);
     CHECK(message.find("cannot be written") != std::string::npos);
     CHECK(readFile(folder / "kept") == "old");
-    CHECK(entries(folder.path()) == 1);
+    CHECK(entries(folder.folder()) == 1);
 }

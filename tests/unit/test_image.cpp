@@ -4,7 +4,7 @@
 #include "core/image.h"
 #include "core/random.h"
 #include "support/message_of.h"
-#include "support/temporary_folder.h"
+#include "support/scratch.h"
 
 using namespace shoal;
 
@@ -22,7 +22,7 @@ static std::string encoded(const Image& image) {
 }
 
 TEST_CASE("an RGBA picture reads back bit for bit", "[image]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     const Image image = noise(13, 7, 4);
     writePng(folder / "x.png", image);
     const Image again = readPng(folder / "x.png");
@@ -80,7 +80,7 @@ TEST_CASE("sixteen bits are kept whole and no gamma is applied", "[image]") {
 }
 
 TEST_CASE("what is not a whole PNG is refused with its name", "[image]") {
-    const TemporaryFolder folder;
+    const test::Scratch folder;
     CHECK(messageOf([&] { readPng(folder / "none.png"); }).find("no such file") != std::string::npos);
     CHECK(messageOf([] { decodePng("", "f"); }) == "f: expected a PNG picture, found an empty file");
     CHECK(messageOf([] { decodePng("GIF89a and more", "f"); }) ==
