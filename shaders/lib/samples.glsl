@@ -12,16 +12,20 @@ bool insideBox(vec3 anchor, vec3 position, vec3 low, vec3 high)
            all(lessThanEqual((anchor - high) + position, vec3(0.0)));
 }
 
+// The cell that stands for cell i, which lies at most one outside 0 .. count - 1.
 int outsideIndex(int i, int count, bool wrap)
 {
-    return wrap ? ((i % count) + count) % count : clamp(i, 0, count - 1);
+    if (!wrap) return clamp(i, 0, count - 1);
+    return i < 0 ? i + count : i >= count ? i - count : i;
 }
 
 // Trilinear between cell centres. x: relative to the grid's low corner, m; perMetre: cells per metre.
 vec3 gridVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap)
 {
     vec3 p = x * perMetre - 0.5;
-    p = wrap ? p : clamp(p, vec3(-1.0), vec3(resolution));
+    vec3 size = vec3(resolution);
+    p = wrap ? p - size * floor(p / size) : clamp(p, vec3(-1.0), size);
+    p = min(p, size);  // the remainder of a tiny negative number rounds up to the size
     vec3 corner = floor(p);
     vec3 f = p - corner;
     ivec3 cell = ivec3(corner);

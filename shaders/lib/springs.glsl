@@ -11,7 +11,8 @@ vec3 predictedVelocity(ivec2 texel)
 {
     vec3 v = texelFetch(velocities, texel, 0).xyz;
 #ifdef PREDICT
-    v += texelFetch(accelerations, texel, 0).xyz * predictTime;
+    // at a frame's start there is no acceleration yet, and what the texture holds may not be a number
+    if (predictTime > 0.0) v += texelFetch(accelerations, texel, 0).xyz * predictTime;
 #endif
     return v;
 }

@@ -7,5 +7,5 @@
 vec3 anchorShift(vec3 p)
 {
     if (abs(p.x) <= 1.0f && abs(p.y) <= 1.0f && abs(p.z) <= 1.0f) return vec3(0.0f);
-    return floor(p * 16.0f + 0.5f) / 16.0f;
+    return floor(p * 16.0f + 0.5f) * 0.0625f;  // a product with a power of two is exact, a quotient need not be
 }

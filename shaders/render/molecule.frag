@@ -17,6 +17,7 @@ out vec4 fragment;
 
 void main()
 {
+    vec3 flatNormal = cross(dFdx(place), dFdy(place));  // before any discard, after which slopes are undefined
     vec3 albedo = color;
     float covered = 1.0;
 #ifdef TEXTURED
@@ -25,9 +26,8 @@ void main()
     if (covered <= 0.0) discard;
     albedo *= texel.rgb;
 #endif
-    // Both sides are drawn; the normal is turned to the one that is seen. Before the first frame there are no
-    // normals in the state, and the triangle's own does.
-    vec3 flatNormal = cross(dFdx(place), dFdy(place));
+    // Both sides are drawn; the normal is turned to the one that is seen. Where the vertices' normals cancel,
+    // the triangle's own does.
     vec3 n = dot(normal, normal) > 0.01 ? normalize(normal) : normalize(flatNormal + vec3(0.0, 1e-12, 0.0));
     if (dot(n, place) > 0.0) n = -n;
 

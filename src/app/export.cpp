@@ -71,17 +71,16 @@ std::string ply(Simulation& simulation, const Scene& scene) {
 
 std::string exportName(const std::string& target, int frame, bool several) {
     const fs::path path(target);
-    const std::string extension = path.extension().string();
+    const std::string extension = path.extension().string(), kind = lowerExtension(path);
     char number[16];
     std::snprintf(number, sizeof number, "-%05d", frame);
-    if (extension != ".csv" && extension != ".ply")
-        return (path / ("state" + std::string(number) + ".csv")).string();
+    if (kind != ".csv" && kind != ".ply") return (path / ("state" + std::string(number) + ".csv")).string();
     if (!several) return target;
     return (path.parent_path() / (path.stem().string() + number + extension)).string();
 }
 
 void exportState(const std::string& file, Simulation& simulation, const Scene& scene) {
-    const bool asPly = fs::path(file).extension() == ".ply";
+    const bool asPly = lowerExtension(file) == ".ply";
     writeFile(file, std::string_view(asPly ? ply(simulation, scene) : csv(simulation)));
 }
 

@@ -40,7 +40,6 @@ void print(const gpu::ContextProbe& probe) {
         return;
     }
     const gpu::ContextInfo& info = *probe.info;
-    const int vertices = info.maxTextureSize;
     std::cout << "  platform     " << info.platform << "\n  renderer     " << info.renderer << " ("
               << (info.software ? "software" : "hardware") << ")\n  OpenGL       " << info.version
               << ", GLSL " << info.glslVersion << "\n  limits       textures " << info.maxTextureSize
@@ -49,9 +48,9 @@ void print(const gpu::ContextProbe& probe) {
               << info.maxBufferTexels << " buffer texels";
     if (info.maxStorageBlockBytes > 0)
         std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes";
-    std::cout << "\n  paths        ping-pong (up to " << int64_t(vertices) * stateWidth << " vertices)"
-              << (info.computeShaders ? "; compute shaders are there, the fused path is not built yet" : "")
-              << "\n";
+    std::cout << "\n  paths        ping-pong (up to " << int64_t(info.maxTextureSize) * stateWidth
+              << " vertices)"
+              << "; compute shaders: " << (info.computeShaders ? "yes" : "no") << "\n";
 }
 
 }  // namespace

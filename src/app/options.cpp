@@ -11,10 +11,13 @@
 #endif
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+
+#include "core/file.h"
 
 namespace shoal::app {
 
@@ -122,6 +125,20 @@ void parseSize(const std::string& text, Options& options) {
         throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
 }
 
+// A name with an ending that we do not write is a mistake, not a folder.
+void checkTarget(const char* option, const std::string& target, const std::vector<std::string>& known) {
+    const std::string extension = lowerExtension(target);
+    const bool looksLikeOne = extension.size() >= 4 && extension.size() <= 5 &&
+                              std::all_of(extension.begin() + 1, extension.end(),
+                                          [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
+    if (!looksLikeOne || std::find(known.begin(), known.end(), extension) != known.end()) return;
+    std::string list;
+    for (const std::string& one : known)
+        list += (list.empty() ? "" : ", ") + one;
+    throw Error(
+        concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ", list));
+}
+
 void checkRanges(const Options& options) {
     const auto atLeast = [](const char* option, std::optional<int> value, int least) {
         if (value && *value < least)
@@ -134,13 +151,21 @@ void checkRanges(const Options& options) {
     };
     atLeast("--frames", options.frames, 1);
     atLeast("--substeps", options.substeps, 1);
-    atMost("--substeps", options.substeps, 1000);
+    atMost("--substeps", options.substeps, maxSubsteps);
     atLeast("--count", options.count, 1);
     atLeast("--capture-every", options.captureEvery, 1);
     for (const int frame : options.exportFrames)
         atLeast("--export-frames", frame, 0);
     if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
         throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
+    if (!options.exportFrames.empty() && options.exports.empty())
+        throw Error("--export-frames needs --export");
+    if (options.captureEvery != 1 && options.capture.empty()) throw Error("--capture-every needs --capture");
+    if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
+        throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
+                           options.frames.value_or(headlessFrames)));
+    checkTarget("--capture", options.capture, {".png", ".mp4", ".mkv", ".webm", ".mov"});
+    checkTarget("--export", options.exports, {".csv", ".ply"});
     if (!options.screenshot.empty() && (options.headless || !options.frames))
         throw Error(
             "--screenshot is of the window after --frames: it needs --frames and excludes --headless");

@@ -12,6 +12,8 @@
 
 namespace shoal::app {
 
+constexpr int headlessFrames = 240;  // unless --frames says otherwise
+
 struct Options {
     enum class Command { run, check, explain, info };
     Command command = Command::run;

@@ -40,7 +40,7 @@ static void heading(const char* text) {
     ImGui::Separator();
 }
 
-Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double frameSeconds,
+Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
                           const gpu::Traffic& lastFrame) {
     ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSize(ImVec2(304, 0), ImGuiCond_Always);
@@ -50,7 +50,7 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, double fra
     Action action = drawClock(controls, simulation);
     drawForces(controls, simulation);
     const Action groupAction = drawGroups(simulation);
-    drawCost(simulation, frameSeconds, lastFrame);
+    drawCost(simulation, renderer, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
     return action == Action::none ? groupAction : action;
@@ -127,7 +127,8 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
     return changed ? Action::rebuild : Action::none;
 }
 
-void Panel::drawCost(Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame) {
+void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
+                     const gpu::Traffic& lastFrame) {
     heading("Cost");
     ImGui::Text("%.1f frames/s, ping-pong, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
                 name(simulation.plan().solver));
@@ -137,7 +138,10 @@ void Panel::drawCost(Simulation& simulation, double frameSeconds, const gpu::Tra
         ImGui::TableSetupColumn("calls");
         ImGui::TableSetupColumn("ms a frame");
         ImGui::TableHeadersRow();
-        for (const gpu::PassTime& pass : simulation.timers().report()) {
+        std::vector<gpu::PassTime> times = simulation.timers().report();
+        const std::vector<gpu::PassTime> drawing = renderer.timers().report();
+        times.insert(times.end(), drawing.begin(), drawing.end());
+        for (const gpu::PassTime& pass : times) {
             ImGui::TableNextColumn();
             ImGui::TextUnformatted(pass.name.c_str());
             ImGui::TableNextColumn();
@@ -147,10 +151,24 @@ void Panel::drawCost(Simulation& simulation, double frameSeconds, const gpu::Tra
         }
         ImGui::EndTable();
     }
-    using Kind = gpu::Traffic::Kind;
-    ImGui::Text("bus, bytes a frame: state %llu, control %llu",
-                static_cast<unsigned long long>(lastFrame.total(Kind::state)),
-                static_cast<unsigned long long>(lastFrame.total(Kind::control)));
+    if (ImGui::BeginTable("bus", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
+        ImGui::TableSetupColumn("bus, bytes a frame");
+        ImGui::TableSetupColumn("up");
+        ImGui::TableSetupColumn("back");
+        ImGui::TableHeadersRow();
+        using Kind = gpu::Traffic::Kind;
+        const std::pair<const char*, Kind> kinds[] = {
+            {"state", Kind::state}, {"parameters", Kind::parameters}, {"control", Kind::control}};
+        for (const auto& [word, kind] : kinds) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(word);
+            ImGui::TableNextColumn();
+            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.up(kind)));
+            ImGui::TableNextColumn();
+            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.down(kind)));
+        }
+        ImGui::EndTable();
+    }
     ImGui::Text("state %.1f MiB", double(simulation.plan().stateBytes()) / (1 << 20));
 }
 

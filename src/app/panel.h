@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "render/renderer.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
@@ -34,7 +35,7 @@ class Panel {
     Panel(const Scene& scene, std::vector<std::string> moleculeFiles);
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, Simulation& simulation, double frameSeconds,
+    Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
                 const gpu::Traffic& lastFrame);
 
     GroupChoice choice;
@@ -44,7 +45,8 @@ class Panel {
     Action drawClock(Controls& controls, const Simulation& simulation);
     void drawForces(Controls& controls, const Simulation& simulation);
     Action drawGroups(const Simulation& simulation);
-    void drawCost(Simulation& simulation, double frameSeconds, const gpu::Traffic& lastFrame);
+    void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
+                  const gpu::Traffic& lastFrame);
 
     std::vector<std::string> groupNames_;
     std::vector<int> groupCounts_;

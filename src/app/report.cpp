@@ -18,7 +18,8 @@ static JsonValue asJson(const gpu::Traffic& traffic) {
     return out;
 }
 
-JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash) {
+JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
+                 uint64_t hash) {
     const gpu::ContextInfo& info = simulation.context().info();
     JsonValue context = JsonValue::makeObject();
     context.add("kind", JsonValue::makeString(gpu::name(info.kind)))
@@ -31,7 +32,7 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, uint64_t hash)
         .add("outside", asJson(report.outside));
 
     JsonValue passes = JsonValue::makeArray();
-    for (const gpu::PassTime& pass : simulation.timers().report()) {
+    for (const gpu::PassTime& pass : times) {
         JsonValue entry = JsonValue::makeObject();
         entry.add("pass", JsonValue::makeString(pass.name))
             .add("callsPerFrame", JsonValue::makeNumber(pass.calls))

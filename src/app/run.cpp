@@ -19,7 +19,6 @@ namespace shoal::app {
 
 namespace {
 
-constexpr int headlessFrames = 240;
 constexpr int largestTexture = 32768;  // texels a side: no context takes more
 
 bool hasDisplay() {
@@ -79,6 +78,7 @@ class HeadlessRun {
         RenderOptions size;
         size.width = options.width;
         size.height = options.height;
+        if (options.timings) size.timing = gpu::PassTimers::suitedTo(context.info());
         renderer_ = std::make_unique<Renderer>(context, shaderRoot(), loaded_.scene, loaded_.plan, size);
         pictures_ =
             std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_, frames_ > every_);
@@ -108,6 +108,7 @@ class HeadlessRun {
         if (pictures_) note(pictures_->last().string());
         context_.checkErrors("run");
         simulation_.timers().drain();
+        if (renderer_) renderer_->timers().drain();
         report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
 
@@ -115,18 +116,25 @@ class HeadlessRun {
         uint64_t hash = 0;
         outside([&] { hash = simulation_.hash(); });
         if (options_.json) {
-            std::cout << writeJson(asJson(report_, simulation_, hash));
+            std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
         }
         std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds
                   << " s on " << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
-        if (pictures_) std::cout << "pictures: " << pictures_->target() << "\n";
-        for (const gpu::PassTime& pass : simulation_.timers().report())
+        if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
+        for (const gpu::PassTime& pass : passTimes())
             std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
                       << " ms, median " << pass.median * 1e3 << " ms\n";
     }
 
   private:
+    std::vector<gpu::PassTime> passTimes() {
+        std::vector<gpu::PassTime> out = simulation_.timers().report();
+        if (!renderer_) return out;
+        for (const gpu::PassTime& pass : renderer_->timers().report())
+            out.push_back(pass);
+        return out;
+    }
     template <typename Work>
     void outside(const Work& work) {
         const gpu::Traffic before = context_.traffic();

@@ -9,7 +9,9 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
+#include <utility>
 
 #include "app/data_paths.h"
 #include "app/orbit_camera.h"
@@ -133,6 +135,7 @@ class WindowRun {
         RenderOptions size;
         size.width = width_;
         size.height = height_;
+        size.timing = gpu::PassTimers::suitedTo(context_.info());
         renderer_ = std::make_unique<Renderer>(context_, shaderRoot(), scene_, plan, size);
         simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), true,
                                                    gpu::PassTimers::suitedTo(context_.info()));
@@ -141,15 +144,15 @@ class WindowRun {
 
     // One frame of simulation and picture; false after the last of --frames.
     bool showFrame() {
+        glfwGetFramebufferSize(window_, &width_, &height_);
+        if (width_ < 1 || height_ < 1) {  // minimised: time stands still
+            glfwWaitEventsTimeout(0.1);
+            return true;
+        }
         const gpu::Traffic before = context_.traffic();
         if (!controls_.paused || action_ == Panel::Action::step) {
             controls_.lead(simulation_->parameters, simulation_->plan(), simulation_->parameters.frameTime);
             simulation_->frame();
-        }
-        glfwGetFramebufferSize(window_, &width_, &height_);
-        if (width_ < 1 || height_ < 1) {  // minimised
-            glfwWaitEventsTimeout(0.1);
-            return true;
         }
         if (width_ != renderer_->width() || height_ != renderer_->height())
             renderer_->resize(width_, height_);
@@ -158,7 +161,7 @@ class WindowRun {
         lastFrame_ = context_.traffic() - before;
 
         interface_.begin();
-        action_ = panel_.draw(controls_, *simulation_, frameSeconds_, lastFrame_);
+        action_ = panel_.draw(controls_, *simulation_, *renderer_, frameSeconds_, lastFrame_);
         moveCamera();
         pressKeys();
         if (!message_.empty()) showMessage();
@@ -181,6 +184,7 @@ class WindowRun {
     // Another number or kind of molecules; what cannot be had is said and the old scene runs on.
     void rebuild() {
         const Scene old = scene_;
+        scene_.solver.substeps = original_.solver.substeps;
         try {
             Group& group = scene_.groups[size_t(panel_.choice.group)];
             group.count = panel_.choice.count;
@@ -189,9 +193,12 @@ class WindowRun {
                                  : readMolecule(panel_.molecules[size_t(panel_.choice.molecule)]);
             build(compileStably());
             message_.clear();
+            shownMolecule_ = panel_.choice.molecule;
         } catch (const Error& error) {
             message_ = error.what();
             scene_ = old;
+            panel_.choice.count = old.groups[size_t(panel_.choice.group)].count;
+            panel_.choice.molecule = shownMolecule_;
             build(compile(scene_, {context_.info().maxTextureSize}));
         }
     }
@@ -231,7 +238,11 @@ class WindowRun {
 
     void pressKeys() {
         if (ImGui::GetIO().WantCaptureKeyboard) return;
-        const auto pressed = [](int key) { return ImGui::IsKeyPressed(key, false); };
+        // by the window, not by ImGui, whose key codes changed their type in 1.89
+        const auto pressed = [this](int key) {
+            const bool down = glfwGetKey(window_, key) == GLFW_PRESS;
+            return down && !std::exchange(keysDown_[key], down) ? true : (keysDown_[key] = down, false);
+        };
         if (pressed(GLFW_KEY_SPACE)) controls_.paused = !controls_.paused;
         if (pressed(GLFW_KEY_R)) action_ = Panel::Action::restart;
         if (pressed(GLFW_KEY_C)) action_ = Panel::Action::resetCamera;
@@ -272,7 +283,9 @@ class WindowRun {
     Panel::Action action_ = Panel::Action::none;
     gpu::Traffic lastFrame_;
     std::string message_;
-    double frameSeconds_ = 0;  // s, wall clock, smoothed
+    std::map<int, bool> keysDown_;  // as seen last, by GLFW's key
+    int shownMolecule_ = -1;        // the panel's choice that is on show
+    double frameSeconds_ = 0;       // s, wall clock, smoothed
     int width_ = 0, height_ = 0, shown_ = 0;
 };
 

@@ -41,10 +41,6 @@ int slabRows(int count) {
     return (count - 1) / stateWidth + 1;
 }
 
-int slabRowsOf(const Group& group) {
-    return (group.count - 1) / stateWidth + 1;
-}
-
 // The group's own name, else its molecule's, numbered where that is taken.
 std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     const std::string name = group.name.empty() ? group.molecule.name : group.name;
@@ -82,7 +78,7 @@ void checkSize(const Scene& scene, const PlanLimits& limits) {
     int64_t rows = 0;
     for (const Group& group : scene.groups) {
         const int64_t vertices = int64_t(group.molecule.vertices.size());
-        const int64_t own = int64_t(slabRowsOf(group)) * vertices;
+        const int64_t own = int64_t(slabRows(group.count)) * vertices;
         if (rows + own > limits.maxTextureSize) {
             const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
             throw Error(
@@ -113,11 +109,16 @@ void findStableStep(const Group& group, GroupPlan& out) {
 void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
     const double frame = 1 / scene.frameRate, step = frame / scene.solver.substeps;
     if (step <= plan.stableStep) return;
+    const double needed = std::ceil(frame / plan.stableStep);
+    const std::string advice =
+        needed <= maxSubsteps
+            ? concat("use at least ", needed, " substeps")
+            : concat("more than the ", maxSubsteps,
+                     " substeps of a frame would do: make the springs softer or the masses larger");
     throw Error(scene.solver.location.empty() ? group.location : scene.solver.location,
                 concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ",
                        plan.stableStep, " s (highest frequency ", plan.highestFrequency, " rad/s); ",
-                       scene.solver.substeps, " substeps of a frame are ", step, " s: use at least ",
-                       int(std::ceil(frame / plan.stableStep)), " substeps"));
+                       scene.solver.substeps, " substeps of a frame are ", step, " s: ", advice));
 }
 
 void listPasses(const GroupPlan& group, size_t index, Plan& plan) {

@@ -52,10 +52,20 @@ std::string readFile(const fs::path& path, size_t maxBytes) {
     return bytes;
 }
 
+std::string lowerExtension(const fs::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return extension;
+}
+
 void writeFile(const fs::path& path, std::string_view bytes) {
     const Location location{path.string(), 0, 0, {}};
     std::error_code code;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
+    if (code)
+        throw Error(Location{path.parent_path().string(), 0, 0, {}},
+                    "cannot make this folder: " + code.message());
     if (fs::is_directory(path, code)) throw Error(location, "is a folder, expected a file to write");
 
     TemporaryFile temporary{path.string() + ".part-" + std::to_string(::getpid())};

@@ -19,6 +19,8 @@
 
 namespace shoal {
 
+struct JsonMember;
+
 class JsonValue {
   public:
     enum class Kind { null, boolean, number, string, array, object };
@@ -28,9 +30,9 @@ class JsonValue {
     int keyLine = 0, keyColumn = 0;  // where its key begins, for an object's members
     bool boolean = false;
     double number = 0;
-    std::string text;              // a string's characters, or a number as it was written
-    std::vector<JsonValue> items;  // array
-    std::vector<std::pair<std::string, JsonValue>> members;  // object, in the file's order
+    std::string text;                 // a string's characters, or a number as it was written
+    std::vector<JsonValue> items;     // array
+    std::vector<JsonMember> members;  // object, in the file's order
 
     const JsonValue* find(std::string_view key) const;
 
@@ -41,14 +43,22 @@ class JsonValue {
     static JsonValue makeArray();
     static JsonValue makeObject();
     template <int N, typename T>
-    static JsonValue makeVector(const glm::vec<N, T>& v) {
-        JsonValue array = makeArray();
-        for (int i = 0; i < N; ++i)
-            array.items.push_back(makeNumber(static_cast<double>(v[i])));
-        return array;
-    }
+    static JsonValue makeVector(const glm::vec<N, T>& v);
     JsonValue& add(std::string key, JsonValue value);  // returns *this, for chains
 };
+
+struct JsonMember {
+    std::string first;  // the key
+    JsonValue second;
+};
+
+template <int N, typename T>
+JsonValue JsonValue::makeVector(const glm::vec<N, T>& v) {
+    JsonValue array = makeArray();
+    for (int i = 0; i < N; ++i)
+        array.items.push_back(makeNumber(static_cast<double>(v[i])));
+    return array;
+}
 
 const char* name(JsonValue::Kind kind);  // "a number", "an object", ...
 

@@ -158,7 +158,7 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
         }
         value.keyLine = parent.keyAt.line;
         value.keyColumn = parent.keyAt.column;
-        parent.value.members.emplace_back(parent.key, std::move(value));
+        parent.value.members.push_back({parent.key, std::move(value)});
     }
 
     std::string_view text_;

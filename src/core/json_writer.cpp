@@ -167,7 +167,7 @@ JsonValue JsonValue::makeObject() {
 }
 
 JsonValue& JsonValue::add(std::string key, JsonValue value) {
-    members.emplace_back(std::move(key), std::move(value));
+    members.push_back({std::move(key), std::move(value)});
     return *this;
 }
 
@@ -182,15 +182,15 @@ JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
     for (size_t i = 0; i < fresh.items.size() && i < original.items.size(); ++i)
         fresh.items[i] = inOrderOf(original.items[i], std::move(fresh.items[i]));
 
-    std::vector<std::pair<std::string, JsonValue>> ordered;
+    std::vector<JsonMember> ordered;
     for (const auto& [key, old] : original.members) {
         const auto same = [&key = key](const auto& member) { return member.first == key; };
         const auto member = std::find_if(fresh.members.begin(), fresh.members.end(), same);
         if (member != fresh.members.end()) {
-            ordered.emplace_back(key, inOrderOf(old, std::move(member->second)));
+            ordered.push_back({key, inOrderOf(old, std::move(member->second))});
             fresh.members.erase(member);
         } else if (key == "comment") {
-            ordered.emplace_back(key, old);
+            ordered.push_back({key, old});
         }
     }
     for (auto& member : fresh.members)

@@ -61,17 +61,6 @@ void VertexArray::attribute(int location, const Buffer& buffer, int components, 
     glVertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
-void VertexArray::integerAttribute(int location, const Buffer& buffer, int components, int stride, int offset,
-                                   int divisor) {
-    assert(buffer.use() == Buffer::Use::vertex && components >= 1 && components <= 4);
-    const auto index = static_cast<GLuint>(location);
-    bind();
-    glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
-    glEnableVertexAttribArray(index);
-    glVertexAttribIPointer(index, components, GL_UNSIGNED_INT, stride, asPointer(offset));
-    glVertexAttribDivisor(index, static_cast<GLuint>(divisor));
-}
-
 void VertexArray::indices(const Buffer& buffer) {
     assert(buffer.use() == Buffer::Use::index);
     bind();

@@ -47,8 +47,6 @@ class VertexArray {
     // Floats. stride and offset in bytes; divisor 1: one value an instance.
     void attribute(int location, const Buffer& buffer, int components, int stride, int offset,
                    int divisor = 0);
-    void integerAttribute(int location, const Buffer& buffer, int components, int stride, int offset,
-                          int divisor = 0);  // uint32
     void indices(const Buffer& buffer);
     void bind() const;
 

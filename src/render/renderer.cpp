@@ -27,7 +27,8 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       molecules_(context, shaderRoot, scene, plan, lighting_, shadow_.get()),
       sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", {}, {}, "sky"}),
       tone_(context, shaderRoot, {"render/screen.vert", "render/picture.frag", {}, {}, "picture"}),
-      empty_(context, "no corners") {
+      empty_(context, "no corners"),
+      timers_(context, options.timing) {
     resize(options.width, options.height);
 }
 
@@ -50,26 +51,28 @@ void Renderer::draw(const State& state, const View& view) {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
 
+    timers_.beginFrame();
     if (shadow_) drawShadows(state);
     samples_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
     {
-        const gpu::DebugGroup group(*context_, "surfaces");
+        const auto timer = timers_.time("surfaces");
         surfaces_.draw(eye, lighting_);
     }
     {
-        const gpu::DebugGroup group(*context_, "molecules");
+        const auto timer = timers_.time("molecules");
         molecules_.draw(state, eye, lighting_, samples_.samples() > 1);
     }
     drawSky(eye);
     samples_.blitTo(lightTarget_);
     drawPicture(view.exposure);
+    timers_.endFrame();
 }
 
-void Renderer::drawShadows(const State& state) const {
-    const gpu::DebugGroup group(*context_, "shadows");
+void Renderer::drawShadows(const State& state) {
+    const auto timer = timers_.time("shadows");
     shadow_->begin();
     surfaces_.drawShadows(*shadow_);
     molecules_.drawShadows(state, *shadow_);
@@ -77,8 +80,8 @@ void Renderer::drawShadows(const State& state) const {
 }
 
 // Last, at the far plane: only where nothing else was drawn.
-void Renderer::drawSky(const Eye& eye) const {
-    const gpu::DebugGroup group(*context_, "sky");
+void Renderer::drawSky(const Eye& eye) {
+    const auto timer = timers_.time("sky");
     sky_.use();
     lighting_.applySky(sky_);
     sky_.set("viewToScene", eye.viewToScene);
@@ -90,8 +93,8 @@ void Renderer::drawSky(const Eye& eye) const {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawPicture(double exposure) const {
-    const gpu::DebugGroup group(*context_, "picture");
+void Renderer::drawPicture(double exposure) {
+    const auto timer = timers_.time("picture");
     pictureTarget_.bind();
     tone_.use();
     tone_.texture("light", unit::light, light_);

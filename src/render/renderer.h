@@ -11,6 +11,7 @@
 #include "core/image.h"
 #include "gpu/context.h"
 #include "gpu/framebuffer.h"
+#include "gpu/pass_timers.h"
 #include "render/lighting.h"
 #include "render/molecule_drawer.h"
 #include "render/surface_drawer.h"
@@ -24,7 +25,8 @@ struct RenderOptions {
     int samples = 4;                 // a pixel; reduced to what the context has
     int shadowSize = 2048;           // texels a side
     bool crownShade = true;          // leaves hide the sky from one another
-    bool grid = false;               // a metre grid on planes; on anyway in scenes without a model
+    gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
+    bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
 };
 
 class Renderer {
@@ -46,12 +48,13 @@ class Renderer {
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
     Image capture() const;
 
+    gpu::PassTimers& timers() { return timers_; }
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
-    void drawShadows(const State& state) const;
-    void drawSky(const Eye& eye) const;
-    void drawPicture(double exposure) const;
+    void drawShadows(const State& state);
+    void drawSky(const Eye& eye);
+    void drawPicture(double exposure);
 
     gpu::Context* context_;
     RenderOptions options_;
@@ -61,6 +64,7 @@ class Renderer {
     MoleculeDrawer molecules_;
     gpu::Program sky_, tone_;
     gpu::VertexArray empty_;
+    gpu::PassTimers timers_;
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;

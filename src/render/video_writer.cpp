@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 
 namespace shoal {
 
@@ -53,7 +54,7 @@ VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, doub
 void VideoWriter::start(double frameRate) {
     const std::string program = findFfmpeg();
     if (program.empty()) checkInstalled();
-    const bool vp9 = file_.extension() == ".webm";
+    const bool vp9 = lowerExtension(file_) == ".webm";
     const std::vector<std::string> arguments = {
         program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt", "rgba",
         "-video_size", concat(width_, "x", height_), "-framerate", concat(frameRate), "-i", "pipe:0",

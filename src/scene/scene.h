@@ -224,6 +224,8 @@ struct Group {
 enum class SolverKind { euler, leapfrog };
 const char* name(SolverKind kind);
 
+constexpr int maxSubsteps = 1000;  // of a frame
+
 struct SolverSettings {
     SolverKind kind = SolverKind::leapfrog;
     int substeps = 4;  // per frame

@@ -15,7 +15,7 @@ void readSolver(JsonReader& scene, SolverSettings& solver) {
     int kind = static_cast<int>(solver.kind);
     r->choose("method", {"euler", "leapfrog"}, kind);
     solver.kind = static_cast<SolverKind>(kind);
-    r->get("substeps", solver.substeps, Range::between(1, 1000));
+    r->get("substeps", solver.substeps, Range::between(1, maxSubsteps));
     r->finish();
 }
 

@@ -10,7 +10,6 @@ namespace shoal {
 using gpu::Framebuffer;
 using gpu::Program;
 using gpu::Texture;
-using gpu::Traffic;
 
 namespace {
 
@@ -37,6 +36,8 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(needs.records, "RECORDS");
     return out;
 }
+
+static_assert(stateWidth == 1024, "shaders/lib and shaders/passes address rows of 1024 texels");
 
 // phi = (1 - exp(-gamma h)) / gamma, and gamma phi: in double, where the difference to h still counts.
 double decayOf(double gamma, double h) {
