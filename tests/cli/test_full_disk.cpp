@@ -63,7 +63,7 @@ TEST_CASE("a target that is something else is refused", "[cli]") {
     refusal(words("--capture", file + "/below"), "taken/below");
     refusal(words("--capture", file + "/video.mp4"), "taken");
     refusal(words("--export", file), "taken");
-    refusal(words("--export", file + "/x.csv"), "taken/x.csv: cannot be written");
+    refusal(words("--export", file + "/x.csv"), "taken: cannot make this folder");
     CHECK(readFile(file) == "old");
     std::filesystem::create_directory(scratch.path("folder.csv"));
     refusal(words("--export", scratch.path("folder.csv")), "is a folder, expected a file to write");

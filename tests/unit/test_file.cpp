@@ -47,7 +47,7 @@ TEST_CASE("what cannot be written says why", "[file]") {
           std::string::npos);
     CHECK(messageOf([&] {
               writeFile(folder / "file/below", std::string_view("x"));
-          }).find("cannot be written") != std::string::npos);
+          }).find("cannot make this folder") != std::string::npos);
 }
 
 TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {
