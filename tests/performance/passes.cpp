@@ -97,9 +97,9 @@ void printTable(Measured& run) {
 
 }  // namespace
 
-// Arguments: the number of rounds (default 12); --context egl|osmesa.
+// Arguments: the number of rounds (default 15); --context egl|osmesa.
 static int measure(int argc, char** argv) {
-    int rounds = 12;
+    int rounds = 15;
     gpu::ContextOptions options;
     for (int i = 1; i < argc; ++i) {
         if (std::strcmp(argv[i], "--context") == 0 && i + 1 < argc)
