@@ -1,18 +1,11 @@
 #include "render/picture.h"
 
-#include <algorithm>
 #include <cctype>
 
 #include "core/error.h"
+#include "core/file.h"
 
 namespace shoal {
-
-static std::string lowerExtension(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return char(std::tolower(c)); });
-    return extension;
-}
 
 static std::string number(int frame, int digits) {
     std::string text = std::to_string(frame);

@@ -8,6 +8,7 @@
 #include <assimp/Importer.hpp>
 
 #include "core/error.h"
+#include "core/file.h"
 
 namespace shoal {
 
@@ -32,9 +33,7 @@ double linear(double c) {
 }
 
 bool holdsSrgb(const std::string& file) {
-    std::string ending = std::filesystem::path(file).extension().string();
-    for (char& c : ending)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    const std::string ending = lowerExtension(file);
     return ending == ".obj" || ending == ".ply";
 }
 

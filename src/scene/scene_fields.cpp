@@ -1,6 +1,6 @@
 // "fields": what moves the fluid.
-#include <algorithm>
 
+#include "core/file.h"
 #include "scene/read_fga.h"
 #include "scene/scene_reader.h"
 
@@ -93,10 +93,7 @@ CurlNoiseField readCurlNoise(JsonReader& r) {
 
 GridField readGrid(JsonReader& r) {
     const std::string file = needFile(r, "file");
-    std::string ending = std::filesystem::path(file).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-    if (ending != ".fga")
+    if (lowerExtension(file) != ".fga")
         throw Error(r.at("file"), "expected a vector field as .fga, found \"" + file + "\"");
 
     FgaOptions options;
