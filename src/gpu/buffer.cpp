@@ -1,14 +1,28 @@
 #include "gpu/buffer.h"
 
 #include <cassert>
+#include <limits>
 
 #include "core/error.h"
+#include "gpu/barrier.h"
 #include "gpu/debug_group.h"
 
 namespace shoal::gpu {
 
+// Into the buffer that is bound. False: no memory for it. Some drivers count bytes in 32 bits, so what they
+// say they have is compared with what was asked.
+static bool allocate(Buffer::Use use, const void* data, size_t bytes) {
+    if (bytes > static_cast<size_t>(std::numeric_limits<GLsizeiptr>::max())) return false;
+    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data,
+                 use == Buffer::Use::storage ? GL_DYNAMIC_COPY : GL_STATIC_DRAW);
+    if (glGetError() != GL_NO_ERROR) return false;
+    GLint64 got = 0;
+    glGetBufferParameteri64v(GL_ARRAY_BUFFER, GL_BUFFER_SIZE, &got);
+    return static_cast<size_t>(got) == bytes;
+}
+
 Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const char* label)
-    : traffic_(&context.traffic()), use_(use), bytes_(bytes) {
+    : traffic_(&context.traffic()), info_(&context.info()), use_(use), bytes_(bytes) {
     assert(bytes > 0);
     context.checkErrors("before a buffer is made");
     GLuint id = 0;
@@ -16,8 +30,7 @@ Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const 
     handle_ = Handle<deleteBuffer>(id);
     // Not GL_ELEMENT_ARRAY_BUFFER for indices: that binding belongs to the vertex array that is bound.
     glBindBuffer(GL_ARRAY_BUFFER, id);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data, GL_STATIC_DRAW);
-    if (glGetError() != GL_NO_ERROR) {
+    if (!allocate(use, data, bytes)) {
         throw Error(concat("buffer \"", label, "\" does not fit into memory: it takes ",
                            double(bytes) / (1 << 20), " MiB"));
     }
@@ -25,16 +38,48 @@ Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const 
     labelObject(context, GL_BUFFER, id, label);
 }
 
+// Only storage is ever written by shaders.
+void Buffer::settle() const {
+    if (use_ == Use::storage && info_->computeShaders) barrier({Barrier::bufferUpdate});
+}
+
 void Buffer::update(Traffic::Kind kind, size_t offset, const void* data, size_t bytes) {
-    assert(offset + bytes <= bytes_);
+    assert(offset <= bytes_ && bytes <= bytes_ - offset);
+    settle();
     glBindBuffer(GL_ARRAY_BUFFER, id());
     glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
     traffic_->countUpload(kind, bytes);
 }
 
+void Buffer::download(Traffic::Kind kind, size_t offset, void* data, size_t bytes) const {
+    assert(offset <= bytes_ && bytes <= bytes_ - offset);
+    settle();
+    glBindBuffer(GL_COPY_READ_BUFFER, id());
+    glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
+                       data);
+    traffic_->countReadBack(kind, bytes);
+}
+
+void Buffer::copyTo(Buffer& other, size_t bytes) const {
+    assert(&other != this && bytes <= bytes_ && bytes <= other.bytes_);
+    settle();
+    other.settle();
+    glBindBuffer(GL_COPY_READ_BUFFER, id());
+    glBindBuffer(GL_COPY_WRITE_BUFFER, other.id());
+    glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0, static_cast<GLsizeiptr>(bytes));
+}
+
 void Buffer::bindUniform(int binding) const {
     assert(use_ == Use::uniform);
     glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id());
+}
+
+void Buffer::bindStorage(int binding, size_t offset, size_t bytes) const {
+    assert(use_ == Use::storage && info_->computeShaders);
+    assert(bytes > 0 && offset <= bytes_ && bytes <= bytes_ - offset);
+    assert(offset % static_cast<size_t>(info_->storageBufferAlignment) == 0 && "see ContextInfo");
+    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), id(),
+                      static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
 
 VertexArray::VertexArray(Context& context, const char* label) {

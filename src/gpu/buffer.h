@@ -1,4 +1,5 @@
-// Vertex, index and uniform data that is written once or rarely, and how shaders read it.
+// Vertex, index and uniform data that is written once or rarely, storage that compute shaders read and write,
+// and how shaders reach them.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +13,25 @@ namespace shoal::gpu {
 
 class Buffer {
   public:
-    enum class Use { vertex, index, uniform };
+    enum class Use { vertex, index, uniform, storage };
 
     Buffer() = default;
-    // Counted as parameters. `data` may be null: contents undefined, nothing counted.
+    // Counted as parameters. `data` may be null: contents undefined, nothing counted. A context below 4.3 has
+    // storage as well, which only a BufferTexture can show to its shaders.
     // Error: out of memory; says how much it would take.
     Buffer(Context& context, Use use, const void* data, size_t bytes, const char* label);
     template <typename T>
     Buffer(Context& context, Use use, std::span<const T> data, const char* label)
         : Buffer(context, use, data.data(), data.size_bytes(), label) {}
 
+    // What shaders wrote before is seen; no barrier is needed for these three.
     void update(Traffic::Kind kind, size_t offset, const void* data, size_t bytes);
+    void download(Traffic::Kind kind, size_t offset, void* data, size_t bytes) const;
+    void copyTo(Buffer& other, size_t bytes) const;  // the first `bytes`; nothing crosses the bus
+
     void bindUniform(int binding) const;  // uniform buffers: all of it
+    // Storage buffers, OpenGL 4.3+. `offset`: a multiple of the context's storageBufferAlignment.
+    void bindStorage(int binding, size_t offset, size_t bytes) const;
 
     GLuint id() const { return handle_.id(); }
     size_t bytes() const { return bytes_; }
@@ -31,8 +39,11 @@ class Buffer {
     explicit operator bool() const { return bool(handle_); }
 
   private:
+    void settle() const;
+
     Handle<deleteBuffer> handle_;
     Traffic* traffic_ = nullptr;
+    const ContextInfo* info_ = nullptr;  // the context's, which outlives the buffer and does not move
     Use use_ = Use::vertex;
     size_t bytes_ = 0;
 };

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <vector>
 
 #include "core/error.h"
@@ -79,6 +80,33 @@ static int getInteger(GLenum what) {
     return value;
 }
 
+static bool hasExtension(const char* name) {
+    const int count = getInteger(GL_NUM_EXTENSIONS);
+    for (int i = 0; i < count; ++i) {
+        const GLubyte* text = glGetStringi(GL_EXTENSIONS, static_cast<GLuint>(i));
+        if (text != nullptr && std::strcmp(reinterpret_cast<const char*>(text), name) == 0) return true;
+    }
+    return false;
+}
+
+static bool hasSubgroups() {
+    if (!hasExtension("GL_KHR_shader_subgroup")) return false;
+    constexpr int features = GL_SUBGROUP_FEATURE_BASIC_BIT_KHR | GL_SUBGROUP_FEATURE_SHUFFLE_BIT_KHR;
+    return (getInteger(GL_SUBGROUP_SUPPORTED_STAGES_KHR) & GL_COMPUTE_SHADER_BIT) != 0 &&
+           (getInteger(GL_SUBGROUP_SUPPORTED_FEATURES_KHR) & features) == features;
+}
+
+static void readComputeLimits(ContextInfo& info) {
+    GLint64 bytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
+    info.maxStorageBlockBytes = bytes;
+    glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &info.maxWorkGroupsX);
+    info.maxSharedBytes = getInteger(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
+    info.textureBufferAlignment = getInteger(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT);
+    info.storageBufferAlignment = getInteger(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
+    info.subgroups = hasSubgroups();
+}
+
 static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     ContextInfo info;
     info.kind = kind;
@@ -100,11 +128,7 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);
     info.maxBufferTexels = getInteger(GL_MAX_TEXTURE_BUFFER_SIZE);
     info.computeShaders = info.atLeast(4, 3);
-    if (info.computeShaders) {
-        GLint64 bytes = 0;
-        glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
-        info.maxStorageBlockBytes = bytes;
-    }
+    if (info.computeShaders) readComputeLimits(info);
     return info;
 }
 

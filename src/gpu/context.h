@@ -41,8 +41,14 @@ struct ContextInfo {
     int maxTextureSize = 0, maxColorAttachments = 0, maxSamples = 0, maxVertexTextureUnits = 0;
     int max3DTextureSize = 0;
     int64_t maxBufferTexels = 0;
-    int64_t maxStorageBlockBytes = 0;  // 0 below 4.3
-    bool computeShaders = false;       // 4.3+: by version, never by extension
+    bool computeShaders = false;  // 4.3+: by version, never by extension
+    // Of compute shaders and what they read; all 0 below 4.3.
+    int64_t maxStorageBlockBytes = 0;
+    int maxWorkGroupsX = 0, maxSharedBytes = 0;
+    int textureBufferAlignment = 0, storageBufferAlignment = 0;  // of the offsets of ranges, in bytes
+    // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. The one feature that goes
+    // by an extension, because no version of OpenGL has it; still false below 4.3.
+    bool subgroups = false;
 
     bool atLeast(int wantedMajor, int wantedMinor) const {
         return major > wantedMajor || (major == wantedMajor && minor >= wantedMinor);

@@ -26,8 +26,30 @@ std::string programLog(GLuint program) {
     return log.c_str();
 }
 
-Handle<deleteShader> compile(GLenum stage, const ShaderSource& source, const std::string& label) {
-    Handle<deleteShader> shader(glCreateShader(stage));
+struct Stage {
+    GLenum type;
+    const char* name;
+    ShaderSource source;
+};
+
+std::vector<Stage> readStages(const std::string& root, const ProgramOptions& options) {
+    const auto resolve = [&](const std::string& file, const char* header) {
+        return resolveShader(root, file, options.defines, options.generated, header);
+    };
+    std::vector<Stage> out;
+    if (!options.compute.empty()) {
+        assert(options.vertex.empty() && options.fragment.empty() && "a compute program has one stage");
+        out.push_back({GL_COMPUTE_SHADER, "compute", resolve(options.compute, header430())});
+    } else {
+        out.push_back({GL_VERTEX_SHADER, "vertex", resolve(options.vertex, header330())});
+        out.push_back({GL_FRAGMENT_SHADER, "fragment", resolve(options.fragment, header330())});
+    }
+    return out;
+}
+
+Handle<deleteShader> compile(const Stage& stage, const std::string& label) {
+    const ShaderSource& source = stage.source;
+    Handle<deleteShader> shader(glCreateShader(stage.type));
     const char* text = source.text.c_str();
     glShaderSource(shader.id(), 1, &text, nullptr);
     glCompileShader(shader.id());
@@ -35,11 +57,28 @@ Handle<deleteShader> compile(GLenum stage, const ShaderSource& source, const std
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (compiled != GL_TRUE) {
         const std::string log = shaderLog(shader.id());
-        throw Error(source.firstLocation(log),
-                    concat("the ", stage == GL_VERTEX_SHADER ? "vertex" : "fragment", " shader of program \"",
-                           label, "\" does not compile\n", source.rewriteLog(log)));
+        throw Error(source.firstLocation(log), concat("the ", stage.name, " shader of program \"", label,
+                                                      "\" does not compile\n", source.rewriteLog(log)));
     }
     return shader;
+}
+
+void compileAndLink(GLuint program, const std::vector<Stage>& stages, const ProgramOptions& options,
+                    const std::string& label) {
+    std::vector<Handle<deleteShader>> shaders;
+    for (const Stage& stage : stages)
+        shaders.push_back(compile(stage, label));
+    for (const auto& shader : shaders)
+        glAttachShader(program, shader.id());
+    glLinkProgram(program);
+    for (const auto& shader : shaders)
+        glDetachShader(program, shader.id());
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    if (linked == GL_TRUE) return;
+    const std::string files =
+        options.compute.empty() ? options.vertex + " and " + options.fragment : options.compute;
+    throw Error(concat("program \"", label, "\" (", files, ") does not link\n", programLog(program)));
 }
 
 // light[0] is asked for as light, light.color by its whole name.
@@ -67,29 +106,22 @@ std::map<std::string, GLint, std::less<>> readLocations(GLuint program) {
 }  // namespace
 
 Program::Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options)
-    : label_(options.label.empty() ? options.fragment : options.label) {
-    const ShaderSource vertex =
-        resolveShader(shaderRoot, options.vertex, options.defines, options.generated, header330());
-    const ShaderSource fragment =
-        resolveShader(shaderRoot, options.fragment, options.defines, options.generated, header330());
-    const Handle<deleteShader> vertexShader = compile(GL_VERTEX_SHADER, vertex, label_);
-    const Handle<deleteShader> fragmentShader = compile(GL_FRAGMENT_SHADER, fragment, label_);
-
-    handle_ = Handle<deleteProgram>(glCreateProgram());
-    glAttachShader(id(), vertexShader.id());
-    glAttachShader(id(), fragmentShader.id());
-    glLinkProgram(id());
-    glDetachShader(id(), vertexShader.id());
-    glDetachShader(id(), fragmentShader.id());
-    GLint linked = GL_FALSE;
-    glGetProgramiv(id(), GL_LINK_STATUS, &linked);
-    if (linked != GL_TRUE) {
-        throw Error(concat("program \"", label_, "\" (", options.vertex, " and ", options.fragment,
-                           ") does not link\n", programLog(id())));
+    : label_(!options.label.empty()     ? options.label
+             : !options.compute.empty() ? options.compute
+                                        : options.fragment) {
+    const ContextInfo& info = context.info();
+    if (!options.compute.empty() && !info.computeShaders) {
+        throw Error(
+            concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
     }
+    const std::vector<Stage> stages = readStages(shaderRoot, options);
+    handle_ = Handle<deleteProgram>(glCreateProgram());
+    compileAndLink(id(), stages, options, label_);
     locations_ = readLocations(id());
-    declared_ = declaredUniforms(vertex.text);
-    declared_.merge(declaredUniforms(fragment.text));
+    for (const Stage& stage : stages) {
+        declared_.merge(declaredUniforms(stage.source.text));
+        declaredBuffers_.merge(declaredBuffers(stage.source.text));
+    }
     labelObject(context, GL_PROGRAM, id(), label_.c_str());
 }
 
@@ -101,12 +133,14 @@ bool Program::uses(const char* name) const {
     return locations_.find(std::string_view(name)) != locations_.end();
 }
 
-GLint Program::location(const char* name) const {
-#ifndef NDEBUG
+bool Program::inUse() const {
     GLint used = 0;
     glGetIntegerv(GL_CURRENT_PROGRAM, &used);
-    assert(static_cast<GLuint>(used) == id() && "use() goes before set()");
-#endif
+    return id() != 0 && static_cast<GLuint>(used) == id();
+}
+
+GLint Program::location(const char* name) const {
+    assert(inUse() && "use() goes before set()");
     const std::string_view word(name);
     const auto found = locations_.find(word);
     if (found != locations_.end()) return found->second;
@@ -157,12 +191,40 @@ void Program::texture(const char* sampler, int unit, const Texture& texture) con
     set(sampler, unit);
 }
 
+void Program::texture(const char* sampler, int unit, const BufferTexture& texture) const {
+    texture.bind(unit);
+    set(sampler, unit);
+}
+
 void Program::uniformBlock(const char* block, int binding, const Buffer& buffer) const {
     const GLuint index = glGetUniformBlockIndex(id(), block);
     assert(declared_.count(std::string_view(block)) == 1 && "no such block in the shader");
     if (index == GL_INVALID_INDEX) return;
     glUniformBlockBinding(id(), index, static_cast<GLuint>(binding));
     buffer.bindUniform(binding);
+}
+
+// A block that the compiler dropped has no binding, and fits any.
+[[maybe_unused]] static bool isBoundTo(GLuint program, const char* block, int binding) {
+    const GLuint index = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block);
+    if (index == GL_INVALID_INDEX) return true;
+    const GLenum property = GL_BUFFER_BINDING;
+    GLint bound = -1;
+    glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, index, 1, &property, 1, nullptr, &bound);
+    return bound == binding;
+}
+
+void Program::storage([[maybe_unused]] const char* block, int binding, const Buffer& buffer, size_t offset,
+                      size_t bytes) const {
+    assert(declaredBuffers_.count(std::string_view(block)) == 1 && "no such storage block in the shader");
+    assert(isBoundTo(id(), block, binding) && "the shader's layout has another binding");
+    buffer.bindStorage(binding, offset, bytes);
+}
+
+void Program::dispatch(int groupsX) const {
+    assert(inUse() && "use() goes before dispatch()");
+    assert(groupsX >= 0);
+    glDispatchCompute(static_cast<GLuint>(groupsX), 1, 1);
 }
 
 }  // namespace shoal::gpu

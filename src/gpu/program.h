@@ -1,4 +1,4 @@
-// A vertex and a fragment shader, compiled and linked, with their uniforms by name.
+// A vertex and a fragment shader, or a compute shader, compiled and linked, with their uniforms by name.
 #pragma once
 
 #include <cstdint>
@@ -10,23 +10,29 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "gpu/buffer_texture.h"
 #include "gpu/context.h"
 #include "gpu/handle.h"
 #include "gpu/texture.h"
 
 namespace shoal::gpu {
 
+class ProgramCache;
+
 struct ProgramOptions {
     std::string vertex, fragment;                  // files below the root of the shaders
     std::vector<std::string> defines;              // "NAME" or "NAME value"
     std::map<std::string, std::string> generated;  // files that exist only in memory, by include name
     std::string label;
+    std::string compute = {};       // a compute program: its file; vertex and fragment stay empty
+    ProgramCache* cache = nullptr;  // linked programs on disk, borrowed for the constructor; null: none
 };
 
 class Program {
   public:
     Program() = default;
-    // Error: a file is missing, or the driver refuses; located in our file and line, with the driver's log.
+    // Error: a file is missing, or the driver refuses; located in our file and line, with the driver's log. A
+    // compute program in a context below 4.3.
     Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options);
 
     void use() const;
@@ -48,7 +54,13 @@ class Program {
 
     // Binds the texture to the unit and the sampler to it.
     void texture(const char* sampler, int unit, const Texture& texture) const;
+    void texture(const char* sampler, int unit, const BufferTexture& texture) const;
     void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
+    // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
+    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (assert).
+    void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
+    // Compute programs, in use (assert). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
+    void dispatch(int groupsX) const;
     bool uses(const char* name) const;  // the compiler kept it
 
     GLuint id() const { return handle_.id(); }
@@ -56,11 +68,13 @@ class Program {
     explicit operator bool() const { return bool(handle_); }
 
   private:
+    bool inUse() const;
     GLint location(const char* name) const;
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
-    std::set<std::string, std::less<>> declared_;
+    std::set<std::string, std::less<>> declared_;         // uniforms
+    std::set<std::string, std::less<>> declaredBuffers_;  // storage blocks
     std::string label_;
 };
 

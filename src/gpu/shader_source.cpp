@@ -224,6 +224,10 @@ const char* header330() {
     return "#version 330 core\n";
 }
 
+const char* header430() {
+    return "#version 430 core\n";
+}
+
 const char* header300es() {
     return "#version 300 es\n"
            "precision highp float;\n"
@@ -232,10 +236,11 @@ const char* header300es() {
            "precision highp sampler2DShadow;\n";
 }
 
-std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
+// Every word between `keyword` and the end of its declaration.
+static std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword) {
     std::set<std::string, std::less<>> out;
-    bool inUniform = false;
-    int depth = 0;  // of braces, inside a uniform block
+    bool inDeclaration = false;
+    int depth = 0;  // of braces, inside a block
     for (size_t i = 0; i < text.size();) {
         const std::string_view rest = text.substr(i);
         if (rest.substr(0, 2) == "//") {
@@ -249,17 +254,25 @@ std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
                 ++length;
             const std::string_view word = rest.substr(0, length);
             // Types and precisions come along; they are no names that anybody would set.
-            if (inUniform) out.insert(std::string(word));
-            if (word == "uniform") inUniform = true;
+            if (inDeclaration) out.insert(std::string(word));
+            if (word == keyword) inDeclaration = true;
             i += length;
         } else {
-            if (rest.front() == '{' && inUniform) ++depth;
-            if (rest.front() == '}' && inUniform) --depth;
-            if (rest.front() == ';' && depth <= 0) inUniform = false;
+            if (rest.front() == '{' && inDeclaration) ++depth;
+            if (rest.front() == '}' && inDeclaration) --depth;
+            if (rest.front() == ';' && depth <= 0) inDeclaration = false;
             ++i;
         }
     }
     return out;
+}
+
+std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
+    return declared(text, "uniform");
+}
+
+std::set<std::string, std::less<>> declaredBuffers(std::string_view text) {
+    return declared(text, "buffer");
 }
 
 }  // namespace shoal::gpu

@@ -33,16 +33,20 @@ struct ShaderSource {
 };
 
 // `defines`: "NAME" or "NAME value". `generated`: files that exist only in memory, by the name they are
-// included under; they go before files on disk. Error: no such file, located at the #include that asks.
+// included under; they go before files on disk, `file` itself among them. Error: no such file, located at the
+// #include that asks.
 ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
                            const std::map<std::string, std::string>& generated, const std::string& header);
 
 const char* header330();    // #version 330 core
+const char* header430();    // #version 430 core, the first with compute shaders
 const char* header300es();  // #version 300 es, and the precisions that it demands
 
 // Names that the text declares as uniforms, whether or not the compiler will keep them. Blocks count with
 // their own name and those of their members.
 std::set<std::string, std::less<>> declaredUniforms(std::string_view text);
+// The same for storage buffers.
+std::set<std::string, std::less<>> declaredBuffers(std::string_view text);
 
 }  // namespace shoal::gpu

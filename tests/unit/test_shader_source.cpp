@@ -138,3 +138,33 @@ TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
         CHECK(names.count(name) == 0);
     }
 }
+
+TEST_CASE("declared storage blocks are found, uniforms are not among them", "[shader]") {
+    const auto names = declaredBuffers(
+        "// buffer Commented { float c; };\n"
+        "layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };\n"
+        "layout(std430, binding = 1) buffer writeonly Sums { float sums[]; } out1;\n"
+        "uniform samplerBuffer part;\n"
+        "uniform Types { vec4 types[2]; };\n"
+        "float buffered;\n");
+    for (const char* name : {"Positions", "position", "Sums", "sums", "out1"}) {
+        INFO(name);
+        CHECK(names.count(name) == 1);
+    }
+    for (const char* name : {"Commented", "part", "Types", "buffered"}) {
+        INFO(name);
+        CHECK(names.count(name) == 0);
+    }
+    CHECK(declaredUniforms("layout(std430) buffer Positions { vec4 position[]; };").empty());
+}
+
+TEST_CASE("the file that a program names may exist in memory only", "[shader]") {
+    const ShaderSource source =
+        resolveShader("nowhere", "generated/kernel.comp", {"SIZE 64"},
+                      {{"generated/kernel.comp", "#include \"lib/a.glsl\"\nvoid main() {}\n"},
+                       {"lib/a.glsl", "float a;\n#include \"generated/kernel.comp\"\n"}},
+                      header430());
+    CHECK(source.text == "#version 430 core\n#define SIZE 64\nfloat a;\nvoid main() {}\n");
+    CHECK(origin(source, 3) == "generated:lib/a.glsl:1");
+    CHECK(origin(source, 4) == "generated:generated/kernel.comp:2");
+}

@@ -1,0 +1,28 @@
+#include "gpu/barrier.h"
+
+#include <cassert>
+
+#include "gpu/gl.h"
+
+namespace shoal::gpu {
+
+static GLbitfield bit(Barrier reader) {
+    switch (reader) {
+    case Barrier::textureFetch:
+        return GL_TEXTURE_FETCH_BARRIER_BIT;
+    case Barrier::storage:
+        return GL_SHADER_STORAGE_BARRIER_BIT;
+    default:
+        return GL_BUFFER_UPDATE_BARRIER_BIT;
+    }
+}
+
+void barrier(std::initializer_list<Barrier> readers) {
+    GLbitfield bits = 0;
+    for (const Barrier reader : readers)
+        bits |= bit(reader);
+    assert(glMemoryBarrier != nullptr && "needs OpenGL 4.3");
+    glMemoryBarrier(bits);
+}
+
+}  // namespace shoal::gpu

@@ -1,0 +1,47 @@
+#include "gpu/buffer_texture.h"
+
+#include <cassert>
+
+#include "core/error.h"
+#include "gpu/debug_group.h"
+
+namespace shoal::gpu {
+
+static constexpr size_t texelBytes = 4 * sizeof(float);  // of GL_RGBA32F
+
+BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset,
+                             size_t bytes) {
+    assert(buffer && offset < buffer.bytes() && bytes <= buffer.bytes() - offset);
+    if (bytes == 0) bytes = buffer.bytes() - offset;
+    const bool whole = bytes == buffer.bytes();
+    assert(offset % texelBytes == 0 && bytes % texelBytes == 0);
+    assert((whole || context.info().atLeast(4, 3)) && "a part of a buffer needs OpenGL 4.3");
+    assert((whole || offset % size_t(context.info().textureBufferAlignment) == 0) && "see ContextInfo");
+    texels_ = bytes / texelBytes;
+    checkTexels(context.info(), texels_, label);
+    GLuint id = 0;
+    glGenTextures(1, &id);
+    handle_ = Handle<deleteTexture>(id);
+    glBindTexture(GL_TEXTURE_BUFFER, id);
+    if (whole) {
+        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id());
+    } else {
+        glTexBufferRange(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id(), static_cast<GLintptr>(offset),
+                         static_cast<GLsizeiptr>(bytes));
+    }
+    labelObject(context, GL_TEXTURE, id, label);
+}
+
+void BufferTexture::checkTexels(const ContextInfo& info, size_t texels, const char* label) {
+    const auto most = static_cast<size_t>(info.maxBufferTexels);
+    if (texels <= most) return;
+    throw Error(concat("buffer texture \"", label, "\" of ", texels,
+                       " texels is too large: this context allows ", most));
+}
+
+void BufferTexture::bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_BUFFER, id());
+}
+
+}  // namespace shoal::gpu
