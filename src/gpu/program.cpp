@@ -5,6 +5,7 @@
 
 #include "core/error.h"
 #include "gpu/debug_group.h"
+#include "gpu/program_cache.h"
 #include "gpu/shader_source.h"
 
 namespace shoal::gpu {
@@ -81,6 +82,13 @@ void compileAndLink(GLuint program, const std::vector<Stage>& stages, const Prog
     throw Error(concat("program \"", label, "\" (", files, ") does not link\n", programLog(program)));
 }
 
+std::string keyOf(const ContextInfo& info, const std::vector<Stage>& stages) {
+    std::vector<std::string_view> texts;
+    for (const Stage& stage : stages)
+        texts.emplace_back(stage.source.text);
+    return programKey(info, texts);
+}
+
 // light[0] is asked for as light, light.color by its whole name.
 std::string withoutIndex(std::string name) {
     if (name.size() > 3 && name.compare(name.size() - 3, 3, "[0]") == 0) name.resize(name.size() - 3);
@@ -116,7 +124,16 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     }
     const std::vector<Stage> stages = readStages(shaderRoot, options);
     handle_ = Handle<deleteProgram>(glCreateProgram());
-    compileAndLink(id(), stages, options, label_);
+    if (options.cache == nullptr) {
+        compileAndLink(id(), stages, options, label_);
+    } else {
+        context.checkErrors("before a program is made");
+        const std::string key = keyOf(info, stages);
+        if (!options.cache->load(key, id())) {
+            compileAndLink(id(), stages, options, label_);
+            options.cache->store(key, id());
+        }
+    }
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
         declared_.merge(declaredUniforms(stage.source.text));

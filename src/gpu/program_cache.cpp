@@ -1,0 +1,186 @@
+#include "gpu/program_cache.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "core/file.h"
+
+namespace shoal::gpu {
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr uint32_t layoutVersion = 1;
+constexpr char magic[8] = {'s', 'h', 'o', 'a', 'l', 'p', 'r', 'g'};
+constexpr const char* extension = ".shoal-program";
+constexpr size_t largestFile = size_t{1} << 28;
+
+struct Header {
+    char magic[8];
+    uint32_t version, format;
+    uint64_t length, checksum;
+};
+static_assert(sizeof(Header) == 32);
+
+constexpr uint64_t fnvStart = 14695981039346656037ull;
+
+template <typename Bytes>
+uint64_t fnv(const Bytes& bytes, uint64_t hash = fnvStart) {
+    for (const char c : bytes)
+        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    return hash;
+}
+
+// With the key, so that a whole file under another program's name is found out.
+uint64_t checksum(const std::string& key, uint32_t format, std::string_view binary) {
+    return fnv(binary, fnv(key + ":" + std::to_string(format)));
+}
+
+// Sets `format` and `binary`, a part of `bytes`. False: this is no file of ours, or not what we wrote.
+bool parse(std::string_view bytes, const std::string& key, uint32_t& format, std::string_view& binary) {
+    Header header;
+    if (bytes.size() <= sizeof header) return false;
+    std::memcpy(&header, bytes.data(), sizeof header);
+    binary = bytes.substr(sizeof header);
+    format = header.format;
+    return std::memcmp(header.magic, magic, sizeof magic) == 0 && header.version == layoutVersion &&
+           header.length == binary.size() && header.checksum == checksum(key, format, binary);
+}
+
+// What the driver has against a binary is no mistake of ours.
+void forgetErrors() {
+    for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
+    }
+}
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value != nullptr ? value : "";
+}
+
+}  // namespace
+
+std::string programKey(const ContextInfo& info, std::span<const std::string_view> texts) {
+    std::string all;
+    const auto add = [&](std::string_view part) {
+        all += std::to_string(part.size()) + ":";  // so that parts cannot run into each other
+        all += part;
+    };
+    add(std::to_string(layoutVersion));
+    // EGL and OSMesa may be different builds of one Mesa, which do not take each other's binaries.
+    add(name(info.kind));
+    for (const std::string& driver : {info.renderer, info.vendor, info.version})
+        add(driver);
+    for (const std::string_view text : texts)
+        add(text);
+    const uint64_t forwards = fnv(all);
+    std::reverse(all.begin(), all.end());
+    char digits[33];
+    std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(forwards),
+                  static_cast<unsigned long long>(fnv(all)));
+    return digits;
+}
+
+ProgramCache::ProgramCache(const Context& context, std::string folder) : folder_(std::move(folder)) {
+    if (folder_.empty() || !context.info().atLeast(4, 1)) return;
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    active_ = formats > 0;
+}
+
+std::string ProgramCache::defaultFolder() {
+    if (std::getenv("SHOAL_CACHE") != nullptr) return environment("SHOAL_CACHE");
+    const fs::path cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
+    if (cache.is_absolute()) return (cache / "shoal").string();  // its specification: ignore relative ones
+    if (!home.empty()) return (home / ".cache" / "shoal").string();
+    return {};
+}
+
+fs::path ProgramCache::file(const std::string& key) const {
+    return folder_ / (key + extension);
+}
+
+std::vector<Warning> ProgramCache::takeWarnings() {
+    return std::exchange(warnings_, {});
+}
+
+bool ProgramCache::load(const std::string& key, GLuint program) {
+    if (!active_) return false;
+    if (fill(key, program)) {
+        ++hits_;
+        return true;
+    }
+    ++misses_;
+    glProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
+    return false;
+}
+
+bool ProgramCache::fill(const std::string& key, GLuint program) {
+    const fs::path path = file(key);
+    const auto compiledAnew = [&](const std::string& why) {
+        warnings_.push_back({{path.string(), 0, 0, {}}, why + "; compiled anew"});
+        return false;
+    };
+    std::error_code code;
+    if (!fs::exists(path, code)) return false;
+    std::string bytes;
+    try {
+        bytes = readFile(path, largestFile);
+    } catch (const Error& error) {
+        return compiledAnew("the cached program " + error.message());
+    }
+    uint32_t format = 0;
+    std::string_view binary;
+    if (!parse(bytes, key, format, binary)) return compiledAnew("the cached program is damaged");
+    glProgramBinary(program, format, binary.data(), static_cast<GLsizei>(binary.size()));
+    forgetErrors();
+    GLint linked = GL_FALSE;
+    glGetProgramiv(program, GL_LINK_STATUS, &linked);
+    return linked == GL_TRUE || compiledAnew("the driver does not accept the cached program");
+}
+
+void ProgramCache::store(const std::string& key, GLuint program) {
+    if (!active_ || !writable_) return;
+    GLint length = 0;
+    glGetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
+    if (length <= 0) return;
+    std::string binary(static_cast<size_t>(length), '\0');
+    GLenum format = 0;
+    GLsizei written = 0;
+    glGetProgramBinary(program, length, &written, &format, binary.data());
+    forgetErrors();
+    if (written <= 0) return;
+    binary.resize(static_cast<size_t>(written));
+
+    Header header{{}, layoutVersion, format, binary.size(), checksum(key, format, binary)};
+    std::memcpy(header.magic, magic, sizeof magic);
+    const std::string front(reinterpret_cast<const char*>(&header), sizeof header);
+    try {
+        writeFile(file(key), front + binary);
+        removeOldest();
+    } catch (const Error& error) {
+        writable_ = false;
+        warnings_.push_back({error.location(), error.message() + "; programs are compiled at every start"});
+    }
+}
+
+// Another process may do the same at the same time: what has gone already is no mistake.
+void ProgramCache::removeOldest() const {
+    std::vector<std::pair<fs::file_time_type, fs::path>> programs;
+    std::error_code code;
+    for (fs::directory_iterator entry(folder_, code), end; !code && entry != end; entry.increment(code)) {
+        std::error_code gone;
+        const fs::file_time_type time = entry->last_write_time(gone);
+        if (!gone && entry->path().extension() == extension) programs.emplace_back(time, entry->path());
+    }
+    if (programs.size() <= keptPrograms) return;
+    std::sort(programs.begin(), programs.end());
+    for (size_t i = 0; i < programs.size() - keptPrograms; ++i)
+        fs::remove(programs[i].second, code);
+}
+
+}  // namespace shoal::gpu
