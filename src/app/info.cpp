@@ -29,7 +29,10 @@ JsonValue asJson(const gpu::ContextProbe& probe) {
         .add("max3DTextureSize", JsonValue::makeNumber(info.max3DTextureSize))
         .add("maxBufferTexels", JsonValue::makeNumber(double(info.maxBufferTexels)))
         .add("maxStorageBlockBytes", JsonValue::makeNumber(double(info.maxStorageBlockBytes)))
+        .add("maxSharedBytes", JsonValue::makeNumber(info.maxSharedBytes))
+        .add("maxWorkGroupsX", JsonValue::makeNumber(info.maxWorkGroupsX))
         .add("computeShaders", JsonValue::makeBoolean(info.computeShaders))
+        .add("subgroups", JsonValue::makeBoolean(info.subgroups))
         .add("paths", std::move(paths));
 }
 
@@ -46,8 +49,9 @@ void print(const gpu::ContextProbe& probe) {
               << " a side, " << info.maxColorAttachments << " draw buffers, " << info.maxSamples
               << " samples, " << info.maxVertexTextureUnits << " vertex texture units\n               "
               << info.maxBufferTexels << " buffer texels";
-    if (info.maxStorageBlockBytes > 0)
-        std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes";
+    if (info.computeShaders)
+        std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes, " << info.maxSharedBytes
+                  << " bytes shared by a work group" << (info.subgroups ? ", subgroups" : "");
     std::cout << "\n  paths        ping-pong (up to " << int64_t(info.maxTextureSize) * stateWidth
               << " vertices)"
               << "; compute shaders: " << (info.computeShaders ? "yes" : "no") << "\n";
