@@ -77,6 +77,7 @@ void Buffer::bindUniform(int binding) const {
 void Buffer::bindStorage(int binding, size_t offset, size_t bytes) const {
     assert(use_ == Use::storage && info_->computeShaders);
     assert(bytes > 0 && offset <= bytes_ && bytes <= bytes_ - offset);
+    assert(bytes <= static_cast<size_t>(info_->maxStorageBlockBytes));
     assert(offset % static_cast<size_t>(info_->storageBufferAlignment) == 0 && "see ContextInfo");
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), id(),
                       static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));

@@ -30,7 +30,8 @@ class Buffer {
     void copyTo(Buffer& other, size_t bytes) const;  // the first `bytes`; nothing crosses the bus
 
     void bindUniform(int binding) const;  // uniform buffers: all of it
-    // Storage buffers, OpenGL 4.3+. `offset`: a multiple of the context's storageBufferAlignment.
+    // Storage buffers, OpenGL 4.3+. `offset`: a multiple of the context's storageBufferAlignment; `bytes`: at
+    // most its maxStorageBlockBytes.
     void bindStorage(int binding, size_t offset, size_t bytes) const;
 
     GLuint id() const { return handle_.id(); }
