@@ -16,6 +16,7 @@ std::string shaderRoot() {
     std::vector<fs::path> roots;
     if (const char* variable = std::getenv("SHOAL_DATA")) roots.emplace_back(variable);
     roots.push_back(executable.parent_path().parent_path() / SHOAL_DATA_DIR);
+    roots.push_back(executable.parent_path().parent_path());  // a bundle (cmake/bundle.sh)
     roots.push_back(executable.parent_path());
     roots.emplace_back(SHOAL_SOURCE_DIR);
     std::string tried;
