@@ -1,7 +1,6 @@
 #include "gpu/buffer.h"
 
 #include <cassert>
-#include <limits>
 
 #include "core/error.h"
 #include "gpu/barrier.h"
@@ -12,7 +11,7 @@ namespace shoal::gpu {
 // Into the buffer that is bound. False: no memory for it. Some drivers count bytes in 32 bits, so what they
 // say they have is compared with what was asked.
 static bool allocate(Buffer::Use use, const void* data, size_t bytes) {
-    if (bytes > static_cast<size_t>(std::numeric_limits<GLsizeiptr>::max())) return false;
+    // What is no GLsizeiptr becomes negative, which OpenGL refuses.
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data,
                  use == Buffer::Use::storage ? GL_DYNAMIC_COPY : GL_STATIC_DRAW);
     if (glGetError() != GL_NO_ERROR) return false;
@@ -31,7 +30,7 @@ Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const 
     // Not GL_ELEMENT_ARRAY_BUFFER for indices: that binding belongs to the vertex array that is bound.
     glBindBuffer(GL_ARRAY_BUFFER, id);
     if (!allocate(use, data, bytes)) {
-        throw Error(concat("buffer \"", label, "\" does not fit into memory: it takes ",
+        throw OutOfMemory(concat("buffer \"", label, "\" does not fit into memory: it takes ",
                            double(bytes) / (1 << 20), " MiB"));
     }
     if (data != nullptr) traffic_->countUpload(Traffic::Kind::parameters, bytes);

@@ -112,10 +112,8 @@ uint64_t fnv(const std::string& bytes) {
     return hash;
 }
 
-// A file whose checksum is right and whose binary is not the driver's.
-std::string withForeignBinary(std::string bytes, const std::string& key) {
-    for (size_t i = 32; i < bytes.size(); ++i)
-        bytes[i] = char(i * 7);
+// The file with the checksum that its format and binary must have under a key.
+std::string sealed(std::string bytes, const std::string& key) {
     uint32_t format = 0;
     std::memcpy(&format, &bytes[12], 4);
     const uint64_t sum = fnv(key + ":" + std::to_string(format) + bytes.substr(32));
@@ -173,6 +171,23 @@ TEST_CASE("the second start takes the program from the cache", "[program-cache]"
     CHECK(first.warnings.size() + second.warnings.size() == 0);
 }
 
+TEST_CASE("what runs is the program from the file", "[program-cache]") {
+    if (!hasBinaries()) return;
+    const Scratch scratch;
+    ProgramCache one(testContext(), scratch.path("one")), two(testContext(), scratch.path("two"));
+    std::string otherBody = body;
+    otherBody.replace(otherBody.find("scale * list"), 5, "100.0");
+    Program(testContext(), "nowhere", drawing(&one, body));
+    Program(testContext(), "nowhere", drawing(&two, otherBody));
+    // One file gets the other's program, and says nothing of it.
+    const fs::path path = filesIn(scratch / "one").front();
+    const std::string other = shoal::readFile(filesIn(scratch / "two").front());
+    shoal::writeFile(path, sealed(other, path.stem().string()));
+    const Program program(testContext(), "nowhere", drawing(&one, body));
+    CHECK(one.hits() == 1);
+    CHECK(draw(program) == std::vector<float>{50, 1000, 300, 4000});
+}
+
 TEST_CASE("a compute program comes from the cache as well", "[program-cache]") {
     if (!hasBinaries()) return;
     if (!testContext().info().computeShaders) return;
@@ -220,6 +235,7 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
     Program(testContext(), "nowhere", drawing(&other, "void main() { color = vec4(7.0); }\n"));
     const std::string another = shoal::readFile(filesIn(scratch.path("other")).front());
 
+    const char* const refused = ": the driver does not accept the cached program; compiled anew";
     struct Damage {
         const char* name;
         std::string bytes;
@@ -241,8 +257,8 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
         {"empty", ""},
         {"a text", "This is no program at all, but it is longer than a header.\n"},
         {"another program", another},
-        {"foreign binary", withForeignBinary(good, key),
-         ": the driver does not accept the cached program; compiled anew"},
+        {"foreign binary", sealed(good.substr(0, 32) + std::string(good.size() - 32, 'x'), key), refused},
+        {"foreign format", sealed(flipped(12), key), refused},
     };
     for (const Damage& damage : damages) {
         INFO(damage.name);
