@@ -6,10 +6,16 @@
 #include <span>
 #include <string>
 
+#include "core/error.h"
 #include "gpu/context.h"
 #include "gpu/handle.h"
 
 namespace shoal::gpu {
+
+// The device has no room for something: a caller may do with less.
+class OutOfMemory : public Error {
+    using Error::Error;
+};
 
 class Buffer {
   public:
@@ -18,7 +24,7 @@ class Buffer {
     Buffer() = default;
     // Counted as parameters. `data` may be null: contents undefined, nothing counted. A context below 4.3 has
     // storage as well, which only a BufferTexture can show to its shaders.
-    // Error: out of memory; says how much it would take.
+    // OutOfMemory: says how much it would take.
     Buffer(Context& context, Use use, const void* data, size_t bytes, const char* label);
     template <typename T>
     Buffer(Context& context, Use use, std::span<const T> data, const char* label)
