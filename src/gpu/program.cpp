@@ -67,6 +67,7 @@ Handle<deleteShader> compile(const Stage& stage, const std::string& label) {
 void compileAndLink(GLuint program, const std::vector<Stage>& stages, const ProgramOptions& options,
                     const std::string& label) {
     std::vector<Handle<deleteShader>> shaders;
+    shaders.reserve(stages.size());
     for (const Stage& stage : stages)
         shaders.push_back(compile(stage, label));
     for (const auto& shader : shaders)
@@ -84,6 +85,7 @@ void compileAndLink(GLuint program, const std::vector<Stage>& stages, const Prog
 
 std::string keyOf(const ContextInfo& info, const std::vector<Stage>& stages) {
     std::vector<std::string_view> texts;
+    texts.reserve(stages.size());
     for (const Stage& stage : stages)
         texts.emplace_back(stage.source.text);
     return programKey(info, texts);
