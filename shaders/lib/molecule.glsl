@@ -1,16 +1,53 @@
-// A molecule's vertex as the renderer sees it, fetched from the state textures. Layout: src/compile/plan.h.
-// STATE_WIDTH is set by C++.
-
-uniform sampler2D positions;  // xyz relative to the anchor, m
-uniform sampler2D normals;    // xyz unit, or zero before the first frame
-uniform sampler2D records;    // xyz anchor, m; w flags
-uniform sampler2D constants;  // x seed, y scale
-uniform ivec4 groupRows;      // first state row, rows of a vertex slab, first record row
+// A molecule's vertex as the renderer sees it, fetched from the state of either path: textures
+// (src/simulate/texture_state.h) or, with STATE_BUFFERS, buffers (shaders/fused/state.glsl). Set by C++: STATE_WIDTH,
+// or BLOCK, POSITION_ELEMENTS and STATE_ELEMENTS.
 
 // The origin of drawing (the eye, or the middle of the shadow map), as the lattice point below it and the rest.
 // Anchors lie on the same lattice, so their difference is exact and a molecule 100 km out does not shake.
 uniform vec3 originLattice;
 uniform vec3 originRest;
+
+#ifdef STATE_BUFFERS
+uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
+uniform samplerBuffer normals;  // alike
+uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once pins have let go
+
+// Three floats of a vertex, which may lie across two 4-vectors.
+vec3 packedVertex(samplerBuffer values, int molecule, int vertex, int elements)
+{
+    int first = (molecule / BLOCK) * (BLOCK * elements) + molecule % BLOCK;
+    int number = 3 * vertex;
+    vec4 low = texelFetch(values, first + (number / 4) * BLOCK);
+    vec4 high = texelFetch(values, first + ((number + 2) / 4) * BLOCK);
+    int shift = number % 4;
+    return shift == 0 ? low.xyz : shift == 1 ? low.yzw : shift == 2 ? vec3(low.zw, high.x) : vec3(low.w, high.xy);
+}
+
+vec3 moleculeAnchor(int molecule)
+{
+    return texelFetch(records, molecule).xyz;
+}
+
+vec3 vertexPosition(int molecule, int vertex)
+{
+    return packedVertex(states, molecule, vertex, STATE_ELEMENTS);
+}
+
+vec3 vertexNormal(int molecule, int vertex)
+{
+    return packedVertex(normals, molecule, vertex, POSITION_ELEMENTS);
+}
+
+uint moleculeSeed(int molecule)
+{
+    return uint(abs(texelFetch(records, molecule).w)) - 1u;
+}
+#else
+uniform sampler2D positions;  // xyz relative to the anchor, m
+uniform sampler2D normals;    // xyz unit, or zero before the first frame
+uniform sampler2D records;    // xyz anchor, m; w flags
+uniform sampler2D constants;  // x seed, y scale
+uniform ivec4 groupRows;      // first state row, rows of a vertex slab, first record row
 
 ivec2 recordTexel(int molecule)
 {
@@ -22,12 +59,14 @@ ivec2 vertexTexel(int molecule, int vertex)
     return ivec2(molecule % STATE_WIDTH, groupRows.x + vertex * groupRows.y + molecule / STATE_WIDTH);
 }
 
-// m, relative to the origin of drawing, in the scene's directions.
-vec3 vertexPlace(int molecule, int vertex)
+vec3 moleculeAnchor(int molecule)
 {
-    vec3 anchor = texelFetch(records, recordTexel(molecule), 0).xyz;
-    vec3 position = texelFetch(positions, vertexTexel(molecule, vertex), 0).xyz;
-    return (anchor - originLattice) + (position - originRest);
+    return texelFetch(records, recordTexel(molecule), 0).xyz;
+}
+
+vec3 vertexPosition(int molecule, int vertex)
+{
+    return texelFetch(positions, vertexTexel(molecule, vertex), 0).xyz;
 }
 
 vec3 vertexNormal(int molecule, int vertex)
@@ -38,4 +77,11 @@ vec3 vertexNormal(int molecule, int vertex)
 uint moleculeSeed(int molecule)
 {
     return uint(texelFetch(constants, recordTexel(molecule), 0).x);
+}
+#endif
+
+// m, relative to the origin of drawing, in the scene's directions.
+vec3 vertexPlace(int molecule, int vertex)
+{
+    return (moleculeAnchor(molecule) - originLattice) + (vertexPosition(molecule, vertex) - originRest);
 }

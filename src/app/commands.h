@@ -16,6 +16,6 @@ struct Loaded {
     Scene scene;
     Plan plan;
 };
-Loaded load(const Options& options, const PlanLimits& limits);
+Loaded load(const Options& options);
 
 }  // namespace shoal::app

@@ -1,23 +1,44 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/data_paths.h"
 #include "core/json.h"
 #include "scene/scene_file.h"
+#include "simulate/fused_kernel.h"
 
 namespace shoal::app {
 
-Loaded load(const Options& options, const PlanLimits& limits) {
+Loaded load(const Options& options) {
     Loaded out{readScene(options.files.front()), {}};
     apply(options, out.scene);
-    out.plan = compile(out.scene, limits);
+    out.plan = compile(out.scene);
     for (const Warning& warning : out.plan.warnings)
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     return out;
 }
 
+// Of a context as it is nearly everywhere; what is not given is not asked of a driver.
 int explainCommand(const Options& options) {
-    const Loaded loaded = load(options, {});
-    std::cout << (options.json ? writeJson(explainJson(loaded.plan)) : explain(loaded.plan));
+    const Loaded loaded = load(options);
+    const PathLimits limits;
+    const PathChoice choice = choosePath(loaded.plan, options.path, limits);
+    if (options.shader && choice.path != Path::fused)
+        throw Error("--shader prints the fused path's kernels; this scene runs on the other path: " +
+                    choice.why);
+    if (options.json) {
+        std::cout << writeJson(explainJson(loaded.plan, choice));
+        return 0;
+    }
+    if (!options.shader) {
+        std::cout << explain(loaded.plan, choice);
+        return 0;
+    }
+    for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
+        KernelOptions kernel;
+        kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
+        kernel.normals = true;
+        std::cout << kernelText(shaderRoot(), loaded.plan, g, kernel) << "\n";
+    }
     return 0;
 }
 

@@ -15,7 +15,8 @@ JsonValue asJson(const gpu::ContextProbe& probe) {
     if (!probe.info) return entry.add("reason", JsonValue::makeString(probe.reason));
     const gpu::ContextInfo& info = *probe.info;
     JsonValue paths = JsonValue::makeArray();
-    paths.items.push_back(JsonValue::makeString("ping-pong"));
+    if (info.computeShaders) paths.items.push_back(JsonValue::makeString(name(Path::fused)));
+    paths.items.push_back(JsonValue::makeString(name(Path::pingPong)));
     return entry.add("platform", JsonValue::makeString(info.platform))
         .add("renderer", JsonValue::makeString(info.renderer))
         .add("vendor", JsonValue::makeString(info.vendor))
@@ -52,9 +53,9 @@ void print(const gpu::ContextProbe& probe) {
     if (info.computeShaders)
         std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes, " << info.maxSharedBytes
                   << " bytes shared by a work group" << (info.subgroups ? ", subgroups" : "");
-    std::cout << "\n  paths        ping-pong (up to " << int64_t(info.maxTextureSize) * stateWidth
-              << " vertices)"
-              << "; compute shaders: " << (info.computeShaders ? "yes" : "no") << "\n";
+    std::cout << "\n  paths        " << (info.computeShaders ? "fused, " : "") << "ping-pong (up to "
+              << int64_t(info.maxTextureSize) * stateWidth << " vertices)"
+              << (info.computeShaders ? "" : "; fused needs OpenGL 4.3") << "\n";
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ namespace shoal::app {
 namespace {
 
 struct Texts {
-    std::string context = "auto", size = "1280x720";
+    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto";
 };
 
 void addScene(CLI::App& command, Options& options) {
@@ -56,10 +56,21 @@ void addOverrides(CLI::App& command, Options& options) {
     command.add_option("--solver", options.solver, "euler or leapfrog, instead of the scene's");
     command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
         ->check(wholeNumber());
+    command.add_option("--field-sampling", options.fieldSampling,
+                       "vertexSubstep, vertexFrame or moleculeFrame, instead of the scene's");
     command.add_option("--count", options.count, "Molecules in each group that is placed at random")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
+}
+
+void addPath(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("--path", texts.path, "fused (OpenGL 4.3), ping-pong (3.3) or auto")
+        ->capture_default_str();
+    command
+        .add_option("--lanes", texts.lanes, "Fused: a lane a molecule or a vertex: molecule, vertex or auto")
+        ->capture_default_str();
+    command.add_flag("--in-place", options.inPlace, "Fused: one copy of the state instead of two");
 }
 
 void addContext(CLI::App& command, Options& options, Texts& texts) {
@@ -70,6 +81,7 @@ void addContext(CLI::App& command, Options& options, Texts& texts) {
 void addRun(CLI::App& command, Options& options, Texts& texts) {
     addScene(command, options);
     addOverrides(command, options);
+    addPath(command, options, texts);
     addContext(command, options, texts);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
     command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
@@ -174,6 +186,16 @@ void checkRanges(const Options& options) {
     if (headlessWork && (options.context == gpu::ContextKind::window || !options.screenshot.empty()))
         throw Error(
             "--capture, --export, --json and --timings are of headless runs: leave out the window's options");
+    if (options.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
+        throw Error("--in-place and --lanes are of the fused path: leave out --path ping-pong");
+    if (options.shader && (options.path == Path::pingPong || options.json))
+        throw Error(
+            "--shader prints the fused path's kernels as text: leave out --path ping-pong and --json");
+    const std::vector<std::string> samplings = {"vertexSubstep", "vertexFrame", "moleculeFrame"};
+    if (options.fieldSampling &&
+        std::find(samplings.begin(), samplings.end(), *options.fieldSampling) == samplings.end())
+        throw Error(concat("--field-sampling: unknown sampling \"", *options.fieldSampling, "\"",
+                           suggestion(*options.fieldSampling, samplings)));
     if (options.solver && *options.solver != "euler" && *options.solver != "leapfrog")
         throw Error(concat("--solver: unknown solver \"", *options.solver, "\"",
                            suggestion(*options.solver, {"euler", "leapfrog"})));
@@ -196,6 +218,8 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     check->add_flag("--json", options.json, "Report as JSON on standard output");
     addScene(*explain, options);
     addOverrides(*explain, options);
+    addPath(*explain, options, texts);
+    explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
     explain->add_flag("--json", options.json, "Report as JSON on standard output");
     addContext(*info, options, texts);
 
@@ -214,6 +238,8 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : explain->parsed() ? Options::Command::explain
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
+    options.path = path(texts.path);
+    options.lanes = lanes(texts.lanes);
     parseSize(texts.size, options);
     checkRanges(options);
     return options;
@@ -223,6 +249,10 @@ void apply(const Options& options, Scene& scene) {
     if (options.dt) scene.frameRate = 1 / *options.dt;
     if (options.solver)
         scene.solver.kind = *options.solver == "euler" ? SolverKind::euler : SolverKind::leapfrog;
+    for (const FieldSampling sampling :
+         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame})
+        if (options.fieldSampling && *options.fieldSampling == name(sampling))
+            scene.solver.fieldSampling = sampling;
     if (options.substeps) scene.solver.substeps = *options.substeps;
     if (options.seed) scene.seed = *options.seed;
     if (!options.count) return;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/path.h"
 #include "gpu/context.h"
 #include "scene/scene.h"
 
@@ -23,12 +24,16 @@ struct Options {
     bool headless = false;
     bool json = false;
     bool timings = false;  // time per pass
+    Path path = Path::automatic;
+    Lanes lanes = Lanes::automatic;
+    bool inPlace = false;  // fused: one side of the state
+    bool shader = false;   // explain: print the kernels
     std::optional<int> frames;
     int width = 1280, height = 720;
 
     // Instead of what the scene says.
     std::optional<double> dt;  // s, of a frame
-    std::optional<std::string> solver;
+    std::optional<std::string> solver, fieldSampling;
     std::optional<int> substeps, count;
     std::optional<uint64_t> seed;
 

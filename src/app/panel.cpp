@@ -50,10 +50,11 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
     Action action = drawClock(controls, simulation);
     drawForces(controls, simulation);
     const Action groupAction = drawGroups(simulation);
+    const Action pathAction = drawPath(simulation);
     drawCost(simulation, renderer, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
-    return action == Action::none ? groupAction : action;
+    return action != Action::none ? action : groupAction != Action::none ? groupAction : pathAction;
 }
 
 Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
@@ -127,11 +128,26 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
     return changed ? Action::rebuild : Action::none;
 }
 
+// Both go on from the same state.
+Panel::Action Panel::drawPath(const Simulation& simulation) {
+    heading("Path");
+    const Path now = simulation.path().path;
+    path = now;
+    const bool compute = simulation.context().info().computeShaders;
+    if (!compute) ImGui::BeginDisabled();
+    if (ImGui::RadioButton("fused", now == Path::fused)) path = Path::fused;
+    if (!compute) ImGui::EndDisabled();
+    ImGui::SameLine();
+    if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
+    if (!compute) ImGui::TextDisabled("fused needs OpenGL 4.3");
+    return path != now ? Action::switchPath : Action::none;
+}
+
 void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                      const gpu::Traffic& lastFrame) {
     heading("Cost");
-    ImGui::Text("%.1f frames/s, ping-pong, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
-                name(simulation.plan().solver));
+    ImGui::Text("%.1f frames/s, %s, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
+                name(simulation.path().path), name(simulation.plan().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
     if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("pass");
@@ -169,7 +185,7 @@ void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSec
         }
         ImGui::EndTable();
     }
-    ImGui::Text("state %.1f MiB", double(simulation.plan().stateBytes()) / (1 << 20));
+    ImGui::Text("state %.1f MiB", double(simulation.stateBytes()) / (1 << 20));
 }
 
 }  // namespace shoal::app

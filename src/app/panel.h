@@ -30,7 +30,7 @@ struct GroupChoice {
 
 class Panel {
   public:
-    enum class Action { none, step, restart, rebuild, resetCamera };
+    enum class Action { none, step, restart, rebuild, switchPath, resetCamera };
 
     Panel(const Scene& scene, std::vector<std::string> moleculeFiles);
 
@@ -39,12 +39,14 @@ class Panel {
                 const gpu::Traffic& lastFrame);
 
     GroupChoice choice;
+    Path path = Path::automatic;         // that runs, and after switchPath the one to go on with
     std::vector<std::string> molecules;  // files
 
   private:
     Action drawClock(Controls& controls, const Simulation& simulation);
     void drawForces(Controls& controls, const Simulation& simulation);
     Action drawGroups(const Simulation& simulation);
+    Action drawPath(const Simulation& simulation);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                   const gpu::Traffic& lastFrame);
 

@@ -48,12 +48,12 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
     std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash));
     JsonValue out = JsonValue::makeObject();
     out.add("scene", JsonValue::makeString(report.scene))
-        .add("path", JsonValue::makeString("ping-pong"))
+        .add("path", JsonValue::makeString(name(simulation.path().path)))
         .add("context", std::move(context))
         .add("frames", JsonValue::makeNumber(simulation.frames()))
         .add("time", JsonValue::makeNumber(simulation.time()))
         .add("seconds", JsonValue::makeNumber(report.seconds))
-        .add("stateBytes", JsonValue::makeNumber(double(simulation.plan().stateBytes())))
+        .add("stateBytes", JsonValue::makeNumber(double(simulation.stateBytes())))
         .add("busBytes", std::move(bytes))
         .add("hash", JsonValue::makeString(hashText));
     if (!passes.items.empty()) out.add("passes", std::move(passes));

@@ -19,8 +19,6 @@ namespace shoal::app {
 
 namespace {
 
-constexpr int largestTexture = 32768;  // texels a side: no context takes more
-
 bool hasDisplay() {
     for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
         const char* value = std::getenv(variable);
@@ -55,6 +53,16 @@ bool exportsFrame(const Options& options, int frame, int last) {
            options.exportFrames.end();
 }
 
+SimulationOptions simulationOptions(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
+    SimulationOptions out;
+    if (options.timings) out.timing = gpu::PassTimers::suitedTo(context.info());
+    out.path = options.path;
+    out.lanes = options.lanes;
+    out.inPlace = options.inPlace;
+    out.cache = &cache;
+    return out;
+}
+
 // One headless run, step by step; keeps the bytes of frames apart from those of captures and exports.
 class HeadlessRun {
   public:
@@ -63,9 +71,9 @@ class HeadlessRun {
           context_(context),
           frames_(options.frames.value_or(headlessFrames)),
           loaded_(std::move(loaded)),
-          simulation_(
-              context, shaderRoot(), loaded_.plan, true,
-              options.timings ? gpu::PassTimers::suitedTo(context.info()) : gpu::PassTimers::Mode::off) {
+          cache_(context, gpu::ProgramCache::defaultFolder()),
+          simulation_(context, shaderRoot(), loaded_.plan, simulationOptions(options, context, cache_)) {
+        tellWarnings(simulation_, cache_);
         report_.scene = options.files.front();
         const bool nothingAsked =
             options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
@@ -120,7 +128,8 @@ class HeadlessRun {
             return;
         }
         std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds
-                  << " s on " << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
+                  << " s on the " << name(simulation_.path().path) << " path, " << context_.info().renderer
+                  << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
         for (const gpu::PassTime& pass : passTimes())
             std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
@@ -162,6 +171,7 @@ class HeadlessRun {
     gpu::Context& context_;
     int frames_, every_ = 1;
     Loaded loaded_;
+    gpu::ProgramCache cache_;
     Simulation simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;
@@ -169,6 +179,13 @@ class HeadlessRun {
 };
 
 }  // namespace
+
+void tellWarnings(const Simulation& simulation, gpu::ProgramCache& cache) {
+    for (const Warning& warning : simulation.warnings())
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    for (const Warning& warning : cache.takeWarnings())
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
+}
 
 int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
     HeadlessRun run(options, context, std::move(loaded));
@@ -180,7 +197,7 @@ int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // mistakes in the files are told before any context is made; what the context can hold, once it is there
-    Loaded loaded = load(options, {largestTexture});
+    Loaded loaded = load(options);
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.preferWindow = window;
@@ -188,9 +205,6 @@ int runCommand(const Options& options) {
     wanted.height = options.height;
     wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
     gpu::Context context(wanted);
-    const int most = context.info().maxTextureSize;
-    if (std::max({loaded.plan.rows, loaded.plan.topologyRows, loaded.plan.sampleRows}) > most)
-        compile(loaded.scene, {most});  // says what does not fit
     return context.window() ? runWindow(options, context, std::move(loaded))
                             : runHeadless(options, context, std::move(loaded));
 }

@@ -3,6 +3,8 @@
 
 #include "app/commands.h"
 #include "gpu/context.h"
+#include "gpu/program_cache.h"
+#include "simulate/simulation.h"
 
 namespace shoal::app {
 
@@ -10,5 +12,8 @@ namespace shoal::app {
 int runHeadless(const Options& options, gpu::Context& context, Loaded loaded);
 // Until the user closes it, or after --frames.
 int runWindow(const Options& options, gpu::Context& context, Loaded loaded);
+
+// What the making of a simulation had to say, on standard error.
+void tellWarnings(const Simulation& simulation, gpu::ProgramCache& cache);
 
 }  // namespace shoal::app

@@ -109,7 +109,9 @@ class WindowRun {
           controls_(loaded.plan),
           panel_(scene_, shippedMolecules()),
           camera_(View::of(scene_.camera)),
-          interface_(window_) {
+          interface_(window_),
+          cache_(context, gpu::ProgramCache::defaultFolder()),
+          path_(options.path) {
         glfwSwapInterval(1);
         glfwGetFramebufferSize(window_, &width_, &height_);
         build(std::move(loaded.plan));
@@ -132,14 +134,37 @@ class WindowRun {
     void build(Plan plan) {
         simulation_.reset();
         renderer_.reset();
+        SimulationOptions wanted;
+        wanted.timing = gpu::PassTimers::suitedTo(context_.info());
+        wanted.path = path_;
+        // what was asked of one path does not bind the other
+        if (path_ == options_.path) wanted.inPlace = options_.inPlace, wanted.lanes = options_.lanes;
+        wanted.cache = &cache_;
+        simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), wanted);
+        tellWarnings(*simulation_, cache_);
         RenderOptions size;
         size.width = width_;
         size.height = height_;
-        size.timing = gpu::PassTimers::suitedTo(context_.info());
-        renderer_ = std::make_unique<Renderer>(context_, shaderRoot(), scene_, plan, size);
-        simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), true,
-                                                   gpu::PassTimers::suitedTo(context_.info()));
+        size.timing = wanted.timing;
+        renderer_ = std::make_unique<Renderer>(context_, shaderRoot(), scene_, simulation_->plan(), size);
         controls_.lead(simulation_->parameters, simulation_->plan(), 1e3);  // as the sliders stand, at once
+    }
+
+    // The other path goes on from the same state; where it cannot, that is said and the old one stays.
+    void switchPath() {
+        const Path old = path_;
+        const SavedState saved = simulation_->save();
+        const Plan plan = simulation_->plan();
+        try {
+            path_ = panel_.path;
+            build(plan);
+            message_.clear();
+        } catch (const Error& error) {
+            message_ = error.what();
+            path_ = old;
+            build(plan);
+        }
+        simulation_->load(saved);
     }
 
     // One frame of simulation and picture; false after the last of --frames.
@@ -179,6 +204,7 @@ class WindowRun {
         if (action_ == Panel::Action::restart) simulation_->restart();
         if (action_ == Panel::Action::resetCamera) camera_.reset();
         if (action_ == Panel::Action::rebuild) rebuild();
+        if (action_ == Panel::Action::switchPath) switchPath();
     }
 
     // Another number or kind of molecules; what cannot be had is said and the old scene runs on.
@@ -199,22 +225,21 @@ class WindowRun {
             scene_ = old;
             panel_.choice.count = old.groups[size_t(panel_.choice.group)].count;
             panel_.choice.molecule = shownMolecule_;
-            build(compile(scene_, {context_.info().maxTextureSize}));
+            build(compile(scene_));
         }
     }
 
     // A stiffer molecule takes more substeps instead of being refused.
     Plan compileStably() {
-        const PlanLimits limits{context_.info().maxTextureSize};
         for (int tries = 0; tries < 12; ++tries) {
             try {
-                return compile(scene_, limits);
+                return compile(scene_);
             } catch (const Error&) {
                 if (scene_.solver.substeps >= 256) throw;
                 scene_.solver.substeps *= 2;
             }
         }
-        return compile(scene_, limits);
+        return compile(scene_);
     }
 
     void showMessage() {
@@ -278,6 +303,8 @@ class WindowRun {
     Panel panel_;
     OrbitCamera camera_;
     Interface interface_;
+    gpu::ProgramCache cache_;
+    Path path_;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     Panel::Action action_ = Panel::Action::none;

@@ -1,7 +1,7 @@
 #include <iomanip>
 #include <sstream>
 
-#include "compile/plan.h"
+#include "compile/path.h"
 #include "core/json.h"
 
 namespace shoal {
@@ -21,13 +21,58 @@ std::string mebibytes(size_t bytes) {
 
 }  // namespace
 
-std::string explain(const Plan& plan) {
+static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
+    for (const PassPlan& pass : plan.passes) {
+        if (pass.group != g) continue;
+        out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when)
+            << pass.why << "\n";
+    }
+}
+
+// What the fused kernel of a group holds.
+static std::string kernelParts(const GroupPlan& group) {
+    const Needs& needs = group.needs;
+    std::string parts;
+    const auto with = [&](bool need, const char* what) {
+        if (need) parts += (parts.empty() ? "" : ", ") + std::string(what);
+    };
+    with(needs.records && !needs.release, "anchors follow");
+    with(needs.release, "anchors follow and pins may be released");
+    with(needs.springs, "springs");
+    with(needs.actuation, "muscles");
+    with(needs.gravity, "gravity");
+    with(needs.drag && !needs.directionalDrag, "drag");
+    with(needs.directionalDrag, "drag by direction");
+    with(needs.fields, "fields");
+    with(needs.collide, "contact");
+    with(needs.normals, "normals where drawn");
+    return parts;
+}
+
+static std::string leftOut(const GroupPlan& group) {
+    std::string absent;
+    const auto without = [&](bool need, const char* what) {
+        if (!need) absent += (absent.empty() ? "" : ", ") + std::string(what);
+    };
+    without(group.needs.springs, "no springs: no restore");
+    without(group.needs.collide, "no colliders: no collide");
+    without(group.needs.drag, "no drag: no field is read");
+    without(group.needs.fields || !group.needs.drag, "no fields");
+    without(group.needs.normals, "no triangles: no normals");
+    without(group.needs.records, "all molecules hang on pins: no records");
+    return absent;
+}
+
+std::string explain(const Plan& plan, const PathChoice& choice) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
     out << "frame    1/" << plan.frameRate << " s in " << plan.substeps << " substeps of "
         << 1 / plan.frameRate / plan.substeps << " s, solver " << name(plan.solver) << "\n";
-    out << "memory   state " << mebibytes(plan.stateBytes()) << ", tables " << mebibytes(plan.tableBytes())
-        << "\n";
+    out << "path     " << name(choice.path) << ": " << choice.why << "\n";
+    if (plan.fieldSampling != FieldSampling::vertexSubstep)
+        out << "fields   " << name(plan.fieldSampling) << "\n";
+    out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true)) << ", tables "
+        << mebibytes(plan.tableBytes()) << "\n";
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         out << "\ngroup \"" << group.name << "\": " << group.count << " molecules of " << group.vertexCount
@@ -35,39 +80,34 @@ std::string explain(const Plan& plan) {
         if (group.needs.springs)
             out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(plan.solver)
                 << " is stable up to " << group.stableStep << " s\n";
-        for (const PassPlan& pass : plan.passes) {
-            if (pass.group != g) continue;
-            out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when)
-                << pass.why << "\n";
-        }
-        std::string absent;
-        const auto without = [&](bool need, const char* what) {
-            if (!need) absent += (absent.empty() ? "" : ", ") + std::string(what);
-        };
-        without(group.needs.springs, "no springs: no restore");
-        without(group.needs.collide, "no colliders: no collide");
-        without(group.needs.drag, "no drag: no field is read");
-        without(group.needs.fields || !group.needs.drag, "no fields");
-        without(group.needs.normals, "no triangles: no normals");
-        without(group.needs.records, "all molecules hang on pins: no records");
+        if (choice.path == Path::fused)
+            out << "  fused    once a frame         " << kernelParts(group) << "\n";
+        else
+            listPasses(out, plan, g);
+        const std::string absent = leftOut(group);
         if (!absent.empty()) out << "  left out: " << absent << "\n";
     }
     return out.str();
 }
 
-JsonValue explainJson(const Plan& plan) {
+static JsonValue passEntry(const char* pass, const char* moment, const std::string& why) {
+    JsonValue entry = JsonValue::makeObject();
+    entry.add("pass", JsonValue::makeString(pass))
+        .add("when", JsonValue::makeString(moment))
+        .add("why", JsonValue::makeString(why));
+    return entry;
+}
+
+JsonValue explainJson(const Plan& plan, const PathChoice& choice) {
     JsonValue groups = JsonValue::makeArray();
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         JsonValue passes = JsonValue::makeArray();
-        for (const PassPlan& pass : plan.passes) {
-            if (pass.group != g) continue;
-            JsonValue entry = JsonValue::makeObject();
-            entry.add("pass", JsonValue::makeString(name(pass.kind)))
-                .add("when", JsonValue::makeString(when(pass.when)))
-                .add("why", JsonValue::makeString(pass.why));
-            passes.items.push_back(std::move(entry));
-        }
+        if (choice.path == Path::fused)
+            passes.items.push_back(passEntry("fused", "once a frame", kernelParts(group)));
+        for (const PassPlan& pass : plan.passes)
+            if (choice.path == Path::pingPong && pass.group == g)
+                passes.items.push_back(passEntry(name(pass.kind), when(pass.when), pass.why));
         JsonValue entry = JsonValue::makeObject();
         entry.add("name", JsonValue::makeString(group.name))
             .add("molecules", JsonValue::makeNumber(group.count))
@@ -80,10 +120,12 @@ JsonValue explainJson(const Plan& plan) {
     }
     JsonValue out = JsonValue::makeObject();
     out.add("scene", JsonValue::makeString(plan.sceneName))
+        .add("path", JsonValue::makeString(name(choice.path)))
         .add("solver", JsonValue::makeString(name(plan.solver)))
+        .add("fieldSampling", JsonValue::makeString(name(plan.fieldSampling)))
         .add("frameRate", JsonValue::makeNumber(plan.frameRate))
         .add("substeps", JsonValue::makeNumber(plan.substeps))
-        .add("stateBytes", JsonValue::makeNumber(double(plan.stateBytes())))
+        .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true))))
         .add("tableBytes", JsonValue::makeNumber(double(plan.tableBytes())))
         .add("groups", std::move(groups));
     return out;

@@ -19,7 +19,8 @@ struct Generated {
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
-// Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift).
+// Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift), and
+// float clearance(vec3 anchor, vec3 position): negative where collideAll would respond.
 Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
 // A name as part of a comment in the text: whatever could end or continue the line is replaced.

@@ -12,6 +12,7 @@ class Emitter {
     explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
     Generated result;
+    std::string clearance;  // statements of the function of that name
 
     std::string slot(const glm::dvec3& v, double w = 0) {
         result.parameters.push_back(glm::vec4(glm::vec3(v), float(w)));
@@ -22,10 +23,13 @@ class Emitter {
         const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
         const std::string surface =
             std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        result.source +=
-            concat("    // ", kindName(collider.shape), " ", inComment(collider.name),
-                   "\n    surface = ", surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
-                   material, ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
+        const std::string comment =
+            concat("    // ", kindName(collider.shape), " ", inComment(collider.name), "\n");
+        clearance += concat(comment, "    surface = ", surface, ";\n    least = min(least, surface.w - ",
+                            material, ".z);\n");
+        result.source += concat(comment, "    surface = ", surface,
+                                ";\n    c = respond(c.position, c.velocity, surface.w - ", material,
+                                ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
     }
 
   private:
@@ -86,7 +90,9 @@ Generated generateColliders(const std::vector<Collider>& colliders, std::vector<
         "uniform vec4 colliderParameters[", out.parameters.size(), "];\n\n",
         "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
         "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
-        "    return c;\n}\n");
+        "    return c;\n}\n\n// m: from the nearest surface, less its thickness; negative inside.\n",
+        "float clearance(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, vec3(0.0));\n",
+        "    vec4 surface;\n    float least = 1e30;\n", emitter.clearance, "    return least;\n}\n");
     return out;
 }
 

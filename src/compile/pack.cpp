@@ -1,5 +1,6 @@
 #include "compile/pack.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -10,31 +11,37 @@ static glm::dvec3 anchorOf(const glm::dvec3& position) {
     return glm::floor(position * 16.0 + 0.5) / 16.0;
 }
 
-void packState(const Scene& scene, const GroupPlan& group, Plan& plan) {
+void packStart(const Scene& scene, GroupPlan& group) {
     const Group& source = scene.groups[group.index];
-    const std::vector<Instance> instances = place(scene, group.index);
-    for (int m = 0; m < group.count; ++m) {
-        const Instance& instance = instances[size_t(m)];
-        const int column = m % stateWidth, slabRow = m / stateWidth;
+    GroupState& start = group.start;
+    const size_t molecules = size_t(group.count), vertices = molecules * size_t(group.vertexCount);
+    start.positions.reserve(vertices);
+    start.velocities.reserve(vertices);
+    start.anchors.reserve(molecules);
+    start.released.assign(molecules, 0);
+    for (const Instance& instance : place(scene, group.index)) {
         const auto arm = [&](const Vertex& vertex) {
             return instance.rotation * (instance.scale * vertex.position);
         };
         const glm::dvec3 anchor = anchorOf(instance.position + arm(source.molecule.vertices[0]));
-        for (int v = 0; v < group.vertexCount; ++v) {
-            const glm::dvec3 offset = arm(source.molecule.vertices[size_t(v)]);
-            const size_t texel =
-                size_t(group.firstRow + v * group.slabRows + slabRow) * stateWidth + size_t(column);
-            const bool still = group.needs.pins && source.molecule.vertices[size_t(v)].pinned;
+        for (const Vertex& vertex : source.molecule.vertices) {
+            const glm::dvec3 offset = arm(vertex);
+            const bool still = group.needs.pins && vertex.pinned;
             const glm::dvec3 velocity =
                 still ? glm::dvec3(0) : source.velocity + glm::cross(source.spin, offset);
-            plan.positions[texel] = glm::vec4(glm::vec3(instance.position + offset - anchor), 0);
-            plan.velocities[texel] = glm::vec4(glm::vec3(velocity), 0);
+            start.positions.emplace_back(instance.position + offset - anchor);
+            start.velocities.emplace_back(velocity);
         }
-        const size_t record = size_t(group.firstRecordRow + slabRow) * stateWidth + size_t(column);
-        plan.records[record] = glm::vec4(glm::vec3(anchor), 0);
-        const double phase = source.phaseSpread * double(instance.seed & 0xffff) / 65536;
-        plan.constants[record] = glm::vec4(float(instance.seed >> 8), float(instance.scale), float(phase), 0);
+        start.anchors.emplace_back(anchor);
+        group.constants.seeds.push_back(instance.seed >> 8);
+        group.constants.scales.push_back(float(instance.scale));
+        group.constants.phases.push_back(float(source.phaseSpread * double(instance.seed & 0xffff) / 65536));
     }
+    const auto differs = [](const std::vector<float>& values, float from) {
+        return std::any_of(values.begin(), values.end(), [from](float value) { return value != from; });
+    };
+    group.needs.scale = group.needs.springs && differs(group.constants.scales, 1);
+    group.needs.phase = group.needs.actuation && differs(group.constants.phases, 0);
 }
 
 int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& topology) {

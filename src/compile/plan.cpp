@@ -49,15 +49,15 @@ std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     return taken ? concat(name, " ", index + 1) : name;
 }
 
-// Rows of the state textures, and the group's limits.
+// Of slabs in the textures; and what the group needs.
 GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     const Group& group = scene.groups[index];
     GroupPlan out;
     out.name = uniqueName(group, index, plan);
+    out.location = group.location;
     out.index = index;
     out.count = group.count;
     out.vertexCount = int(group.molecule.vertices.size());
-    out.slabRows = slabRows(group.count);
     out.needs = findNeeds(scene, group);
     out.solver = scene.solver.kind;
     out.drag = group.drag;
@@ -65,31 +65,29 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();
-    out.firstRow = plan.rows;
-    out.rows = out.vertexCount * out.slabRows;
-    out.firstRecordRow = plan.recordRows;
-    plan.rows += out.rows;
-    plan.recordRows += out.slabRows;
+    TextureLayout& texture = out.texture;
+    texture.slabRows = slabRows(group.count);
+    texture.firstRow = plan.rows;
+    texture.rows = out.vertexCount * texture.slabRows;
+    texture.firstRecordRow = plan.recordRows;
+    plan.rows += texture.rows;
+    plan.recordRows += texture.slabRows;
     return out;
 }
 
-// All groups' vertices share the rows of one texture.
-void checkSize(const Scene& scene, const PlanLimits& limits) {
-    int64_t rows = 0;
-    for (const Group& group : scene.groups) {
-        const int64_t vertices = int64_t(group.molecule.vertices.size());
-        const int64_t own = int64_t(slabRows(group.count)) * vertices;
-        if (rows + own > limits.maxTextureSize) {
-            const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
-            throw Error(
-                group.location,
-                concat(group.count, " molecules of ", vertices, " vertices take ", own,
-                       " rows of the state textures (", (own * stateWidth * 16 * 4) >> 20, " MiB)",
-                       rows > 0 ? ", beside the groups before" : "", "; this context holds ",
-                       limits.maxTextureSize - rows, " more rows: at most ", fit, " such molecules fit"));
-        }
-        rows += own;
-    }
+// Placing takes memory here before any device is asked.
+void checkCount(const Scene& scene, size_t index, const Plan& plan) {
+    constexpr int64_t most = int64_t(1) << 27;  // vertices: 3 GiB of start state
+    int64_t before = 0;
+    for (const GroupPlan& group : plan.groups)
+        before += int64_t(group.count) * group.vertexCount;
+    const Group& group = scene.groups[index];
+    const int64_t vertices = int64_t(group.molecule.vertices.size());
+    if (before + group.count * vertices <= most) return;
+    throw Error(group.location, concat(group.count, " molecules of ", vertices, " vertices",
+                                       before > 0 ? ", beside the groups before," : "", " are more than the ",
+                                       most, " vertices that a scene may have: at most ",
+                                       (most - before) / vertices, " such molecules fit"));
 }
 
 // Damped limits (NUMERICS: euler (wh)^2 + 4 zeta w h < 4; leapfrog wh < 2), from the molecule's analysis.
@@ -161,35 +159,31 @@ const char* name(PassKind kind) {
     return names[size_t(kind)];
 }
 
-const char* name(SolverKind kind) {
-    return kind == SolverKind::euler ? "euler" : "leapfrog";
+const char* name(FieldSampling sampling) {
+    static constexpr const char* names[] = {"vertexSubstep", "vertexFrame", "moleculeFrame"};
+    return names[size_t(sampling)];
 }
 
-size_t Plan::stateBytes() const {
-    bool acceleration = false, normals = false;
-    for (const GroupPlan& group : groups) {
-        acceleration |= group.needs.acceleration;
-        normals |= group.needs.normals;
-    }
-    const size_t textures = 4 + (acceleration ? 2 : 0) + (normals ? 1 : 0);
-    return (textures * size_t(rows) + 3 * size_t(recordRows)) * stateWidth * sizeof(glm::vec4);
+const char* name(SolverKind kind) {
+    return kind == SolverKind::euler ? "euler" : "leapfrog";
 }
 
 size_t Plan::tableBytes() const {
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
 }
 
-Plan compile(const Scene& scene, const PlanLimits& limits) {
+Plan compile(const Scene& scene) {
     Plan plan;
     plan.sceneName = scene.name;
     plan.frameRate = scene.frameRate;
     plan.substeps = scene.solver.substeps;
     plan.gravity = scene.gravity;
     plan.solver = scene.solver.kind;
+    plan.fieldSampling = scene.solver.fieldSampling;
     plan.warnings = scene.warnings;
-    checkSize(scene, limits);
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
+        checkCount(scene, i, plan);
         GroupPlan group = layOut(scene, i, plan);
         if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
             plan.warnings.push_back(
@@ -199,23 +193,23 @@ Plan compile(const Scene& scene, const PlanLimits& limits) {
         findStableStep(scene.groups[i], group);
         checkStep(scene, scene.groups[i], group);
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
+        packStart(scene, group);
+        group.kernel = kernelText(scene.groups[i].molecule, group.needs);
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }
     plan.topologyRows = tableRows(plan.topology);
-
-    plan.positions.resize(size_t(plan.rows) * stateWidth);
-    plan.velocities.resize(plan.positions.size());
-    plan.records.resize(size_t(plan.recordRows) * stateWidth);
-    plan.constants.resize(plan.records.size());
-    for (const GroupPlan& group : plan.groups)
-        packState(scene, group, plan);
 
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
     Generated fields, colliders;
+    plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
+        return std::holds_alternative<GustField>(field.shape) ||
+               std::holds_alternative<CurlNoiseField>(field.shape) ||
+               std::holds_alternative<GridField>(field.shape);
+    });
     if (any(&Needs::fields)) fields = generateFields(scene.fields, plan.samples);
     if (any(&Needs::collide)) colliders = generateColliders(scene.colliders, plan.samples);
     if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)
@@ -228,14 +222,6 @@ Plan compile(const Scene& scene, const PlanLimits& limits) {
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameters = std::move(colliders.parameters);
     plan.sampleRows = tableRows(plan.samples);
-    const auto checkTable = [&](int rows, const char* what) {
-        if (rows > limits.maxTextureSize)
-            throw Error(Location{scene.file, 0, 0, {}},
-                        concat(what, " need a texture of ", rows, " rows; this context holds ",
-                               limits.maxTextureSize));
-    };
-    checkTable(plan.topologyRows, "the molecules' springs and triangles");
-    checkTable(plan.sampleRows, "the grids and height fields");
     return plan;
 }
 

@@ -1,22 +1,12 @@
 // The plan: a scene turned into what the GPU needs and nothing more. Made by pure functions, read by
-// `simulate` and `render`, printed by `shoal explain`.
+// `simulate` and `render`, printed by `shoal explain`. A plan knows no context: which path runs it is chosen
+// afterwards (compile/path.h), and each path lays out the start state in its own way:
 //
-// State layout (shared by all groups; one texel = one vertex, RGBA32F):
+//   ping-pong   textures, in rows of 1024 texels        simulate/texture_state.h
+//   fused       buffers, in blocks of 32 molecules      simulate/buffer_state.h
 //
-//   a state texture is 1024 texels wide; group g owns the rows [firstRow, firstRow + vertexCount * slabRows)
-//   vertex v of molecule m:   x = m mod 1024,  y = firstRow + v * slabRows + m / 1024
-//   so vertex v of all molecules is a slab of whole rows, and neighbouring texels are neighbouring molecules
-//
-//   position       xyz relative to the molecule's anchor, m      (two sides, ping-pong)
-//   velocity       xyz m/s                                       (two sides)
-//   acceleration   xyz of the springs, m/s^2: leapfrog only      (two sides)
-//   normal         xyz unit
-//
-// Record layout: molecule m of group g at x = m mod 1024, y = firstRecordRow + m / 1024
-//   dynamic        xyz anchor, m; w flags: 1 = pins released     (two sides)
-//   constant       x seed (an integer below 2^24), y scale, z actuation phase offset (rad), w unused
-//
-// Topology: one texture of 4-vectors, read by index i at (i mod 1024, i / 1024); per group from `base`:
+// Topology, for the paths that read it from a table: one texture of 4-vectors, read by index i at
+// (i mod 1024, i / 1024); per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
 //   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), unused
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
@@ -31,36 +21,27 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/group_state.h"
+#include "compile/kernel.h"
 #include "scene/scene.h"
 
 namespace shoal {
 
-// What of the physics a group needs. Every pass, buffer and shader branch hangs on one of these.
-struct Needs {
-    bool fields = false;  // there is a field and the group has drag
-    bool drag = false;
-    bool directionalDrag = false;
-    bool gravity = false;
-    bool springs = false;
-    bool springDamping = false;
-    bool actuation = false;
-    bool pins = false;     // some vertex is held at the start
-    bool release = false;  // and may be let go
-    bool records = false;  // anchors move or pins are released: the records pass runs
-    bool collide = false;
-    bool normals = false;       // the shape has triangles
-    bool acceleration = false;  // the solver keeps the springs' acceleration
-};
-
 constexpr int stateWidth = 1024;
 
-struct GroupPlan {
-    std::string name;
-    size_t index = 0;  // in scene.groups
-    int count = 0, vertexCount = 0;
+// Where a group lies in the ping-pong path's textures.
+struct TextureLayout {
     int slabRows = 0;            // rows of one vertex slab
     int firstRow = 0, rows = 0;  // in the state textures
     int firstRecordRow = 0;      // in the record textures; slabRows of them
+};
+
+struct GroupPlan {
+    std::string name;
+    Location location;  // of the group in the scene file, for messages
+    size_t index = 0;   // in scene.groups
+    int count = 0, vertexCount = 0;
+    TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
     SolverKind solver = SolverKind::leapfrog;
@@ -70,6 +51,9 @@ struct GroupPlan {
     double size = 1;              // m, of the molecule
     double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;        // s, largest substep of the solver; infinite without springs
+    GroupState start;
+    GroupConstants constants;
+    KernelText kernel;  // of the fused path
 };
 
 enum class PassKind { records, normals, restore, advect, collide };
@@ -88,13 +72,11 @@ struct Plan {
     int substeps = 4;
     glm::dvec3 gravity{0};
     SolverKind solver = SolverKind::leapfrog;
+    FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     std::vector<GroupPlan> groups;
-    std::vector<PassPlan> passes;  // in the order of a frame; substep passes repeat
+    std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat
 
-    // Packed start state; sizes: rows * 1024 texels.
-    int rows = 0, recordRows = 0;
-    std::vector<glm::vec4> positions, velocities;
-    std::vector<glm::vec4> records, constants;
+    int rows = 0, recordRows = 0;  // of the ping-pong path's textures
     std::vector<glm::vec4> topology;
     int topologyRows = 0;
 
@@ -104,34 +86,22 @@ struct Plan {
     std::string fieldSource;    // generated/fields.glsl
     std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters, colliderParameters;
+    bool longFields = false;  // noise or grids: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
 
     std::vector<Warning> warnings;
 
-    size_t stateBytes() const;  // all sides of the state and record textures
     size_t tableBytes() const;  // topology and samples
 };
 
-// Limits of the context that runs the plan; the defaults are what OpenGL 3.3 promises nearly everywhere.
-struct PlanLimits {
-    int maxTextureSize = 16384;
-};
-
-// Error: the state (located at the group), or a table, does not fit, and how much it would take; fields or
-// colliders take more uniforms than OpenGL 3.3 promises; or the substep is beyond what the explicit solver
-// holds stable (located at the solver, else at the group), and how many substeps would do.
-Plan compile(const Scene& scene, const PlanLimits& limits = {});
+// Error: fields or colliders take more uniforms than OpenGL 3.3 promises; or the substep is beyond what the
+// explicit solver holds stable (located at the solver, else at the group), and how many substeps would do.
+Plan compile(const Scene& scene);
 
 // How many substeps of a frame the solver needs when stiffness and damping are scaled by these factors; at
 // least `substeps`.
 int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor,
                    int substeps);
-
-// For people: groups, passes and why each is there, memory.
-std::string explain(const Plan& plan);
-// For programs.
-class JsonValue;
-JsonValue explainJson(const Plan& plan);
 
 }  // namespace shoal

@@ -105,6 +105,7 @@ static void readComputeLimits(ContextInfo& info) {
     info.textureBufferAlignment = getInteger(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT);
     info.storageBufferAlignment = getInteger(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     info.subgroups = hasSubgroups();
+    info.groupVote = hasExtension("GL_ARB_shader_group_vote");
 }
 
 static ContextInfo readInfo(ContextKind kind, const Platform& platform) {

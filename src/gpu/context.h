@@ -49,6 +49,9 @@ struct ContextInfo {
     // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. The one feature that goes
     // by an extension, because no version of OpenGL has it; still false below 4.3.
     bool subgroups = false;
+    // anyInvocationARB: OpenGL 4.6, or GL_ARB_shader_group_vote on Mesa's rasteriser, which needs it and
+    // stops at 4.5.
+    bool groupVote = false;
 
     bool atLeast(int wantedMajor, int wantedMinor) const {
         return major > wantedMajor || (major == wantedMajor && minor >= wantedMinor);

@@ -35,7 +35,9 @@ struct Stage {
 
 std::vector<Stage> readStages(const std::string& root, const ProgramOptions& options) {
     const auto resolve = [&](const std::string& file, const char* header) {
-        return resolveShader(root, file, options.defines, options.generated, header);
+        ShaderSource source = resolveShader(root, file, options.defines, options.generated, header);
+        if (options.rewrite) options.rewrite(source);
+        return source;
     };
     std::vector<Stage> out;
     if (!options.compute.empty()) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <glm/glm.hpp>
 #include <map>
 #include <set>
@@ -18,13 +19,15 @@
 namespace shoal::gpu {
 
 class ProgramCache;
+struct ShaderSource;
 
 struct ProgramOptions {
     std::string vertex, fragment;                  // files below the root of the shaders
     std::vector<std::string> defines;              // "NAME" or "NAME value"
     std::map<std::string, std::string> generated;  // files that exist only in memory, by include name
     std::string label;
-    std::string compute = {};       // a compute program: its file; vertex and fragment stay empty
+    std::string compute = {};  // a compute program: its file; vertex and fragment stay empty
+    std::function<void(ShaderSource&)> rewrite = {};  // changes a stage's text once its includes are in
     ProgramCache* cache = nullptr;  // linked programs on disk, borrowed for the constructor; null: none
 };
 

@@ -18,13 +18,12 @@ static bool isEmpty(const Box& box) {
 }
 
 // Of a group's start state. Molecules are followed by their first vertex and padded by their size.
-static Box boundsOf(const Plan& plan, const GroupPlan& group) {
+static Box boundsOf(const GroupPlan& group) {
     Box box = emptyBox;
-    for (int m = 0; m < group.count; ++m) {
-        const size_t row = size_t(m / stateWidth), column = size_t(m % stateWidth);
-        const size_t record = (size_t(group.firstRecordRow) + row) * stateWidth + column;
-        const size_t texel = (size_t(group.firstRow) + row) * stateWidth + column;
-        const glm::dvec3 place = glm::dvec3(plan.records[record]) + glm::dvec3(plan.positions[texel]);
+    const size_t vertices = size_t(group.vertexCount);
+    for (size_t m = 0; m < group.start.anchors.size(); ++m) {
+        const glm::dvec3 place =
+            glm::dvec3(group.start.anchors[m]) + glm::dvec3(group.start.positions[m * vertices]);
         include(box, place, place);
     }
     box.low -= group.size;
@@ -44,9 +43,9 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     bounds.casters = emptyBox;
     Box crown = emptyBox;
     for (const GroupPlan& group : plan.groups) {
-        if (group.count == 0 || plan.positions.empty()) continue;
+        if (group.start.anchors.empty()) continue;
         const Group& source = scene.groups[group.index];
-        const Box box = boundsOf(plan, group);
+        const Box box = boundsOf(group);
         include(bounds.casters, box.low, box.high);
         if (isCrown(source, box)) include(crown, box.low, box.high);
         const int carrier = source.place.kind == Placement::Kind::vertices ? source.place.model : -1;

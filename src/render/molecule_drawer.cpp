@@ -5,24 +5,24 @@
 namespace shoal {
 
 MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                               const Plan& plan, const Lighting& lighting, const ShadowMap* shadow)
-    : context_(&context) {
+                               const Plan& plan, const Lighting& lighting)
+    : context_(&context), shaderRoot_(shaderRoot) {
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         if (group.count == 0) continue;
-        groups_.push_back(make(shaderRoot, scene.groups[group.index], group, lighting, shadow != nullptr));
+        groups_.push_back(make(scene.groups[group.index], group, lighting));
         groups_.back().index = g;
     }
 }
 
-MoleculeDrawer::Drawn MoleculeDrawer::make(const std::string& shaderRoot, const Group& group,
-                                           const GroupPlan& plan, const Lighting& lighting,
-                                           bool casts) const {
+MoleculeDrawer::Drawn MoleculeDrawer::make(const Group& group, const GroupPlan& plan,
+                                           const Lighting& lighting) const {
     const Material& material = group.molecule.material;
     Drawn out;
     out.count = plan.count;
     out.vertexCount = plan.vertexCount;
-    out.rows = glm::ivec4(plan.firstRow, plan.slabRows, plan.firstRecordRow, 0);
+    out.layout = {plan.vertexCount};
+    out.rows = glm::ivec4(plan.texture.firstRow, plan.texture.slabRows, plan.texture.firstRecordRow, 0);
     out.color = glm::vec3(group.color.value_or(material.color));
     out.secondColor =
         glm::vec3(group.secondColor ? *group.secondColor
@@ -52,30 +52,42 @@ MoleculeDrawer::Drawn MoleculeDrawer::make(const std::string& shaderRoot, const 
         out.corners.indices(out.indices);
     }
 
-    gpu::ProgramOptions options;
-    options.defines = {concat("STATE_WIDTH ", stateWidth)};
+    gpu::ProgramOptions& depth = out.depthOptions;
     if (!points && !material.texture.empty()) {
         out.image = loadLeafImage(*context_, group.molecule);
-        options.defines.push_back("TEXTURED");
+        depth.defines.push_back("TEXTURED");
     }
-    const std::vector<std::string> common = options.defines;
+    depth.vertex = points ? "render/points.vert" : "render/molecule.vert";
+    depth.fragment = points ? "render/points.frag" : "render/molecule.frag";
+    out.litOptions = depth;
     for (const std::string& define : lighting.defines())
-        options.defines.push_back(define);
-    options.vertex = points ? "render/points.vert" : "render/molecule.vert";
-    options.fragment = points ? "render/points.frag" : "render/molecule.frag";
-    options.label = group.name + " (picture)";
-    out.lit = gpu::Program(*context_, shaderRoot, options);
-    if (casts) {
-        options.defines = common;
-        options.defines.push_back("DEPTH_ONLY");
-        if (!points) options.fragment = "render/molecule_shadow.frag";
-        options.label = group.name + " (shadow)";
-        out.depth = gpu::Program(*context_, shaderRoot, options);
-    }
+        out.litOptions.defines.push_back(define);
+    out.litOptions.label = group.name + " (picture)";
+    depth.defines.push_back("DEPTH_ONLY");
+    if (!points) depth.fragment = "render/molecule_shadow.frag";
+    depth.label = group.name + " (shadow)";
     return out;
 }
 
-void MoleculeDrawer::bindState(const gpu::Program& program, const Drawn& group, const State& state) const {
+// The variant that reads this kind of state.
+const gpu::Program& MoleculeDrawer::program(const Drawn& group, std::array<gpu::Program, 2>& programs,
+                                            const gpu::ProgramOptions& options,
+                                            const StateView& state) const {
+    gpu::Program& program = programs[state.textures ? 0 : 1];
+    if (program) return program;
+    gpu::ProgramOptions wanted = options;
+    std::vector<std::string> defines = {concat("STATE_WIDTH ", stateWidth)};
+    if (!state.textures)
+        defines = {"STATE_BUFFERS", concat("BLOCK ", BufferLayout::block),
+                   concat("POSITION_ELEMENTS ", group.layout.positionElements()),
+                   concat("STATE_ELEMENTS ", group.layout.stateElements())};
+    wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
+    program = gpu::Program(*context_, shaderRoot_, wanted);
+    return program;
+}
+
+void MoleculeDrawer::bindTextures(const gpu::Program& program, const Drawn& group,
+                                  const TextureState& state) const {
     program.texture("positions", unit::positions, state.position.read(group.index));
     program.texture("records", unit::records, state.record.read(group.index));
     program.texture("constants", unit::constants, state.constant);
@@ -83,22 +95,35 @@ void MoleculeDrawer::bindState(const gpu::Program& program, const Drawn& group, 
     program.set("groupRows", group.rows);
 }
 
-void MoleculeDrawer::submit(const Drawn& group) const {
+void MoleculeDrawer::submit(const gpu::Program& program, const Drawn& group, const StateView& state) const {
+    if (state.textures) {
+        bindTextures(program, group, *state.textures);
+        return drawInstances(group, group.count);
+    }
+    const GroupBuffers& buffers = (*state.buffers)[group.index];
+    for (const GroupBuffers::Part& part : buffers.parts()) {
+        program.texture("states", unit::positions, buffers.oldState(part));
+        program.texture("records", unit::records, part.record);
+        if (buffers.hasNormals()) program.texture("normals", unit::normals, part.normal);
+        drawInstances(group, part.count);
+    }
+}
+
+void MoleculeDrawer::drawInstances(const Drawn& group, int count) const {
     group.corners.bind();
     if (group.indexCount > 0) {
-        glDrawElementsInstanced(GL_TRIANGLES, group.indexCount, GL_UNSIGNED_INT, nullptr, group.count);
+        glDrawElementsInstanced(GL_TRIANGLES, group.indexCount, GL_UNSIGNED_INT, nullptr, count);
     } else {
         glEnable(GL_PROGRAM_POINT_SIZE);
-        glDrawArraysInstanced(GL_POINTS, 0, group.vertexCount, group.count);
+        glDrawArraysInstanced(GL_POINTS, 0, group.vertexCount, count);
         glDisable(GL_PROGRAM_POINT_SIZE);
     }
 }
 
-void MoleculeDrawer::drawShadows(const State& state, const ShadowMap& shadow) const {
-    for (const Drawn& group : groups_) {
-        const gpu::Program& program = group.depth;
+void MoleculeDrawer::drawShadows(const StateView& state, const ShadowMap& shadow) {
+    for (Drawn& group : groups_) {
+        const gpu::Program& program = this->program(group, group.depth, group.depthOptions, state);
         program.use();
-        bindState(program, group, state);
         shadow.origin().apply(program);
         program.set("toClip", shadow.toClip());
         if (group.image) {
@@ -109,17 +134,16 @@ void MoleculeDrawer::drawShadows(const State& state, const ShadowMap& shadow) co
             program.set("pointSize", group.pointSize);
             program.set("pixelsPerMeter", shadow.pixelsPerMeter());
         }
-        submit(group);
+        submit(program, group, state);
     }
 }
 
-void MoleculeDrawer::draw(const State& state, const Eye& eye, const Lighting& lighting,
-                          bool multisampled) const {
+void MoleculeDrawer::draw(const StateView& state, const Eye& eye, const Lighting& lighting,
+                          bool multisampled) {
     if (multisampled) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-    for (const Drawn& group : groups_) {
-        const gpu::Program& program = group.lit;
+    for (Drawn& group : groups_) {
+        const gpu::Program& program = this->program(group, group.lit, group.litOptions, state);
         program.use();
-        bindState(program, group, state);
         eye.origin.apply(program);
         lighting.apply(program, eye);
         program.set("toClip", eye.toClip);
@@ -137,7 +161,7 @@ void MoleculeDrawer::draw(const State& state, const Eye& eye, const Lighting& li
             program.set("pixelsPerMeter", eye.pixelsPerMeter);
             program.set("viewToScene", eye.viewToScene);
         }
-        submit(group);
+        submit(program, group, state);
     }
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }

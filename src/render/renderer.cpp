@@ -24,7 +24,7 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       shadow_(makeShadowMap(context, scene, plan, options)),
       lighting_(scene, crownOf(scene, plan, options), shadow_.get()),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
-      molecules_(context, shaderRoot, scene, plan, lighting_, shadow_.get()),
+      molecules_(context, shaderRoot, scene, plan, lighting_),
       sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", {}, {}, "sky"}),
       tone_(context, shaderRoot, {"render/screen.vert", "render/picture.frag", {}, {}, "picture"}),
       empty_(context, "no corners"),
@@ -43,7 +43,7 @@ void Renderer::resize(int width, int height) {
     pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
 }
 
-void Renderer::draw(const State& state, const View& view) {
+void Renderer::draw(const StateView& state, const View& view) {
     const Eye eye(view, width(), height());
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
@@ -71,7 +71,7 @@ void Renderer::draw(const State& state, const View& view) {
     timers_.endFrame();
 }
 
-void Renderer::drawShadows(const State& state) {
+void Renderer::drawShadows(const StateView& state) {
     const auto timer = timers_.time("shadows");
     shadow_->begin();
     surfaces_.drawShadows(*shadow_);

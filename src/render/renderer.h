@@ -1,5 +1,5 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
-// gamma-correct. Draws straight from the state textures; moves no byte of state and writes none of it.
+// gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
 //   shadow map (depth)  ->  light (RGBA16F, several samples)  ->  resolved light  ->  picture (RGBA8, sRGB)
 #pragma once
@@ -16,7 +16,7 @@
 #include "render/molecule_drawer.h"
 #include "render/surface_drawer.h"
 #include "render/view.h"
-#include "simulate/state.h"
+#include "simulate/state_view.h"
 
 namespace shoal {
 
@@ -42,7 +42,7 @@ class Renderer {
 
     // Into the renderer's own picture; nothing of OpenGL's state is kept from before nor restored afterwards,
     // except that blending, depth and face culling are off at the end.
-    void draw(const State& state, const View& view);
+    void draw(const StateView& state, const View& view);
     // The last picture into the window's framebuffer.
     void present(int width, int height) const;
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
@@ -52,7 +52,7 @@ class Renderer {
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
-    void drawShadows(const State& state);
+    void drawShadows(const StateView& state);
     void drawSky(const Eye& eye);
     void drawPicture(double exposure);
 

@@ -226,9 +226,19 @@ const char* name(SolverKind kind);
 
 constexpr int maxSubsteps = 1000;  // of a frame
 
+// Where and how often fields are read. What is read once a frame is read where the molecule will be in the
+// middle of the frame, at that time, which keeps an error of second order in the frame.
+enum class FieldSampling {
+    vertexSubstep,  // at every vertex, every substep: as exact as the solver
+    vertexFrame,    // at every vertex, once a frame
+    moleculeFrame,  // at the molecule's middle, once a frame
+};
+const char* name(FieldSampling sampling);
+
 struct SolverSettings {
     SolverKind kind = SolverKind::leapfrog;
     int substeps = 4;  // per frame
+    FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     Location location;
 };
 

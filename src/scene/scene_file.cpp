@@ -16,6 +16,9 @@ void readSolver(JsonReader& scene, SolverSettings& solver) {
     r->choose("method", {"euler", "leapfrog"}, kind);
     solver.kind = static_cast<SolverKind>(kind);
     r->get("substeps", solver.substeps, Range::between(1, maxSubsteps));
+    int sampling = static_cast<int>(solver.fieldSampling);
+    r->choose("fieldSampling", {"vertexSubstep", "vertexFrame", "moleculeFrame"}, sampling);
+    solver.fieldSampling = static_cast<FieldSampling>(sampling);
     r->finish();
 }
 

@@ -1,24 +1,21 @@
-// Runs a plan on the ping-pong path (OpenGL 3.3): fragment passes over state textures, read one side, draw
-// into the other, swap. The layout of every texture is in compile/plan.h.
-//
-// After construction a frame moves no byte of state over the bus; `snapshot` reads it back when asked.
+// Runs a plan on one of the two paths (compile/path.h). After construction a frame moves no byte of state
+// over the bus; `snapshot` and `save` read it back when asked.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "compile/plan.h"
-#include "gpu/buffer.h"
+#include "compile/path.h"
 #include "gpu/context.h"
 #include "gpu/pass_timers.h"
-#include "gpu/program.h"
-#include "gpu/texture.h"
+#include "simulate/fused.h"
 #include "simulate/parameters.h"
-#include "simulate/state.h"
+#include "simulate/ping_pong.h"
+#include "simulate/state_view.h"
 
 namespace shoal {
 
@@ -31,52 +28,69 @@ struct Snapshot {
     std::vector<bool> released;                     // per molecule: pins let go
 };
 
+// All that a run goes on from, exact to the bit: another simulation of the same plan, on either path, can
+// take it.
+struct SavedState {
+    double time = 0;  // s
+    int frames = 0;
+    std::vector<GroupState> groups;
+};
+
+struct SimulationOptions {
+    // Normals are computed at the end of each frame, for the renderer and for exports.
+    bool drawn = true;
+    gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
+    Path path = Path::automatic;
+    bool inPlace = false;            // fused: half the memory of the state
+    Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
+    gpu::ProgramCache* cache = nullptr;
+};
+
 class Simulation {
   public:
-    // `drawn`: normals are computed at the end of each frame, for the renderer and for exports.
-    Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan, bool drawn = true,
-               gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off);
+    // Error: choosePath's; out of memory; the driver refuses a shader.
+    Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
+               const SimulationOptions& options = {});
+    Simulation(const Simulation&) = delete;  // the paths refer to the plan and the tables
+    Simulation& operator=(const Simulation&) = delete;
 
     void frame();    // advances by parameters.frameTime
     void restart();  // back to the start state, which is uploaded again
 
     Parameters parameters;
     const Plan& plan() const { return plan_; }
-    const State& state() const { return state_; }
+    const PathChoice& path() const { return choice_; }
+    Lanes lanes(size_t group) const;  // fused: how the group's molecules are spread
+    StateView state() const;
+    size_t stateBytes() const;  // on the device
     double time() const { return time_; }
     int frames() const { return frames_; }
     gpu::PassTimers& timers() { return timers_; }
-    gpu::Context& context() { return *context_; }
+    gpu::Context& context() const { return *context_; }
+    // What was done otherwise than asked, such as one side instead of two for want of memory.
+    const std::vector<Warning>& warnings() const { return warnings_; }
 
-    Snapshot snapshot(size_t group);  // state bytes are counted as read back
-    uint64_t hash();                  // of the whole state's bits (FNV-1a): same scene, same bits
+    // State bytes are counted as they cross the bus.
+    Snapshot snapshot(size_t group) const;
+    SavedState save() const;
+    void load(const SavedState& saved);
+    uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits
 
   private:
-    // The solver's times for one substep of a group.
-    struct Step {
-        double time;  // s, at its start
-        double h;     // s
-        bool first;   // of the frame
-    };
-    void runPass(const PassPlan& pass, const Step& step);
-    void records(const GroupPlan& group, size_t index, const Step& step);
-    void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
-    void restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart);
-    void advect(const GroupPlan& group, size_t index, const Step& step);
-    void collide(const GroupPlan& group, size_t index, const Step& step);
-
-    const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
-    void setSprings(const gpu::Program& program, const GroupPlan& group, double time, double predictTime);
-    void drawState(const GroupPlan& group, const gpu::Framebuffer& target);
-    void drawRecords(const GroupPlan& group, const gpu::Framebuffer& target);
+    std::variant<std::monostate, PingPong, Fused> makePath(const std::string& shaderRoot,
+                                                           const SimulationOptions& options);
+    GroupState readGroup(size_t group) const;
+    void writeGroup(size_t group, const GroupState& state);
+    void computeNormals();
 
     gpu::Context* context_;
     Plan plan_;
-    bool drawn_;
-    State state_;
-    std::vector<std::array<gpu::Program, 5>> programs_;  // per group, by PassKind
-    gpu::VertexArray noAttributes_;
+    PathChoice choice_;
+    Tables tables_;
+    bool drawn_, inPlace_ = false;
+    std::vector<Warning> warnings_;
     gpu::PassTimers timers_;
+    std::variant<std::monostate, PingPong, Fused> path_;
     double time_ = 0;  // s
     int frames_ = 0;
 };

@@ -1,68 +1,79 @@
-// Reading the state back: for exports, tests and hashes, never in a plain frame.
+// Reading the state back: for exports, tests, hashes and a change of path, never in a plain frame.
 #include <bit>
-#include <cstring>
 
 #include "simulate/simulation.h"
 
 namespace shoal {
 
-using gpu::Texture;
-using gpu::Traffic;
-
-static std::vector<glm::vec4> readRows(const Texture& texture, int firstRow, int rows) {
-    std::vector<glm::vec4> texels(size_t(rows) * stateWidth);
-    texture.download(Traffic::Kind::state, 0, firstRow, stateWidth, rows, texels.data(),
-                     texels.size() * sizeof(glm::vec4));
-    return texels;
+GroupState Simulation::readGroup(size_t index) const {
+    const GroupPlan& group = plan_.groups[index];
+    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->state[index].read(group);
+    return std::get<PingPong>(path_).state.read(group, index);
 }
 
-Snapshot Simulation::snapshot(size_t index) {
+void Simulation::writeGroup(size_t index, const GroupState& state) {
     const GroupPlan& group = plan_.groups[index];
-    const auto positions = readRows(state_.position.read(index), group.firstRow, group.rows);
-    const auto velocities = readRows(state_.velocity.read(index), group.firstRow, group.rows);
-    const auto records = readRows(state_.record.read(index), group.firstRecordRow, group.slabRows);
-    std::vector<glm::vec4> normals;
-    if (state_.normal && group.needs.normals) normals = readRows(state_.normal, group.firstRow, group.rows);
+    if (auto* fused = std::get_if<Fused>(&path_))
+        fused->state[index].write(group, state);
+    else
+        std::get<PingPong>(path_).state.write(group, index, state);
+}
 
+SavedState Simulation::save() const {
+    SavedState out{time_, frames_, {}};
+    for (size_t g = 0; g < plan_.groups.size(); ++g)
+        out.groups.push_back(readGroup(g));
+    return out;
+}
+
+void Simulation::load(const SavedState& saved) {
+    assert(saved.groups.size() == plan_.groups.size() && "a state of another plan");
+    for (size_t g = 0; g < plan_.groups.size(); ++g) {
+        assert(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
+        writeGroup(g, saved.groups[g]);
+    }
+    time_ = saved.time;
+    frames_ = saved.frames;
+    computeNormals();
+}
+
+Snapshot Simulation::snapshot(size_t index) const {
+    const GroupPlan& group = plan_.groups[index];
+    const GroupState state = readGroup(index);
     Snapshot out;
     out.time = time_;
     out.count = group.count;
     out.vertexCount = group.vertexCount;
-    const size_t total = size_t(group.count) * size_t(group.vertexCount);
-    out.positions.reserve(total);
-    out.velocities.reserve(total);
-    out.normals.reserve(total);
-    for (int m = 0; m < group.count; ++m) {
-        const size_t column = size_t(m % stateWidth), slabRow = size_t(m / stateWidth);
-        const glm::vec4 record = records[slabRow * stateWidth + column];
-        out.released.push_back(record.w > 0.5f);
-        for (int v = 0; v < group.vertexCount; ++v) {
-            const size_t texel = (size_t(v) * size_t(group.slabRows) + slabRow) * stateWidth + column;
-            out.positions.push_back(glm::dvec3(record) + glm::dvec3(positions[texel]));
-            out.velocities.push_back(glm::dvec3(velocities[texel]));
-            out.normals.push_back(normals.empty() ? glm::vec3(0) : glm::vec3(normals[texel]));
-        }
-    }
+    out.velocities.assign(state.velocities.begin(), state.velocities.end());
+    out.positions.reserve(state.positions.size());
+    const size_t vertices = size_t(group.vertexCount);
+    for (size_t i = 0; i < state.positions.size(); ++i)
+        out.positions.push_back(glm::dvec3(state.anchors[i / vertices]) + glm::dvec3(state.positions[i]));
+    out.released.assign(state.released.begin(), state.released.end());
+    out.normals.resize(state.positions.size());
+    if (!drawn_ || !group.needs.normals) return out;
+    if (const auto* fused = std::get_if<Fused>(&path_))
+        out.normals = fused->state[index].readNormals(group);
+    else
+        out.normals = std::get<PingPong>(path_).state.readNormals(group);
     return out;
 }
 
-// FNV-1a over the bits of positions, velocities and records of the molecules that exist.
-uint64_t Simulation::hash() {
+uint64_t Simulation::hash() const {
     uint64_t hash = 14695981039346656037ull;
-    const auto add = [&](const glm::vec4& texel) {
-        for (int i = 0; i < 4; ++i)
-            hash = (hash ^ std::bit_cast<uint32_t>(texel[i])) * 1099511628211ull;
+    const auto add = [&](uint32_t bits) { hash = (hash ^ bits) * 1099511628211ull; };
+    const auto addAll = [&](const std::vector<glm::vec3>& values) {
+        for (const glm::vec3& value : values)
+            for (int c = 0; c < 3; ++c)
+                add(std::bit_cast<uint32_t>(value[c]));
     };
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
-        const GroupPlan& group = plan_.groups[g];
-        const auto addMolecules = [&](const std::vector<glm::vec4>& texels, int slabs) {
-            for (int slab = 0; slab < slabs; ++slab)
-                for (int m = 0; m < group.count; ++m)
-                    add(texels[size_t(slab) * size_t(group.slabRows) * stateWidth + size_t(m)]);
-        };
-        addMolecules(readRows(state_.position.read(g), group.firstRow, group.rows), group.vertexCount);
-        addMolecules(readRows(state_.velocity.read(g), group.firstRow, group.rows), group.vertexCount);
-        addMolecules(readRows(state_.record.read(g), group.firstRecordRow, group.slabRows), 1);
+        const GroupState state = readGroup(g);
+        addAll(state.positions);
+        addAll(state.velocities);
+        addAll(state.anchors);
+        for (const uint8_t released : state.released)
+            add(released);
     }
     return hash;
 }

@@ -1,8 +1,11 @@
 // What the tests of OpenGL share.
 #pragma once
 
+#include "compile/path.h"
 #include "gpu/context.h"
 
 // The one context of the process: SHOAL_TEST_CONTEXT=egl|osmesa|window, egl when it is not set. Current when
 // a test begins; a test that makes others current puts it back.
 shoal::gpu::Context& testContext();
+// The path that simulations are tested on: SHOAL_TEST_PATH=fused|ping-pong, else what the context can do.
+shoal::Path testPath();

@@ -19,6 +19,11 @@ Context& testContext() {
     return *sharedContext;
 }
 
+shoal::Path testPath() {
+    const char* word = std::getenv("SHOAL_TEST_PATH");
+    return shoal::path(word != nullptr ? word : "auto");
+}
+
 int main(int argc, char** argv) {
     try {
         const char* word = std::getenv("SHOAL_TEST_CONTEXT");

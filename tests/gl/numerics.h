@@ -41,7 +41,8 @@ inline void setSteps(Scene& scene, double frameTime, int substeps) {
 }
 
 inline Simulation simulationOf(const Scene& scene, bool drawn = false) {
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), drawn);
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                      {.drawn = drawn, .path = testPath()});
 }
 
 inline void run(Simulation& simulation, int frames) {
@@ -66,7 +67,8 @@ inline reference::Problem problemOf(const Scene& scene, int molecule) {
     out.scale = place(scene, 0)[size_t(molecule)].scale;
     out.stiffness = group.stiffness;
     out.damping = group.damping;
-    if (group.phaseSpread > 0) out.phase = double(compile(scene).constants[size_t(molecule)].z);
+    if (group.phaseSpread > 0)
+        out.phase = double(compile(scene).groups[0].constants.phases[size_t(molecule)]);
     out.held = group.held;
     out.gravity = scene.gravity;
     out.drag = group.drag;

@@ -59,7 +59,7 @@ inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.
     gpu::Context& context = testContext();
     const Plan plan = compile(scene);
     Renderer renderer(context, shaderRoot(), scene, plan, options);
-    Simulation simulation(context, shaderRoot(), plan);
+    Simulation simulation(context, shaderRoot(), plan, {.path = testPath()});
     for (int i = 0; i < frames; ++i)
         simulation.frame();
     Shown out;

@@ -12,7 +12,8 @@ static gpu::Traffic trafficOfFrames(gpu::PassTimers::Mode timing, int frames) {
     const Scene scene = readScene(SHOAL_SOURCE_DIR "/models/hello/hello.scene.json");
     const Plan plan = compile(scene);
     const std::string shaders = SHOAL_SOURCE_DIR "/shaders";
-    Simulation simulation(testContext(), shaders, plan, true, timing);
+    Simulation simulation(testContext(), shaders, plan,
+                          {.drawn = true, .timing = timing, .path = testPath()});
     RenderOptions size;
     size.width = 160;
     size.height = 90;
@@ -43,7 +44,7 @@ TEST_CASE("timing passes with queries stays within the control bytes", "[traffic
 
 TEST_CASE("reading a snapshot is counted as state", "[traffic]") {
     const Plan plan = compile(readScene(SHOAL_SOURCE_DIR "/models/hello/hello.scene.json"));
-    Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan);
+    Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, {.path = testPath()});
     const gpu::Traffic before = testContext().traffic();
     simulation.snapshot(0);
     CHECK((testContext().traffic() - before).down(Kind::state) > 0);

@@ -53,7 +53,8 @@ double errorOf(gpu::Context& context, SolverKind solver) {
     scene.colliders.clear();
     Group& group = scene.groups[0];
     group.spin = {3, -4, 2};
-    Simulation simulation(context, SHOAL_SOURCE_DIR "/shaders", compile(scene), false);
+    Simulation simulation(context, SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                          {.drawn = false, .path = Path::pingPong});
     const Snapshot start = simulation.snapshot(0);
     for (int i = 0; i < 60; ++i)
         simulation.frame();
@@ -117,12 +118,13 @@ static int measure(int argc, char** argv) {
     std::vector<Measured> runs;
     for (const int count : {1000, 16000, 131000})
         for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
-            runs.push_back({count,
-                            name(solver),
-                            std::make_unique<Simulation>(context, SHOAL_SOURCE_DIR "/shaders",
-                                                         compile(quads(count, solver)), true,
-                                                         gpu::PassTimers::Mode::finish),
-                            {}});
+            runs.push_back(
+                {count,
+                 name(solver),
+                 std::make_unique<Simulation>(
+                     context, SHOAL_SOURCE_DIR "/shaders", compile(quads(count, solver)),
+                     SimulationOptions{.timing = gpu::PassTimers::Mode::finish, .path = Path::pingPong}),
+                 {}});
     for (int round = -1; round < rounds; ++round) {
         for (Measured& run : runs) {
             glFinish();

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "compile/generate.h"
+#include "compile/path.h"
 #include "compile/plan.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
@@ -126,13 +127,12 @@ TEST_CASE("groups share the textures row by row", "[plan]") {
     scene.groups.push_back(sceneWith("point", 5).groups[0]);
     const Plan plan = compile(scene);
     REQUIRE(plan.groups.size() == 2);
-    CHECK(plan.groups[0].slabRows == 2);
-    CHECK(plan.groups[0].rows == 8);
-    CHECK(plan.groups[1].firstRow == 8);
-    CHECK(plan.groups[1].firstRecordRow == 2);
+    CHECK(plan.groups[0].texture.slabRows == 2);
+    CHECK(plan.groups[0].texture.rows == 8);
+    CHECK(plan.groups[1].texture.firstRow == 8);
+    CHECK(plan.groups[1].texture.firstRecordRow == 2);
     CHECK(plan.rows == 9);
     CHECK(plan.recordRows == 3);
-    CHECK(plan.positions.size() == size_t(9 * stateWidth));
 }
 
 TEST_CASE("start positions are the placed vertices, relative to an anchor on the lattice", "[plan]") {
@@ -143,11 +143,11 @@ TEST_CASE("start positions are the placed vertices, relative to an anchor on the
     group.place.items = {{{1e5, 2, -3}, {1, 0, 0, 0}, 2}, {{0.03, 0, 0}, {1, 0, 0, 0}, 1}};
     const Plan plan = compile(scene);
     for (size_t m = 0; m < 2; ++m) {
-        const glm::vec4 record = plan.records[m];
-        const glm::vec3 cells = glm::vec3(record) * 16.0f;
+        const GroupState& start = plan.groups[0].start;
+        const glm::vec3 cells = start.anchors[m] * 16.0f;
         CHECK(cells == glm::floor(cells));
         for (size_t v = 0; v < 4; ++v) {
-            const glm::dvec3 world = glm::dvec3(record) + glm::dvec3(plan.positions[v * stateWidth + m]);
+            const glm::dvec3 world = glm::dvec3(start.anchors[m]) + glm::dvec3(start.positions[m * 4 + v]);
             const Placement::Item& item = group.place.items[m];
             const glm::dvec3 expected = item.position + item.scale * group.molecule.vertices[v].position;
             // half a float's spacing within 1 m of the anchor, however far the anchor is
@@ -197,9 +197,49 @@ TEST_CASE("sliders ask for the substeps that a stiffer or more damped molecule n
     CHECK(1.0 / 60 / stiff * 10 <= plan.groups[0].stableStep);
 }
 
-TEST_CASE("more than the context holds is refused with what would fit", "[plan]") {
-    const Scene scene = sceneWith("fish", 100000);
-    CHECK_THAT(messageOf([&] { compile(scene, {2048}); }),
+TEST_CASE("more than the textures hold is refused with what would fit", "[plan]") {
+    PathLimits limits;
+    limits.maxTextureSize = 2048;
+    const Plan large = compile(sceneWith("fish", 100000)), small = compile(sceneWith("fish", 80000));
+    CHECK_THAT(messageOf([&] { choosePath(large, Path::pingPong, limits); }),
                Catch::Contains("147 MiB") && Catch::Contains("at most 87040"));
-    CHECK_NOTHROW(compile(sceneWith("fish", 80000), {2048}));
+    CHECK(choosePath(small, Path::pingPong, limits).path == Path::pingPong);
+    CHECK(choosePath(large, Path::automatic, limits).path == Path::fused);
+    limits.compute = false;
+    CHECK_THROWS_AS(choosePath(large, Path::automatic, limits), Error);
+    CHECK(choosePath(small, Path::automatic, limits).path == Path::pingPong);
+}
+
+TEST_CASE("the fused path is refused without compute shaders, with the version", "[plan]") {
+    PathLimits limits;
+    limits.compute = false;
+    limits.version = "3.3";
+    const Plan plan = compile(sceneWith("quad"));
+    CHECK_THAT(messageOf([&] { choosePath(plan, Path::fused, limits); }),
+               Catch::Contains("OpenGL 4.3") && Catch::Contains("3.3"));
+    const PathChoice choice = choosePath(plan, Path::automatic, limits);
+    CHECK(choice.path == Path::pingPong);
+    CHECK_THAT(choice.why, Catch::Contains("OpenGL 4.3"));
+}
+
+TEST_CASE("a molecule beyond the device's shared memory is refused with the number that fits", "[plan]") {
+    Scene scene = sceneWith("point");
+    Molecule& molecule = scene.groups[0].molecule;
+    molecule.vertices.resize(400);
+    PathLimits limits;
+    const Plan plan = compile(scene);
+    CHECK_THAT(messageOf([&] { choosePath(plan, Path::fused, limits); }),
+               Catch::Contains("400 vertices") &&
+                   Catch::Contains(concat("at most ", FusedLimits::workgroup(limits))));
+    CHECK(choosePath(plan, Path::automatic, limits).path == Path::pingPong);
+    molecule.vertices.resize(size_t(FusedLimits::workgroup(limits)));
+    CHECK(choosePath(compile(scene), Path::fused, limits).path == Path::fused);
+}
+
+TEST_CASE("the bytes of a quad on the fused path", "[plan]") {
+    // 4 vertices of 6 floats, twice, and a record: 192 + 16; in place 96 + 16; normals 48 more
+    const Plan plan = compile(sceneWith("quad", 1024));
+    CHECK(stateBytes(plan, Path::fused, false) == 1024 * 208);
+    CHECK(stateBytes(plan, Path::fused, false, true) == 1024 * 112);
+    CHECK(stateBytes(plan, Path::fused, true) == 1024 * 256);
 }

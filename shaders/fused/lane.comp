@@ -1,0 +1,102 @@
+// The fused step, one lane a molecule: reads it once, runs all substeps of the frame in registers, writes it once.
+#include "physics/anchor.glsl"
+
+#ifdef PAIRED_STORES
+// Half as many stores, which a CPU rasteriser makes one by one.
+#define ELEMENT dvec2
+dvec2 stored(vec4 value)
+{
+    return dvec2(packDouble2x32(floatBitsToUint(value.xy)), packDouble2x32(floatBitsToUint(value.zw)));
+}
+#else
+#define ELEMENT vec4
+vec4 stored(vec4 value)
+{
+    return value;
+}
+#endif
+layout(std430, binding = 0) writeonly buffer NewState { ELEMENT newState[]; };
+#ifdef RECORDS
+layout(std430, binding = 1) writeonly buffer NewRecords { vec4 newRecords[]; };
+#endif
+#ifdef NORMALS
+layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
+#endif
+
+#include "generated/packing.glsl"
+
+// The anchor follows the molecule by steps of its lattice, exactly.
+bool followAnchor()
+{
+    vec3 shift = anchorShift(x[0]);
+    if (shift == vec3(0.0)) return false;
+    for (int i = 0; i < VERTICES; ++i) {
+        x[i] -= shift;
+    }
+    anchor += shift;
+    return true;
+}
+
+void run()
+{
+    int done = 0;
+#ifdef COLLIDE
+#ifdef GROUP_VOTE
+    // All neighbours that run in step look for contacts together: where nothing touches, nothing is paid for it,
+    // also on devices that run both sides of every branch.
+    do {
+        bool found;
+        do {
+            advance(done);
+            ++done;
+            found = findContacts();
+        } while (!anyInvocationARB(found) && done < substeps);
+        resolveContacts();
+    } while (done < substeps);
+#else
+    for (; done < substeps; ++done) {
+        advance(done);
+        if (findContacts()) resolveContacts();
+    }
+#endif
+#else
+    for (; done < substeps; ++done) advance(done);
+#endif
+}
+
+#ifdef NORMALS
+void writeNormals(int molecule)
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i];
+    }
+    surfaceNormals();
+    storeNormals(molecule);
+}
+#endif
+
+void main()
+{
+    int molecule = int(gl_GlobalInvocationID.x);
+    if (molecule >= moleculeCount) return;
+    loadState(molecule);
+#ifndef ONLY_NORMALS
+    loadRecord(molecule);
+    bool wasReleased = released;
+    bool moved = false;
+#ifdef RECORDS
+    moved = followAnchor();
+#endif
+    beginSolver();
+    sampleFrame();
+    run();
+    finishSolver();
+    storeState(molecule);
+#ifdef RECORDS
+    if (moved || released != wasReleased) newRecords[molecule] = recordNow();
+#endif
+#endif
+#ifdef NORMALS
+    writeNormals(molecule);
+#endif
+}

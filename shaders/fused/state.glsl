@@ -1,0 +1,95 @@
+// One molecule in the registers of one lane (or, with SHARED_MOLECULE, in the shared memory of one workgroup,
+// a vertex a lane): what the fused step works on between reading the state and writing it.
+//
+// The state in memory is packed: the 3 VERTICES floats of the positions follow one another in
+// POSITION_ELEMENTS 4-vectors, then the velocities in as many more. Molecules lie in blocks of BLOCK:
+//
+//   4-vector e of molecule m:   (m / BLOCK) * BLOCK * STATE_ELEMENTS + e * BLOCK + m % BLOCK
+//
+// so that neighbouring lanes touch neighbouring memory and a block is one contiguous piece. Normals lie alike, with
+// POSITION_ELEMENTS. A record is one 4-vector a molecule: xyz anchor (m); w: 1 + seed, negative once the pins have
+// let go. The constants, where instances differ: x scale, y phase of the muscles (rad).
+//
+// Set by C++ (src/simulate/fused.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
+layout(local_size_x = LANES) in;
+
+uniform samplerBuffer oldState;
+uniform samplerBuffer oldRecords;
+uniform samplerBuffer constants;
+
+uniform int moleculeCount;
+uniform int frame;            // number of this frame, from 0
+uniform int substeps;         // of a frame
+uniform float substep;        // h, s
+uniform float frameTime;      // s, at the start of the frame
+uniform float frameDuration;  // s
+uniform vec3 gravity;         // m/s^2
+uniform float wind;           // factor on the fields
+uniform vec2 decay;           // 1 - exp(-gamma h) across and along the surface
+uniform vec2 phi;             // decay / gamma, h where gamma = 0
+uniform float stiffnessFactor;
+uniform float dampingFactor;
+uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule let go
+uniform float releaseChance;  // in this frame
+uniform vec3 driftOfStep;     // physics/collide.glsl: step, kickDrift, lag
+
+#ifdef SHARED_MOLECULE
+#define PER_VERTEX shared vec3
+#else
+#define PER_VERTEX vec3
+#endif
+
+PER_VERTEX x[VERTICES];       // m, relative to the anchor
+PER_VERTEX v[VERTICES];       // m/s
+PER_VERTEX w[VERTICES];       // m/s, as the springs' damping sees it
+PER_VERTEX force[VERTICES];   // N, of the springs
+PER_VERTEX probe[VERTICES];   // m, where drag is taken
+PER_VERTEX fluid[VERTICES];   // m/s, the fields' velocity there
+PER_VERTEX normal[VERTICES];  // unit, of the surface there
+#ifdef COMING_KICK
+PER_VERTEX comingKick[VERTICES];  // m/s, what the springs still owe the velocity when contact looks at it
+#endif
+
+vec3 anchor;            // m
+float scale = 1.0;      // of the rest lengths
+float phase = 0.0;      // rad
+bool released = false;  // the pins have let go
+uint seed;
+
+// Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so that
+// every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own vertices,
+// after all lanes have met. Loops over j are the same for bodies so long that writing them out does not pay
+// (src/simulate/vertex_loops.h).
+
+// Before a vertex is read by a lane that did not write it.
+void meet()
+{
+#ifdef SHARED_MOLECULE
+    memoryBarrierShared();
+    barrier();
+#endif
+}
+
+int firstElement(int molecule, int elements)
+{
+    return (molecule / BLOCK) * (BLOCK * elements) + molecule % BLOCK;
+}
+
+void loadRecord(int molecule)
+{
+    vec4 record = texelFetch(oldRecords, molecule);
+    anchor = record.xyz;
+    released = record.w < 0.0;
+    seed = uint(abs(record.w)) - 1u;
+#ifdef CONSTANTS
+    vec4 constant = texelFetch(constants, molecule);
+    scale = constant.x;
+    phase = constant.y;
+#endif
+}
+
+vec4 recordNow()
+{
+    float label = float(seed + 1u);
+    return vec4(anchor, released ? -label : label);
+}

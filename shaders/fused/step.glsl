@@ -1,0 +1,75 @@
+// What a solver calls in a substep beside the springs: fields, drag and gravity, pins that let go. Needs
+// fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl.
+#include "physics/drag.glsl"
+#include "physics/random.glsl"
+
+bool isHeld(bool pinned)
+{
+#ifdef PINS
+    return pinned && !released;
+#else
+    return false;
+#endif
+}
+
+// The first forces of a frame decide whether the molecule's pins hold. To be called after springForces.
+void letGo(int step)
+{
+#ifdef RELEASE
+    if (step > 0 || released) return;
+    meet();
+    released = pullOnPins() > releaseForce || uniformFrom(hashSeed(seed, uint(frame))) < releaseChance;
+#endif
+}
+
+#ifdef FIELDS
+vec3 fieldAt(vec3 position, float time)
+{
+    return wind * fluidVelocity(anchor, position, time);
+}
+#endif
+
+// Fields that are read once a frame are read where the molecule will be in the middle of it.
+void sampleFrame()
+{
+#if defined(FIELDS) && !defined(SAMPLE_SUBSTEPS)
+    float middle = frameTime + 0.5 * frameDuration;
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i] + v[i] * (0.5 * frameDuration);
+    }
+#ifdef SAMPLE_MOLECULE
+    meet();
+    vec3 u = fieldAt(meanProbe(), middle);
+    for (int i = 0; i < VERTICES; ++i) {
+        fluid[i] = u;
+    }
+#else
+    for (int j = 0; j < VERTICES; ++j) {
+        fluid[j] = fieldAt(probe[j], middle);
+    }
+#endif
+#endif
+}
+
+// The others at every probe, now.
+void sampleSubstep(float time)
+{
+#if defined(FIELDS) && defined(SAMPLE_SUBSTEPS)
+    for (int j = 0; j < VERTICES; ++j) {
+        fluid[j] = fieldAt(probe[j], time);
+    }
+#endif
+}
+
+// Drag towards u and gravity over a substep, exactly; n is the surface's normal.
+vec3 dragged(vec3 velocity, vec3 u, vec3 n)
+{
+#ifndef FIELDS
+    u = vec3(0.0);
+#endif
+#ifdef DIRECTIONAL_DRAG
+    return directionalDragAndGravity(velocity, u, gravity, n, decay, phi);
+#else
+    return dragAndGravity(velocity, u, gravity, decay.y, phi.y);
+#endif
+}

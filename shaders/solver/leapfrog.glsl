@@ -1,0 +1,68 @@
+// leapfrog: order 2; one evaluation of the springs a substep, and one more to start a frame.
+//   v += a h/2;  x1 = x + v h/2;  v += drag and gravity over h at x1, t + h/2;  x = x1 + v h/2;  contact;
+//   a = F(x, v + a h/2, t + h) / m;  v += a h/2
+// The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
+// one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
+#define SOLVER_LEAPFROG
+
+#ifdef SPRINGS
+PER_VERTEX acceleration[VERTICES];  // m/s^2, of the springs
+#endif
+
+void beginSolver()
+{
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        acceleration[i] = vec3(0.0);
+    }
+#endif
+}
+
+// Forces at time, from the velocity kickTime ahead, and the kick over kickTime. `step`: substeps done.
+void kickBySprings(int step, float kickTime)
+{
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i] + acceleration[i] * kickTime;
+    }
+    springForces(frameTime + float(step) * substep);
+    letGo(step);
+    for (int i = 0; i < VERTICES; ++i) {
+        acceleration[i] = isHeld(pinned[i]) ? vec3(0.0) : force[i] * inverseMass[i];
+        v[i] += acceleration[i] * kickTime;
+    }
+#endif
+}
+
+// A substep up to contact.
+void advance(int step)
+{
+    float halfStep = 0.5 * substep;
+    kickBySprings(step, step == 0 ? 0.0 : halfStep);
+    for (int i = 0; i < VERTICES; ++i) {
+#ifdef SPRINGS
+        v[i] += acceleration[i] * halfStep;
+#endif
+        probe[i] = x[i] + v[i] * halfStep;
+    }
+#ifdef DIRECTIONAL_DRAG
+    surfaceNormals();
+#endif
+    sampleSubstep(frameTime + (float(step) + 0.5) * substep);
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) {
+            vec3 before = v[i];
+            v[i] = dragged(v[i], fluid[i], normal[i]);
+            // added at once: one rounding, so that contact can take a drift back exactly
+            x[i] += (before + v[i]) * halfStep;
+        }
+#ifdef COMING_KICK
+        comingKick[i] = acceleration[i] * halfStep;
+#endif
+    }
+}
+
+void finishSolver()
+{
+    kickBySprings(substeps, 0.5 * substep);
+}

@@ -1,0 +1,29 @@
+// A group's state outside the GPU, exact to the bit and the same for every path: where a run starts, what is
+// carried from one path to the other, what tests compare.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace shoal {
+
+// What changes. Vertices: index = molecule * vertexCount + vertex. The others: one entry a molecule.
+struct GroupState {
+    std::vector<glm::vec3> positions;   // m, relative to the molecule's anchor
+    std::vector<glm::vec3> velocities;  // m/s
+    std::vector<glm::vec3> anchors;     // m, on the lattice of 1/16 m
+    std::vector<uint8_t> released;      // 1: the pins have let go
+
+    bool operator==(const GroupState&) const = default;
+};
+
+// What does not, one entry a molecule.
+struct GroupConstants {
+    std::vector<uint32_t> seeds;  // below 2^24, so that a float holds them
+    std::vector<float> scales;    // of the rest lengths
+    std::vector<float> phases;    // rad, added to every actuation
+};
+
+}  // namespace shoal

@@ -1,0 +1,182 @@
+#include "compile/kernel.h"
+
+#include <algorithm>
+#include <charconv>
+#include <numbers>
+
+#include "core/error.h"
+
+namespace shoal {
+
+namespace {
+
+// The shortest text of a float that reads back as the same float, and as a float in GLSL.
+std::string literal(double value) {
+    char text[32];
+    const auto end = std::to_chars(text, text + sizeof text, float(value)).ptr;
+    std::string out(text, end);
+    if (out.find_first_of(".en") == std::string::npos) out += ".0";
+    return out;
+}
+
+std::string at(const char* array, int index) {
+    return concat(array, "[", index, "]");
+}
+
+// const float inverseMass[VERTICES] = float[](...)
+template <typename Value>
+std::string constantArray(const char* type, const char* name, size_t count, Value value) {
+    std::string out = concat("const ", type, " ", name, "[VERTICES] = ", type, "[](");
+    for (size_t i = 0; i < count; ++i)
+        out += (i == 0 ? "" : ", ") + value(i);
+    return out + ");\n";
+}
+
+std::string moleculeText(const Molecule& molecule, const Needs& needs) {
+    const size_t count = molecule.vertices.size();
+    std::string out = concat("// ", count, " vertices, ", molecule.springs.size(), " springs, ",
+                             molecule.triangles.size(), " triangles\n");
+    out += constantArray("float", "inverseMass", count,
+                         [&](size_t v) { return literal(1 / molecule.vertices[v].mass); });
+    out += constantArray("bool", "pinned", count, [&](size_t v) {
+        return std::string(needs.pins && molecule.vertices[v].pinned ? "true" : "false");
+    });
+    if (needs.release) {
+        out +=
+            "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = "
+            "0.0;\n";
+        for (size_t v = 0; v < count; ++v)
+            if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
+        out += "    return pull;\n}\n";
+    }
+    out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
+    for (size_t v = 1; v < count; ++v)
+        out += concat("    sum += probe[", v, "];\n");
+    return out + concat("    return sum * ", literal(1 / double(count)), ";\n}\n");
+}
+
+std::string restLength(const Molecule& molecule, const Spring& spring, const Needs& needs) {
+    std::string length = literal(molecule.restLength(spring));
+    if (needs.scale) length += " * scale";
+    if (!spring.actuation || spring.actuation->amplitude == 0) return length;
+    const Actuation& muscle = *spring.actuation;
+    return concat("actuatedLength(", length, ", ", literal(muscle.amplitude), ", ",
+                  literal(2 * std::numbers::pi * muscle.frequency), " * time + ", literal(muscle.phase),
+                  needs.phase ? " + phase)" : ")");
+}
+
+std::string springText(const Molecule& molecule, const Needs& needs) {
+    std::string out =
+        "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
+        "void springForces(float time)\n{\n"
+        "    for (int i = 0; i < VERTICES; ++i) {\n        force[i] = vec3(0.0);\n    }\n    vec3 f;\n";
+    for (const Spring& spring : molecule.springs) {
+        const std::string relative =
+            spring.damping > 0 ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
+        out += concat("    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ", relative,
+                      ", ", literal(spring.stiffness), " * stiffnessFactor, ", literal(spring.damping),
+                      " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    ",
+                      at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+    }
+    return out + "}\n";
+}
+
+std::string normalText(const Molecule& molecule) {
+    std::string out =
+        "\n// Unit normals of the surface through the probes.\nvoid surfaceNormals()\n{\n"
+        "    for (int i = 0; i < VERTICES; ++i) {\n        normal[i] = vec3(0.0);\n    }\n    vec3 n;\n";
+    std::vector<bool> covered(molecule.vertices.size());
+    for (const Triangle& t : molecule.triangles) {
+        out += concat("    n = areaVector(", at("probe", t.b), " - ", at("probe", t.a), ", ",
+                      at("probe", t.c), " - ", at("probe", t.a), ");\n");
+        for (const int corner : {t.a, t.b, t.c}) {
+            out += concat("    ", at("normal", corner), " += n;\n");
+            covered[size_t(corner)] = true;
+        }
+    }
+    for (size_t v = 0; v < covered.size(); ++v)
+        if (covered[v])
+            out += concat("    normal[", v, "] = unitNormal(normal[", v, "], vec3(0.0, 1.0, 0.0));\n");
+    return out + "}\n";
+}
+
+// "x[1].yz" for floats `from` to `to` of the vertices' floats in a row, all of one vertex.
+std::string components(const char* array, int from, int to) {
+    static constexpr const char* names[] = {"x", "y", "z"};
+    std::string out = concat(array, "[", from / 3, "]");
+    if (to - from == 3) return out;
+    out += ".";
+    for (int k = from; k < to; ++k)
+        out += names[k % 3];
+    return out;
+}
+
+// The floats of 4-vector e, cut where a vertex ends: calls visit(first float, last + 1).
+template <typename Visit>
+void forEachPart(int e, int floats, Visit visit) {
+    for (int from = 4 * e; from < std::min(4 * e + 4, floats);) {
+        const int to = std::min({from - from % 3 + 3, 4 * e + 4, floats});
+        visit(from, to);
+        from = to;
+    }
+}
+
+std::string loadText(const char* array, int firstElement, int elements, int floats) {
+    std::string out;
+    for (int e = 0; e < elements; ++e) {
+        out +=
+            concat("    e = texelFetch(oldState, first + ", (firstElement + e) * BufferLayout::block, ");\n");
+        forEachPart(e, floats, [&](int from, int to) {
+            out += concat("    ", components(array, from, to), " = e.",
+                          std::string("xyzw").substr(size_t(from - 4 * e), size_t(to - from)), ";\n");
+        });
+    }
+    return out;
+}
+
+std::string storeText(const char* array, const char* buffer, const char* wrap, int firstElement, int elements,
+                      int floats) {
+    std::string out;
+    for (int e = 0; e < elements; ++e) {
+        std::string parts;
+        forEachPart(e, floats, [&](int from, int to) {
+            parts += (parts.empty() ? "" : ", ") + components(array, from, to);
+        });
+        for (int k = floats; k < 4 * e + 4; ++k)
+            parts += ", 0.0";
+        out += concat("    ", buffer, "[first + ", (firstElement + e) * BufferLayout::block, "] = ", wrap,
+                      "(vec4(", parts, "));\n");
+    }
+    return out;
+}
+
+std::string packingText(const Molecule& molecule, const Needs& needs) {
+    const BufferLayout layout{int(molecule.vertices.size())};
+    const int elements = layout.positionElements(), floats = 3 * layout.vertexCount;
+    std::string out =
+        "void loadState(int molecule)\n{\n"
+        "    int first = firstElement(molecule, STATE_ELEMENTS);\n    vec4 e;\n";
+    out += loadText("x", 0, elements, floats) + loadText("v", elements, elements, floats);
+    out += "}\n\nvoid storeState(int molecule)\n{\n    int first = firstElement(molecule, STATE_ELEMENTS);\n";
+    out += storeText("x", "newState", "stored", 0, elements, floats);
+    out += storeText("v", "newState", "stored", elements, elements, floats) + "}\n";
+    if (!needs.normals) return out;
+    out +=
+        "\n#ifdef NORMALS\nvoid storeNormals(int molecule)\n{\n"
+        "    int first = firstElement(molecule, POSITION_ELEMENTS);\n";
+    return out + storeText("normal", "newNormals", "stored", 0, elements, floats) + "}\n#endif\n";
+}
+
+}  // namespace
+
+KernelText kernelText(const Molecule& molecule, const Needs& needs) {
+    KernelText text;
+    text.molecule = moleculeText(molecule, needs);
+    text.forces = "#include \"physics/normal.glsl\"\n#include \"physics/spring.glsl\"\n\n";
+    if (needs.springs) text.forces += springText(molecule, needs);
+    if (needs.normals) text.forces += normalText(molecule);
+    text.packing = packingText(molecule, needs);
+    return text;
+}
+
+}  // namespace shoal

@@ -1,0 +1,35 @@
+// The part of the fused step that belongs to one molecule type, as GLSL: straight-line springs and triangles
+// with the topology, rest lengths and relative stiffness as constants, and how the state is packed. Numbers
+// that a slider moves are uniforms (shaders/fused/state.glsl), so that none of them compiles anything.
+#pragma once
+
+#include <string>
+
+#include "compile/needs.h"
+#include "molecule/molecule.h"
+
+namespace shoal {
+
+struct KernelText {
+    std::string molecule;  // generated/molecule.glsl: masses, pins; for a lane and for a workgroup
+    std::string forces;    // generated/forces.glsl: springForces, surfaceNormals; for a lane
+    std::string packing;   // generated/packing.glsl: loadState, storeState, storeNormals; for a lane
+};
+
+KernelText kernelText(const Molecule& molecule, const Needs& needs);
+
+// How the fused path stores a molecule (shaders/fused/state.glsl).
+struct BufferLayout {
+    static constexpr int block = 32;  // molecules that lie together
+    int vertexCount = 0;
+
+    int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals
+    int stateElements() const { return 2 * positionElements(); }
+    // Of the 4-vector e of molecule m, with `elements` a molecule.
+    static size_t index(size_t m, int e, int elements) {
+        return m / block * block * size_t(elements) + size_t(e) * block + m % block;
+    }
+    static size_t padded(size_t molecules) { return (molecules + block - 1) / block * block; }
+};
+
+}  // namespace shoal

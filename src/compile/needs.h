@@ -1,0 +1,24 @@
+#pragma once
+
+namespace shoal {
+
+// What of the physics a group needs. Every pass, buffer and shader branch hangs on one of these.
+struct Needs {
+    bool fields = false;  // there is a field and the group has drag
+    bool drag = false;
+    bool directionalDrag = false;
+    bool gravity = false;
+    bool springs = false;
+    bool springDamping = false;
+    bool actuation = false;
+    bool pins = false;     // some vertex is held at the start
+    bool release = false;  // and may be let go
+    bool records = false;  // anchors move or pins are released
+    bool scale = false;    // instances differ from the molecule's own size
+    bool phase = false;    // and in the phase of their muscles
+    bool collide = false;
+    bool normals = false;       // the shape has triangles
+    bool acceleration = false;  // the solver keeps the springs' acceleration
+};
+
+}  // namespace shoal

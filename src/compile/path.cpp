@@ -1,0 +1,140 @@
+#include "compile/path.h"
+
+#include <algorithm>
+
+namespace shoal {
+
+namespace {
+
+// All groups' vertices share the rows of one texture.
+void checkTextures(const Plan& plan, const PathLimits& limits) {
+    int64_t rows = 0;
+    for (const GroupPlan& group : plan.groups) {
+        const int64_t own = group.texture.rows, vertices = group.vertexCount;
+        if (rows + own > limits.maxTextureSize) {
+            const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
+            throw Error(
+                group.location,
+                concat(group.count, " molecules of ", vertices, " vertices take ", own,
+                       " rows of the ping-pong path's textures (", (own * stateWidth * 16 * 4) >> 20, " MiB)",
+                       rows > 0 ? ", beside the groups before" : "", "; this context holds ",
+                       limits.maxTextureSize - rows, " more rows: at most ", fit, " such molecules fit"));
+        }
+        rows += own;
+    }
+}
+
+// Both paths read these.
+void checkTables(const Plan& plan, const PathLimits& limits) {
+    const auto check = [&](int rows, const char* what) {
+        if (rows > limits.maxTextureSize)
+            throw Error(concat(what, " need a texture of ", rows, " rows; this context holds ",
+                               limits.maxTextureSize));
+    };
+    check(plan.topologyRows, "the molecules' springs and triangles");
+    check(plan.sampleRows, "the grids and height fields");
+}
+
+void checkPingPong(const Plan& plan, const PathLimits& limits) {
+    if (plan.fieldSampling != FieldSampling::vertexSubstep)
+        throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
+                           name(plan.fieldSampling), " needs the fused path"));
+    checkTextures(plan, limits);
+}
+
+// A molecule that is too large for a workgroup's shared memory.
+void checkFused(const Plan& plan, const PathLimits& limits) {
+    if (!limits.compute)
+        throw Error(concat("the fused path needs OpenGL 4.3; this context has ", limits.version));
+    const int most =
+        std::max(FusedLimits::workgroup(limits), limits.software ? FusedLimits::softwareLane : 0);
+    for (const GroupPlan& group : plan.groups) {
+        if (group.vertexCount <= most) continue;
+        throw Error(group.location,
+                    concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
+                           " vertices; the fused path holds at most ", most, " on this device"));
+    }
+}
+
+template <typename Check>
+std::string complaintOf(const Check& check) {
+    try {
+        check();
+    } catch (const Error& error) {
+        return error.message();
+    }
+    return {};
+}
+
+}  // namespace
+
+const char* name(Path path) {
+    static constexpr const char* names[] = {"auto", "fused", "ping-pong"};
+    return names[size_t(path)];
+}
+
+Path path(const std::string& word) {
+    for (const Path path : {Path::automatic, Path::fused, Path::pingPong})
+        if (word == name(path)) return path;
+    throw Error(concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "ping-pong"})));
+}
+
+const char* name(Lanes lanes) {
+    static constexpr const char* names[] = {"auto", "molecule", "vertex"};
+    return names[size_t(lanes)];
+}
+
+Lanes lanes(const std::string& word) {
+    for (const Lanes lanes : {Lanes::automatic, Lanes::molecule, Lanes::vertex})
+        if (word == name(lanes)) return lanes;
+    throw Error(concat("unknown lanes \"", word, "\"", suggestion(word, {"auto", "molecule", "vertex"})));
+}
+
+Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
+    const int most = limits.software ? FusedLimits::softwareLane : FusedLimits::gpuLane;
+    if (wanted == Lanes::automatic) return group.vertexCount <= most ? Lanes::molecule : Lanes::vertex;
+    if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::softwareLane)
+        throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
+                                           " vertices; a lane holds at most ", FusedLimits::softwareLane));
+    return wanted;
+}
+
+PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
+    checkTables(plan, limits);
+    if (wanted == Path::pingPong) {
+        checkPingPong(plan, limits);
+        return {Path::pingPong, "as asked"};
+    }
+    if (wanted == Path::fused) {
+        checkFused(plan, limits);
+        return {Path::fused, "as asked"};
+    }
+    const std::string fused = complaintOf([&] { checkFused(plan, limits); });
+    if (fused.empty()) return {Path::fused, "each molecule is read and written once a frame"};
+    const std::string other = complaintOf([&] { checkPingPong(plan, limits); });
+    if (!other.empty()) throw Error(concat("no path can run this scene: ", fused, "; ", other));
+    return {Path::pingPong, fused};
+}
+
+size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
+    if (path == Path::pingPong) {
+        bool acceleration = false, normals = false;
+        for (const GroupPlan& group : plan.groups) {
+            acceleration |= group.needs.acceleration;
+            normals |= group.needs.normals;
+        }
+        const size_t textures = 4 + (acceleration ? 2 : 0) + (normals ? 1 : 0);
+        return (textures * size_t(plan.rows) + 3 * size_t(plan.recordRows)) * stateWidth * sizeof(glm::vec4);
+    }
+    size_t elements = 0;
+    for (const GroupPlan& group : plan.groups) {
+        const BufferLayout layout{group.vertexCount};
+        const size_t state = size_t(layout.stateElements()) * (inPlace ? 1 : 2);
+        const size_t normals = drawn && group.needs.normals ? size_t(layout.positionElements()) : 0;
+        const size_t constants = group.needs.scale || group.needs.phase ? 1 : 0;
+        elements += BufferLayout::padded(size_t(group.count)) * (state + normals + 1 + constants);
+    }
+    return elements * sizeof(glm::vec4);
+}
+
+}  // namespace shoal

@@ -1,0 +1,75 @@
+// Which of the two execution paths runs a plan, and what each takes of the device. Pure functions.
+//
+//   fused       a compute kernel a group: each molecule is read once a frame, runs all its substeps in
+//   registers
+//               and is written once. OpenGL 4.3.
+//   ping-pong   fragment passes over textures, several a substep. OpenGL 3.3; for old hardware, and as an
+//               independent check of the other.
+#pragma once
+
+#include <string>
+
+#include "compile/plan.h"
+
+namespace shoal {
+
+enum class Path { automatic, fused, pingPong };
+
+// "auto", "fused", "ping-pong".
+const char* name(Path path);
+// Error: another word, with the nearest.
+Path path(const std::string& word);
+
+// How a molecule is spread over a compute device.
+enum class Lanes {
+    automatic,
+    molecule,  // one lane a molecule: all in registers
+    vertex,    // one workgroup a molecule, one lane a vertex: in shared memory
+};
+const char* name(Lanes lanes);  // "auto", "molecule", "vertex"
+Lanes lanes(const std::string& word);
+
+// What a context can hold.
+struct PathLimits {
+    std::string version = "4.3";  // for messages
+    bool compute = true;          // OpenGL 4.3 or newer
+    bool software = false;        // a CPU rasteriser
+    int maxTextureSize = 16384;
+    int maxSharedBytes = 32768;
+    int64_t maxWorkGroups = 65535;
+};
+
+// Largest molecules of the fused path, in vertices.
+struct FusedLimits {
+    // Beyond this a lane's code takes too long to compile, and on a GPU does not fit its registers.
+    static constexpr int softwareLane = 64, gpuLane = 16;
+    // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal, acceleration and
+    // kick.
+    static constexpr int sharedBytesPerVertex = 9 * 12;
+    static int workgroup(const PathLimits& limits) { return limits.maxSharedBytes / sharedBytesPerVertex; }
+};
+
+// How the molecules of a group are spread: a lane each up to the limit of the device, else a workgroup each.
+Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits);
+
+struct PathChoice {
+    Path path = Path::fused;
+    std::string why;  // for people: why not the other one
+};
+
+// Error: the path that is demanded (or, for automatic, both) cannot run the plan: no OpenGL 4.3, a molecule
+// with too many vertices and how many would do, more molecules than the textures hold and how many would fit,
+// a field sampling that the ping-pong path does not have.
+PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits);
+
+// Bytes on the device: positions, velocities, records and constants, all sides; normals where something is
+// drawn.
+size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace = false);
+
+// For people: groups, passes and why each is there, memory.
+std::string explain(const Plan& plan, const PathChoice& choice);
+// For programs.
+class JsonValue;
+JsonValue explainJson(const Plan& plan, const PathChoice& choice);
+
+}  // namespace shoal

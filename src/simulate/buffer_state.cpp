@@ -1,0 +1,159 @@
+#include "simulate/buffer_state.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace shoal {
+
+using gpu::Buffer;
+using gpu::BufferTexture;
+using gpu::Traffic;
+
+namespace {
+
+// The vertices' floats of `count` molecules in 4-vectors, from 4-vector `first` of `elements` a molecule.
+void pack(const BufferLayout& layout, const std::vector<glm::vec3>& values, int first, int elements,
+          std::vector<glm::vec4>& out) {
+    const size_t vertices = size_t(layout.vertexCount);
+    for (size_t i = 0; i < values.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const int number = int(i % vertices) * 3 + c;
+            out[BufferLayout::index(i / vertices, first + number / 4, elements)][number % 4] = values[i][c];
+        }
+    }
+}
+
+std::vector<glm::vec3> unpack(const BufferLayout& layout, const std::vector<glm::vec4>& packed, int first,
+                              int elements, size_t molecules) {
+    const size_t vertices = size_t(layout.vertexCount);
+    std::vector<glm::vec3> values(molecules * vertices);
+    for (size_t i = 0; i < values.size(); ++i) {
+        for (int c = 0; c < 3; ++c) {
+            const int number = int(i % vertices) * 3 + c;
+            values[i][c] =
+                packed[BufferLayout::index(i / vertices, first + number / 4, elements)][number % 4];
+        }
+    }
+    return values;
+}
+
+std::vector<glm::vec4> download(const Buffer& buffer) {
+    std::vector<glm::vec4> out(buffer.bytes() / sizeof(glm::vec4));
+    buffer.download(Traffic::Kind::state, 0, out.data(), buffer.bytes());
+    return out;
+}
+
+Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements, const char* what) {
+    return Buffer(context, Buffer::Use::storage, nullptr, elements * sizeof(glm::vec4),
+                  concat(what, " of ", group.name).c_str());
+}
+
+}  // namespace
+
+GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
+                           size_t largestPart)
+    : layout_{group.vertexCount},
+      molecules_(BufferLayout::padded(size_t(group.count))),
+      inPlace_(inPlace),
+      seeds_(group.constants.seeds) {
+    state_[0] = makeBuffer(context, group, molecules_ * size_t(layout_.stateElements()), "state");
+    if (!inPlace)
+        state_[1] = makeBuffer(context, group, molecules_ * size_t(layout_.stateElements()), "state");
+    records_ = makeBuffer(context, group, molecules_, "records");
+    if (normals && group.needs.normals)
+        normals_ = makeBuffer(context, group, molecules_ * size_t(layout_.positionElements()), "normals");
+    if (group.needs.scale || group.needs.phase) {
+        std::vector<glm::vec4> constants(molecules_, glm::vec4(1, 0, 0, 0));
+        for (size_t m = 0; m < group.constants.scales.size(); ++m)
+            constants[m] = glm::vec4(group.constants.scales[m], group.constants.phases[m], 0, 0);
+        constants_ = makeBuffer(context, group, molecules_, "constants");
+        constants_.update(Traffic::Kind::parameters, 0, constants.data(), constants_.bytes());
+    }
+    split(context, largestPart);
+    parts_.back().count = group.count - parts_.back().first;
+}
+
+// Of a buffer with so many 4-vectors a molecule.
+static GroupBuffers::Range rangeOf(const GroupBuffers::Part& part, const Buffer& buffer, int elements) {
+    const size_t bytes = size_t(elements) * sizeof(glm::vec4);
+    return {&buffer, size_t(part.first) * bytes, BufferLayout::padded(size_t(part.count)) * bytes};
+}
+
+// Parts are whole blocks, so that the molecules of a part are one range of every buffer.
+void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
+    const gpu::ContextInfo& info = context.info();
+    const auto alignment = size_t(std::max({1, info.textureBufferAlignment, info.storageBufferAlignment}));
+    // molecules whose records end on a multiple of the alignment; a block of the state always does
+    const size_t unit =
+        std::lcm(size_t(BufferLayout::block), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
+    const size_t elements = size_t(layout_.stateElements());
+    size_t most =
+        std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /
+        elements;
+    if (largestPart > 0) most = std::min(most, largestPart);
+    most = std::max(most / unit, size_t(1)) * unit;
+    for (size_t first = 0; first < molecules_; first += most) {
+        Part part;
+        part.first = int(first);
+        part.count = int(std::min(most, molecules_ - first));
+        const auto texture = [&](const Buffer& buffer, int count, const char* label) {
+            const Range range = rangeOf(part, buffer, count);
+            return BufferTexture(context, buffer, label, range.offset, range.bytes);
+        };
+        for (size_t side = 0; side < (inPlace_ ? 1u : 2u); ++side)
+            part.state[side] = texture(state_[side], layout_.stateElements(), "state");
+        part.record = texture(records_, 1, "records");
+        if (constants_) part.constant = texture(constants_, 1, "constants");
+        if (normals_) part.normal = texture(normals_, layout_.positionElements(), "normals");
+        parts_.push_back(std::move(part));
+    }
+}
+
+GroupBuffers::Range GroupBuffers::newState(const Part& part) const {
+    return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
+}
+
+GroupBuffers::Range GroupBuffers::records(const Part& part) const {
+    return rangeOf(part, records_, 1);
+}
+
+GroupBuffers::Range GroupBuffers::normals(const Part& part) const {
+    return rangeOf(part, normals_, layout_.positionElements());
+}
+
+void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {
+    const int elements = layout_.stateElements();
+    std::vector<glm::vec4> packed(molecules_ * size_t(elements));
+    pack(layout_, state.positions, 0, elements, packed);
+    pack(layout_, state.velocities, layout_.positionElements(), elements, packed);
+    state_[size_t(current_)].update(Traffic::Kind::state, 0, packed.data(),
+                                    packed.size() * sizeof(glm::vec4));
+    std::vector<glm::vec4> records(molecules_, glm::vec4(0, 0, 0, 1));
+    for (size_t m = 0; m < size_t(group.count); ++m) {
+        const float label = float(seeds_[m] + 1);
+        records[m] = glm::vec4(state.anchors[m], state.released[m] ? -label : label);
+    }
+    records_.update(Traffic::Kind::state, 0, records.data(), records_.bytes());
+}
+
+GroupState GroupBuffers::read(const GroupPlan& group) const {
+    const int elements = layout_.stateElements();
+    const size_t count = size_t(group.count);
+    const std::vector<glm::vec4> packed = download(state_[size_t(current_)]);
+    GroupState state;
+    state.positions = unpack(layout_, packed, 0, elements, count);
+    state.velocities = unpack(layout_, packed, layout_.positionElements(), elements, count);
+    const std::vector<glm::vec4> records = download(records_);
+    for (size_t m = 0; m < count; ++m) {
+        state.anchors.emplace_back(records[m]);
+        state.released.push_back(std::signbit(records[m].w));
+    }
+    return state;
+}
+
+std::vector<glm::vec3> GroupBuffers::readNormals(const GroupPlan& group) const {
+    return unpack(layout_, download(normals_), 0, layout_.positionElements(), size_t(group.count));
+}
+
+}  // namespace shoal

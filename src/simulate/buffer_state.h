@@ -1,0 +1,69 @@
+// The fused path's state: buffers of 4-vectors, a set for each group, packed as shaders/fused/state.glsl
+// says.
+//
+//   state     positions, then velocities, 3 floats a vertex without gaps    (two sides in turn; in place:
+//   one) record    xyz anchor, m; w: 1 + seed, negative once pins have let go    (a lane writes only its own)
+//   constant  x scale, y phase, rad; only where instances differ
+//   normal    3 floats a vertex, unit; only where something is drawn
+//
+// A group that is larger than the device's blocks is split into parts, each a range of whole blocks of
+// molecules.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/buffer.h"
+#include "gpu/buffer_texture.h"
+
+namespace shoal {
+
+class GroupBuffers {
+  public:
+    // `largestPart`: molecules that one dispatch may take, 0 for no limit of its own.
+    // Error: out of memory; says of which group and how much it would take.
+    GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
+                 size_t largestPart);
+
+    void write(const GroupPlan& group, const GroupState& state);
+    GroupState read(const GroupPlan& group) const;
+    std::vector<glm::vec3> readNormals(
+        const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
+
+    struct Part {
+        int first = 0, count = 0;  // molecules
+        std::array<gpu::BufferTexture, 2> state;
+        gpu::BufferTexture record, constant, normal;
+    };
+    const std::vector<Part>& parts() const { return parts_; }
+    const gpu::BufferTexture& oldState(const Part& part) const { return part.state[size_t(current_)]; }
+    // What a dispatch over the part writes.
+    struct Range {
+        const gpu::Buffer* buffer;
+        size_t offset, bytes;
+    };
+    Range newState(const Part& part) const;
+    Range records(const Part& part) const;
+    Range normals(const Part& part) const;
+    void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
+
+    const BufferLayout& layout() const { return layout_; }
+    bool hasConstants() const { return bool(constants_); }
+    bool hasNormals() const { return bool(normals_); }
+    bool inPlace() const { return inPlace_; }
+
+  private:
+    void split(gpu::Context& context, size_t largestPart);
+
+    BufferLayout layout_;
+    size_t molecules_ = 0;  // padded to whole blocks
+    bool inPlace_ = false;
+    int current_ = 0;
+    std::array<gpu::Buffer, 2> state_;
+    gpu::Buffer records_, constants_, normals_;
+    std::vector<uint32_t> seeds_;
+    std::vector<Part> parts_;
+};
+
+}  // namespace shoal

@@ -1,0 +1,139 @@
+#include "simulate/fused.h"
+
+#include "gpu/barrier.h"
+
+namespace shoal {
+
+using gpu::Program;
+
+namespace {
+
+namespace unit {
+constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4;
+}
+namespace binding {
+constexpr int newState = 0, newRecords = 1, newNormals = 2;
+}
+
+void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
+    program.storage(block, at, *range.buffer, range.offset, range.bytes);
+}
+
+}  // namespace
+
+PathLimits limitsOf(const gpu::ContextInfo& info) {
+    PathLimits out;
+    out.version = concat(info.major, ".", info.minor);
+    out.compute = info.computeShaders;
+    out.software = info.software;
+    out.maxTextureSize = info.maxTextureSize;
+    out.maxSharedBytes = info.maxSharedBytes;
+    out.maxWorkGroups = info.maxWorkGroupsX;
+    return out;
+}
+
+Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+             const FusedOptions& options)
+    : plan_(&plan), tables_(&tables), drawn_(options.drawn) {
+    const gpu::ContextInfo& info = context.info();
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        const GroupPlan& group = plan.groups[g];
+        KernelOptions kernel;
+        kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
+        kernel.normals = options.drawn;
+        kernel.groupVote = info.groupVote;
+        kernel.pairedStores = info.software;
+        const size_t perWorkgroup =
+            kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
+        state.emplace_back(context, group, options.drawn, options.inPlace,
+                           size_t(info.maxWorkGroupsX) * perWorkgroup);
+
+        gpu::ProgramOptions program = kernelProgram(plan, g, kernel);
+        program.cache = options.cache;
+        Kernel& made = kernels_.emplace_back();
+        made.lanes = kernel.lanes;
+        made.step = Program(context, shaderRoot, program);
+        made.step.use();
+        if (group.needs.fields)
+            made.step.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
+        if (group.needs.collide)
+            made.step.set("colliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
+        if (!options.drawn || !group.needs.normals) continue;
+        kernel.onlyNormals = true;
+        program = kernelProgram(plan, g, kernel);
+        program.cache = options.cache;
+        made.normals = Program(context, shaderRoot, program);
+    }
+}
+
+void Fused::setUniforms(const Program& program, const GroupPlan& group, const Frame& frame) const {
+    const Parameters& parameters = frame.parameters;
+    const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
+    program.set("frame", frame.number);
+    program.set("substeps", parameters.substeps);
+    program.set("substep", float(frame.h));
+    program.set("frameTime", float(frame.time));
+    program.set("frameDuration", float(parameters.frameTime));
+    program.set("gravity", glm::vec3(parameters.gravity));
+    program.set("wind", float(parameters.wind));
+    program.set("decay", drag.decay);
+    program.set("phi", drag.phi);
+    program.set("stiffnessFactor", float(group.stiffness * parameters.stiffness));
+    program.set("dampingFactor", float(group.damping * parameters.damping));
+    const ReleaseLimits release = releaseLimits(group, frame);
+    program.set("releaseForce", release.force);
+    program.set("releaseChance", release.chance);
+    program.set("driftOfStep", driftOf(group.solver, frame.h));
+}
+
+void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {
+    const GroupPlan& group = plan_->groups[index];
+    const GroupBuffers& buffers = state[index];
+    program.texture("oldState", unit::oldState, buffers.oldState(part));
+    program.texture("oldRecords", unit::oldRecords, part.record);
+    if (buffers.hasConstants()) program.texture("constants", unit::constants, part.constant);
+    if (group.needs.fields || group.needs.collide)
+        program.texture("samples", unit::samples, tables_->samples);
+    if (kernels_[index].lanes == Lanes::vertex) {
+        program.texture("topology", unit::topology, tables_->topology);
+        program.set("topologyBase", group.topologyBase);
+    }
+    store(program, "NewState", binding::newState, buffers.newState(part));
+    if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));
+    if (buffers.hasNormals()) store(program, "NewNormals", binding::newNormals, buffers.normals(part));
+}
+
+void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
+    bind(program, index, part);
+    program.set("moleculeCount", part.count);
+    const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].lanes);
+    program.dispatch(kernels_[index].lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes
+                                                              : part.count);
+}
+
+void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
+    const auto timer = timers.time("fused");
+    for (size_t g = 0; g < state.size(); ++g) {
+        const Program& program = kernels_[g].step;
+        program.use();
+        setUniforms(program, plan_->groups[g], frame);
+        for (const GroupBuffers::Part& part : state[g].parts())
+            dispatch(program, g, part);
+        state[g].flip();
+    }
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+}
+
+void Fused::computeNormals(gpu::PassTimers& timers) {
+    const auto timer = timers.time("normals");
+    for (size_t g = 0; g < state.size(); ++g) {
+        const Program& program = kernels_[g].normals;
+        if (!program) continue;
+        program.use();
+        for (const GroupBuffers::Part& part : state[g].parts())
+            dispatch(program, g, part);
+    }
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+}
+
+}  // namespace shoal

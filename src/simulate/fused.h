@@ -1,0 +1,56 @@
+// The fused path (OpenGL 4.3): one dispatch a group and frame. Each molecule is read once, runs all substeps
+// of the frame in the registers of a lane (or the shared memory of a workgroup), and is written once, with
+// its normals where something is drawn.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "simulate/buffer_state.h"
+#include "simulate/fused_kernel.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+
+namespace shoal {
+
+struct FusedOptions {
+    bool drawn = true;               // normals are written
+    bool inPlace = false;            // one side instead of two: half the memory
+    Lanes lanes = Lanes::automatic;  // how molecules are spread
+    gpu::ProgramCache* cache = nullptr;
+};
+
+class Fused {
+  public:
+    // Borrows the plan and the tables. Error: out of memory; the driver refuses a kernel; a group's molecules
+    // cannot be spread as demanded.
+    Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+          const FusedOptions& options);
+
+    void step(const Frame& frame, gpu::PassTimers& timers);
+    void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
+
+    std::vector<GroupBuffers> state;  // per group
+    Lanes lanes(size_t group) const { return kernels_[group].lanes; }
+
+  private:
+    struct Kernel {
+        Lanes lanes = Lanes::molecule;
+        gpu::Program step, normals;
+    };
+    void setUniforms(const gpu::Program& program, const GroupPlan& group, const Frame& frame) const;
+    void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
+    void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
+
+    const Plan* plan_;
+    const Tables* tables_;
+    bool drawn_;
+    std::vector<Kernel> kernels_;
+};
+
+// Of a context, for compile/path.h.
+PathLimits limitsOf(const gpu::ContextInfo& info);
+
+}  // namespace shoal

@@ -1,0 +1,109 @@
+#include "simulate/fused_kernel.h"
+
+#include <algorithm>
+
+#include "compile/generate.h"
+#include "gpu/shader_source.h"
+#include "simulate/vertex_loops.h"
+
+namespace shoal {
+
+namespace {
+
+// Beyond this many vertices contacts are resolved one after the other, as many as there are.
+constexpr int contactsAtOnce = 8;
+
+std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
+    const Needs& needs = group.needs;
+    const BufferLayout layout{group.vertexCount};
+    std::vector<std::string> out = {
+        concat("LANES ", workgroupLanes(group, options.lanes)), concat("BLOCK ", BufferLayout::block),
+        concat("VERTICES ", group.vertexCount), concat("POSITION_ELEMENTS ", layout.positionElements()),
+        concat("STATE_ELEMENTS ", layout.stateElements())};
+    const auto define = [&](bool need, const char* name) {
+        if (need) out.emplace_back(name);
+    };
+    const bool perLane = options.lanes == Lanes::molecule;
+    define(!perLane, "SHARED_MOLECULE");
+    define(options.pairedStores && perLane, "PAIRED_STORES");
+    define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
+    define(options.normals && needs.normals, "NORMALS");
+    define(options.onlyNormals, "ONLY_NORMALS");
+    define(needs.records, "RECORDS");
+    define(needs.release, "RELEASE");
+    define(needs.pins, "PINS");
+    define(needs.springs, "SPRINGS");
+    define(needs.actuation, "ACTUATION");
+    define(needs.scale || needs.phase, "CONSTANTS");
+    define(needs.fields, "FIELDS");
+    define(plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
+    define(plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
+    define(needs.directionalDrag, "DIRECTIONAL_DRAG");
+    define(needs.collide, "COLLIDE");
+    define(needs.collide && needs.springs && group.solver == SolverKind::leapfrog, "COMING_KICK");
+    define(perLane && group.vertexCount > contactsAtOnce, "CONTACT_ONE_BY_ONE");
+    return out;
+}
+
+// The files of a kernel in the order in which they build on one another.
+std::string rootText(const GroupPlan& group, const KernelOptions& options) {
+    const bool perLane = options.lanes == Lanes::molecule;
+    std::string out = concat("// The fused step of \"", inComment(group.name), "\".\n");
+    if (options.groupVote && perLane && group.needs.collide)
+        out += "#extension GL_ARB_shader_group_vote : require\n";
+    const auto include = [&](bool need, const std::string& file) {
+        if (need) out += concat("#include \"", file, "\"\n");
+    };
+    include(true, "fused/state.glsl");
+    include(true, "generated/molecule.glsl");
+    include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
+    include(group.needs.fields, "generated/fields.glsl");
+    include(true, "fused/step.glsl");
+    include(true, concat("solver/", name(group.solver), ".glsl"));
+    include(group.needs.collide, "generated/colliders.glsl");
+    include(group.needs.collide, "fused/contact.glsl");
+    include(true, perLane ? "fused/lane.comp" : "fused/group.comp");
+    return out;
+}
+
+VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, Lanes lanes) {
+    using Form = VertexLoops::Form;
+    if (lanes == Lanes::vertex) return {group.vertexCount, Form::ownVertices, Form::ownVertices};
+    const bool brief = !plan.longFields || group.vertexCount == 1;
+    return {group.vertexCount, Form::writeOut, brief ? Form::writeOut : Form::keep};
+}
+
+}  // namespace
+
+int workgroupLanes(const GroupPlan& group, Lanes lanes) {
+    return lanes == Lanes::molecule ? 64 : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
+}
+
+gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOptions& options) {
+    const GroupPlan& group = plan.groups[index];
+    gpu::ProgramOptions out;
+    out.compute = "generated/fused.comp";
+    out.defines = defines(plan, group, options);
+    out.generated = {{"generated/fused.comp", rootText(group, options)},
+                     {"generated/molecule.glsl", group.kernel.molecule},
+                     {"generated/forces.glsl", group.kernel.forces},
+                     {"generated/packing.glsl", group.kernel.packing},
+                     {"generated/fields.glsl", plan.fieldSource},
+                     {"generated/colliders.glsl", plan.collideSource}};
+    out.label = concat("fused step of ", group.name);
+    out.rewrite = [loops = loopsOf(plan, group, options.lanes)](gpu::ShaderSource& source) {
+        expand(source, loops);
+    };
+    return out;
+}
+
+std::string kernelText(const std::string& shaderRoot, const Plan& plan, size_t group,
+                       const KernelOptions& options) {
+    const gpu::ProgramOptions program = kernelProgram(plan, group, options);
+    gpu::ShaderSource source =
+        gpu::resolveShader(shaderRoot, program.compute, program.defines, program.generated, gpu::header430());
+    program.rewrite(source);
+    return source.text;
+}
+
+}  // namespace shoal

@@ -1,0 +1,29 @@
+// The fused step's shader for a group: the molecule's own text (compile/kernel.h), the scene's fields and
+// colliders, the solver, and the skeleton of shaders/fused, with only the branches that the group needs.
+#pragma once
+
+#include <string>
+
+#include "compile/path.h"
+#include "gpu/program.h"
+
+namespace shoal {
+
+struct KernelOptions {
+    Lanes lanes = Lanes::molecule;  // not automatic
+    bool normals = false;           // written, where the shape has a surface
+    bool onlyNormals = false;       // of the state as it is; nothing moves
+    bool groupVote = false;         // ContextInfo::groupVote
+    bool pairedStores = false;      // two floats a store: for CPU rasterisers, which store one by one
+};
+
+// Lanes of a workgroup.
+int workgroupLanes(const GroupPlan& group, Lanes lanes);
+
+gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);
+
+// What the driver gets, to be read by people. Error: a shader file is missing.
+std::string kernelText(const std::string& shaderRoot, const Plan& plan, size_t group,
+                       const KernelOptions& options);
+
+}  // namespace shoal

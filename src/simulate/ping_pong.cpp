@@ -1,0 +1,214 @@
+#include "simulate/ping_pong.h"
+
+#include "gpu/gl.h"
+
+namespace shoal {
+
+using gpu::Framebuffer;
+using gpu::Program;
+using gpu::Texture;
+
+namespace {
+
+constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag",
+                                           "passes/restore.frag", "passes/advect.frag",
+                                           "passes/collide.frag"};
+
+std::vector<std::string> defines(const GroupPlan& group) {
+    const Needs& needs = group.needs;
+    std::vector<std::string> out;
+    const auto define = [&](bool need, const char* name) {
+        if (need) out.emplace_back(name);
+    };
+    define(group.solver == SolverKind::leapfrog, "LEAPFROG");
+    define(needs.acceleration && needs.springDamping, "PREDICT");
+    define(needs.fields, "FIELDS");
+    define(needs.directionalDrag, "DIRECTIONAL_DRAG");
+    define(needs.directionalDrag && group.solver == SolverKind::leapfrog, "AHEAD");
+    define(needs.springs, "SPRINGS");
+    define(needs.springDamping, "SPRING_DAMPING");
+    define(needs.actuation, "ACTUATION");
+    define(needs.pins, "PINS");
+    define(needs.release, "RELEASE");
+    define(needs.records, "RECORDS");
+    return out;
+}
+
+static_assert(stateWidth == 1024, "shaders/lib and shaders/passes address rows of 1024 texels");
+
+// Passes write every texel of their rows as it is, whatever a renderer left switched on.
+void drawPlainly() {
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
+        glDisable(state);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+}  // namespace
+
+PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                   const Tables& tables, bool drawn, gpu::ProgramCache* cache)
+    : state(context, plan), plan_(&plan), tables_(&tables), drawn_(drawn), noAttributes_(context, "pass") {
+    programs_.resize(plan.groups.size());
+    for (const PassPlan& pass : plan.passes) {
+        Program& program = programs_[pass.group][size_t(pass.kind)];
+        if (program) continue;
+        gpu::ProgramOptions options;
+        options.vertex = "passes/fullscreen.vert";
+        options.fragment = fragmentShaders[size_t(pass.kind)];
+        options.defines = defines(plan.groups[pass.group]);
+        options.generated = {{"generated/fields.glsl", plan.fieldSource},
+                             {"generated/colliders.glsl", plan.collideSource}};
+        options.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
+        options.cache = cache;
+        program = Program(context, shaderRoot, options);
+        program.use();
+        if (pass.kind == PassKind::advect && plan.groups[pass.group].needs.fields)
+            program.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
+        if (pass.kind == PassKind::collide)
+            program.set("colliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
+    }
+}
+
+void PingPong::computeNormals(gpu::PassTimers& timers) {
+    drawPlainly();
+    const Frame still;
+    for (const PassPlan& pass : plan_->passes)
+        if (pass.when == PassPlan::When::frameEnd && drawn_) runPass(pass, {0, 0, true, still}, timers);
+}
+
+void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
+    drawPlainly();
+    const auto run = [&](PassPlan::When when, const Step& step) {
+        for (const PassPlan& pass : plan_->passes)
+            if (pass.when == when) runPass(pass, step, timers);
+    };
+    run(PassPlan::When::frameStart, {frame.time, frame.h, true, frame});
+    for (int i = 0; i < frame.parameters.substeps; ++i)
+        run(PassPlan::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame});
+    if (drawn_)
+        run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame});
+}
+
+void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers) {
+    const GroupPlan& group = plan_->groups[pass.group];
+    const auto timer = timers.time(name(pass.kind));
+    switch (pass.kind) {
+    case PassKind::records:
+        return records(group, pass.group, step);
+    case PassKind::normals:
+        return normals(group, pass.group, step, pass.when == PassPlan::When::substep);
+    case PassKind::restore:
+        return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
+    case PassKind::advect:
+        return advect(group, pass.group, step);
+    case PassKind::collide:
+        return collide(group, pass.group, step);
+    }
+}
+
+// Binds what every pass reads: the group's place, its state and the tables.
+const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
+    const Program& program = programs_[index][size_t(kind)];
+    program.use();
+    program.set("firstRow", group.texture.firstRow);
+    program.set("slabRows", group.texture.slabRows);
+    program.set("moleculeCount", group.count);
+    program.set("vertexCount", group.vertexCount);
+    program.set("firstRecordRow", group.texture.firstRecordRow);
+    program.set("topologyBase", group.topologyBase);
+    program.texture("positions", 0, state.position.read(index));
+    program.texture("velocities", 1, state.velocity.read(index));
+    if (state.acceleration) program.texture("accelerations", 2, state.acceleration.read(index));
+    program.texture("records", 3, state.record.read(index));
+    program.texture("constants", 4, state.constant);
+    program.texture("topology", 5, tables_->topology);
+    if ((kind == PassKind::advect && group.needs.fields) || kind == PassKind::collide)
+        program.texture("samples", 6, tables_->samples);
+    if (kind == PassKind::advect && state.normal) program.texture("vertexNormals", 7, state.normal);
+    return program;
+}
+
+void PingPong::setSprings(const Program& program, const GroupPlan& group, const Step& step, double time,
+                          double predictTime) {
+    program.set("stiffnessFactor", float(group.stiffness * step.frame.parameters.stiffness));
+    program.set("dampingFactor", float(group.damping * step.frame.parameters.damping));
+    program.set("springTime", float(time));
+    program.set("predictTime", float(predictTime));
+}
+
+void PingPong::drawState(const GroupPlan& group, const Framebuffer& target) {
+    target.bind(0, group.texture.firstRow, std::min(stateWidth, group.count), group.texture.rows);
+    noAttributes_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void PingPong::drawRecords(const GroupPlan& group, const Framebuffer& target) {
+    target.bind(0, group.texture.firstRecordRow, std::min(stateWidth, group.count), group.texture.slabRows);
+    noAttributes_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
+    const Program& program = prepare(PassKind::records, group, index);
+    if (group.needs.release) {
+        const ReleaseLimits limits = releaseLimits(group, step.frame);
+        setSprings(program, group, step, step.time, 0);
+        program.set("releaseForce", limits.force);
+        program.set("releaseChance", limits.chance);
+        program.set("frame", step.frame.number);
+    }
+    drawRecords(group, state.target(state.record.write(index)));
+    state.record.flip(index);
+}
+
+void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, bool ahead) {
+    const Program& program = prepare(PassKind::normals, group, index);
+    const bool halfDrift = ahead && group.solver == SolverKind::leapfrog;
+    program.set("aheadTime", float(halfDrift ? step.h / 2 : 0));
+    drawState(group, state.target(state.normal));
+}
+
+void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
+    const Program& program = prepare(PassKind::restore, group, index);
+    if (group.solver == SolverKind::euler) {
+        setSprings(program, group, step, step.time, 0);
+        program.set("kickTime", float(step.h));
+        drawState(group, state.target(state.velocity.write(index)));
+        state.velocity.flip(index);
+        return;
+    }
+    setSprings(program, group, step, frameStart ? step.time : step.time + step.h,
+               frameStart ? 0 : step.h / 2);
+    program.set("kickTime", float(frameStart ? 0 : step.h / 2));
+    const Texture& acceleration = state.acceleration.write(index);
+    drawState(group, frameStart ? state.target(acceleration)
+                                : state.target(acceleration, &state.velocity.write(index)));
+    state.acceleration.flip(index);
+    if (!frameStart) state.velocity.flip(index);
+}
+
+void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
+    const Program& program = prepare(PassKind::advect, group, index);
+    const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
+    program.set("time", float(step.time));
+    program.set("substep", float(step.h));
+    program.set("gravity", glm::vec3(step.frame.parameters.gravity));
+    program.set("wind", float(step.frame.parameters.wind));
+    program.set("decay", drag.decay);
+    program.set("phi", drag.phi);
+    program.set("moveAnchors", int(step.first && group.needs.records));
+    drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
+    state.position.flip(index);
+    state.velocity.flip(index);
+}
+
+void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
+    const Program& program = prepare(PassKind::collide, group, index);
+    program.set("gravity", glm::vec3(step.frame.parameters.gravity));
+    program.set("drift", driftOf(group.solver, step.h));
+    drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
+    state.position.flip(index);
+    state.velocity.flip(index);
+}
+
+}  // namespace shoal

@@ -1,0 +1,57 @@
+// The ping-pong path (OpenGL 3.3): fragment passes over state textures, read one side, draw into the other,
+// swap. Layout: simulate/texture_state.h. The passes of a frame: Plan::passes.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+#include "simulate/texture_state.h"
+
+namespace shoal {
+
+class PingPong {
+  public:
+    // Borrows the plan and the tables. `drawn`: normals are computed at the end of each frame.
+    PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+             bool drawn, gpu::ProgramCache* cache);
+
+    void step(const Frame& frame, gpu::PassTimers& timers);
+    void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
+
+    TextureState state;
+
+  private:
+    // The solver's times for one substep of a group.
+    struct Step {
+        double time;  // s, at its start
+        double h;     // s
+        bool first;   // of the frame
+        const Frame& frame;
+    };
+    void runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers);
+    void records(const GroupPlan& group, size_t index, const Step& step);
+    void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
+    void restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart);
+    void advect(const GroupPlan& group, size_t index, const Step& step);
+    void collide(const GroupPlan& group, size_t index, const Step& step);
+
+    const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
+    void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step, double time,
+                    double predictTime);
+    void drawState(const GroupPlan& group, const gpu::Framebuffer& target);
+    void drawRecords(const GroupPlan& group, const gpu::Framebuffer& target);
+
+    const Plan* plan_;
+    const Tables* tables_;
+    bool drawn_;
+    std::vector<std::array<gpu::Program, 5>> programs_;  // per group, by PassKind
+    gpu::VertexArray noAttributes_;
+};
+
+}  // namespace shoal

@@ -1,0 +1,28 @@
+#include "simulate/step.h"
+
+#include <cmath>
+#include <limits>
+
+namespace shoal {
+
+DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
+    const auto decay = [h](double gamma) { return -std::expm1(-gamma * h); };
+    const auto phi = [&](double gamma) { return std::abs(gamma * h) < 1e-12 ? h : decay(gamma) / gamma; };
+    const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
+    return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along))};
+}
+
+ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
+    // whatever the sum of times was rounded to
+    const bool may = frame.time + 0.5 * frame.h >= group.release.after;
+    constexpr double never = std::numeric_limits<float>::max();
+    const double chance = -std::expm1(-group.release.rate.value_or(0) * frame.parameters.frameTime);
+    return {float(may ? group.release.force.value_or(never) : never), float(may ? chance : 0)};
+}
+
+glm::vec3 driftOf(SolverKind solver, double h) {
+    const bool euler = solver == SolverKind::euler;
+    return glm::vec3(h, euler ? h : h / 2, euler ? h / 2 : 0);
+}
+
+}  // namespace shoal

@@ -1,0 +1,35 @@
+// A frame in the numbers that both paths hand to their shaders.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "compile/plan.h"
+#include "simulate/parameters.h"
+
+namespace shoal {
+
+struct Frame {
+    double time = 0;  // s, at its start
+    double h = 0;     // s, a substep
+    int number = 0;   // from 0
+    Parameters parameters;
+};
+
+// Exact drag over h across (x) and along (y) the surface: decay = 1 - exp(-gamma h), phi = decay / gamma (h
+// where gamma = 0); in double, where the difference to h still counts.
+struct DragCoefficients {
+    glm::vec2 decay{0}, phi{0};
+};
+DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
+
+// When pins let go in a frame.
+struct ReleaseLimits {
+    float force = 0;   // N, above which they do
+    float chance = 0;  // in this frame
+};
+ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
+
+// Step, kickDrift and lag of shaders/physics/collide.glsl.
+glm::vec3 driftOf(SolverKind solver, double h);
+
+}  // namespace shoal

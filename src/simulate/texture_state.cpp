@@ -1,0 +1,115 @@
+#include "simulate/texture_state.h"
+
+#include <algorithm>
+
+namespace shoal {
+
+using gpu::Format;
+using gpu::Framebuffer;
+using gpu::Texture;
+using gpu::Traffic;
+
+static TwoSided makeSides(gpu::Context& context, size_t groups, int rows, const char* label) {
+    TwoSided sides;
+    for (Texture& texture : sides.side)
+        texture = Texture(context, Format::rgba32f, stateWidth, rows, label);
+    sides.now.assign(groups, 0);
+    return sides;
+}
+
+TextureState::TextureState(gpu::Context& context, const Plan& plan) : context_(&context) {
+    const auto any = [&](bool Needs::*need) {
+        return std::any_of(plan.groups.begin(), plan.groups.end(),
+                           [&](const GroupPlan& group) { return group.needs.*need; });
+    };
+    const size_t groups = plan.groups.size();
+    position = makeSides(context, groups, plan.rows, "positions");
+    velocity = makeSides(context, groups, plan.rows, "velocities");
+    if (any(&Needs::acceleration)) acceleration = makeSides(context, groups, plan.rows, "accelerations");
+    record = makeSides(context, groups, plan.recordRows, "records");
+    if (any(&Needs::normals)) normal = Texture(context, Format::rgba32f, stateWidth, plan.rows, "normals");
+    constant = Texture(context, Format::rgba32f, stateWidth, plan.recordRows, "constants");
+    for (const GroupPlan& group : plan.groups) {
+        std::vector<glm::vec4> texels(size_t(group.texture.slabRows) * stateWidth);
+        const GroupConstants& c = group.constants;
+        for (size_t m = 0; m < c.seeds.size(); ++m)
+            texels[m] = glm::vec4(float(c.seeds[m]), c.scales[m], c.phases[m], 0);
+        constant.upload(Traffic::Kind::parameters, 0, group.texture.firstRecordRow, stateWidth,
+                        group.texture.slabRows, texels.data(), texels.size() * sizeof(glm::vec4));
+    }
+}
+
+static void uploadRows(Texture& texture, int firstRow, int rows, const std::vector<glm::vec4>& texels) {
+    texture.upload(Traffic::Kind::state, 0, firstRow, stateWidth, rows, texels.data(),
+                   texels.size() * sizeof(glm::vec4));
+}
+
+static std::vector<glm::vec4> downloadRows(const Texture& texture, int firstRow, int rows) {
+    std::vector<glm::vec4> texels(size_t(rows) * stateWidth);
+    texture.download(Traffic::Kind::state, 0, firstRow, stateWidth, rows, texels.data(),
+                     texels.size() * sizeof(glm::vec4));
+    return texels;
+}
+
+// Of vertex v of molecule m, within the group's rows.
+static size_t texelOf(const GroupPlan& group, size_t m, size_t v) {
+    return (v * size_t(group.texture.slabRows) + m / stateWidth) * stateWidth + m % stateWidth;
+}
+
+// From index = molecule * vertexCount + vertex to the group's rows, and back.
+static std::vector<glm::vec4> asTexels(const GroupPlan& group, const std::vector<glm::vec3>& values) {
+    std::vector<glm::vec4> texels(size_t(group.texture.rows) * stateWidth);
+    const size_t vertices = size_t(group.vertexCount);
+    for (size_t i = 0; i < values.size(); ++i)
+        texels[texelOf(group, i / vertices, i % vertices)] = glm::vec4(values[i], 0);
+    return texels;
+}
+
+static std::vector<glm::vec3> asVertices(const GroupPlan& group, const std::vector<glm::vec4>& texels) {
+    std::vector<glm::vec3> values;
+    const size_t vertices = size_t(group.vertexCount);
+    values.reserve(size_t(group.count) * vertices);
+    for (size_t m = 0; m < size_t(group.count); ++m)
+        for (size_t v = 0; v < vertices; ++v)
+            values.emplace_back(texels[texelOf(group, m, v)]);
+    return values;
+}
+
+void TextureState::write(const GroupPlan& group, size_t index, const GroupState& state) {
+    const TextureLayout& at = group.texture;
+    uploadRows(position.current(index), at.firstRow, at.rows, asTexels(group, state.positions));
+    uploadRows(velocity.current(index), at.firstRow, at.rows, asTexels(group, state.velocities));
+    std::vector<glm::vec4> records(size_t(at.slabRows) * stateWidth);
+    for (size_t m = 0; m < state.anchors.size(); ++m)
+        records[m] = glm::vec4(state.anchors[m], float(state.released[m]));
+    uploadRows(record.current(index), at.firstRecordRow, at.slabRows, records);
+}
+
+GroupState TextureState::read(const GroupPlan& group, size_t index) const {
+    const TextureLayout& at = group.texture;
+    GroupState state;
+    state.positions = asVertices(group, downloadRows(position.read(index), at.firstRow, at.rows));
+    state.velocities = asVertices(group, downloadRows(velocity.read(index), at.firstRow, at.rows));
+    const auto records = downloadRows(record.read(index), at.firstRecordRow, at.slabRows);
+    for (size_t m = 0; m < size_t(group.count); ++m) {
+        state.anchors.emplace_back(records[m]);
+        state.released.push_back(records[m].w > 0.5f);
+    }
+    return state;
+}
+
+std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
+    return asVertices(group, downloadRows(normal, group.texture.firstRow, group.texture.rows));
+}
+
+const Framebuffer& TextureState::target(const Texture& first, const Texture* second) {
+    const GLuint a = first.id(), b = second ? second->id() : 0;
+    for (const Target& target : targets_)
+        if (target.first == a && target.second == b) return target.framebuffer;
+    std::vector<const Texture*> colors{&first};
+    if (second) colors.push_back(second);
+    targets_.push_back({a, b, Framebuffer(*context_, colors, nullptr, first.label().c_str())});
+    return targets_.back().framebuffer;
+}
+
+}  // namespace shoal

@@ -1,0 +1,65 @@
+// The ping-pong path's state: float textures, shared by all groups, one texel a vertex, RGBA32F.
+//
+//   a state texture is 1024 texels wide; group g owns the rows [firstRow, firstRow + vertexCount * slabRows)
+//   vertex v of molecule m:   x = m mod 1024,  y = firstRow + v * slabRows + m / 1024
+//   so vertex v of all molecules is a slab of whole rows, and neighbouring texels are neighbouring molecules
+//
+//   position       xyz relative to the molecule's anchor, m      (two sides, ping-pong)
+//   velocity       xyz m/s                                       (two sides)
+//   acceleration   xyz of the springs, m/s^2: leapfrog only      (two sides)
+//   normal         xyz unit
+//
+// Records: molecule m of group g at x = m mod 1024, y = firstRecordRow + m / 1024
+//   record         xyz anchor, m; w flags: 1 = pins released     (two sides)
+//   constant       x seed (an integer below 2^24), y scale, z actuation phase offset (rad), w unused
+#pragma once
+
+#include <array>
+#include <deque>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/context.h"
+#include "gpu/framebuffer.h"
+#include "gpu/texture.h"
+
+namespace shoal {
+
+// Two textures, of which each group has its own current side: a group that did not step is never stale.
+struct TwoSided {
+    std::array<gpu::Texture, 2> side;
+    std::vector<int> now;  // per group
+
+    gpu::Texture& current(size_t group) { return side[size_t(now[group])]; }
+    const gpu::Texture& read(size_t group) const { return side[size_t(now[group])]; }
+    const gpu::Texture& write(size_t group) const { return side[size_t(1 - now[group])]; }
+    void flip(size_t group) { now[group] = 1 - now[group]; }
+    explicit operator bool() const { return bool(side[0]); }
+};
+
+class TextureState {
+  public:
+    TextureState(gpu::Context& context, const Plan& plan);
+
+    // Into and from the current sides; counted as state that crosses the bus.
+    void write(const GroupPlan& group, size_t index, const GroupState& state);
+    GroupState read(const GroupPlan& group, size_t index) const;
+    std::vector<glm::vec3> readNormals(
+        const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
+
+    TwoSided position, velocity, acceleration, record;
+    gpu::Texture normal, constant;
+
+    // Framebuffer that draws into the given sides (made once per combination).
+    const gpu::Framebuffer& target(const gpu::Texture& first, const gpu::Texture* second = nullptr);
+
+  private:
+    struct Target {
+        GLuint first, second;
+        gpu::Framebuffer framebuffer;
+    };
+    gpu::Context* context_;
+    std::deque<Target> targets_;  // references to its elements stay valid
+};
+
+}  // namespace shoal

@@ -1,0 +1,26 @@
+// Loops over a molecule's vertices in the fused shaders, written out or spread over lanes before a driver
+// sees them. In the files they are plain GLSL:
+//
+//     for (int i = 0; i < VERTICES; ++i) {        the body is short
+//     for (int j = 0; j < VERTICES; ++j) {        the body is long, such as the fields
+//
+// For a lane a molecule, the body is repeated with 0, 1, … in place of the variable, so that every index is a
+// constant and the arrays are registers; drivers unroll only what they think worth it. For a workgroup a
+// molecule, the lanes meet and each takes the vertices that are its own.
+#pragma once
+
+#include "gpu/shader_source.h"
+
+namespace shoal {
+
+struct VertexLoops {
+    enum class Form { keep, writeOut, ownVertices };
+    int vertexCount = 0;
+    Form shortBodies = Form::writeOut;  // over i
+    Form longBodies = Form::keep;       // over j
+};
+
+// Lines keep their origin, so that a driver's message still names our file and line.
+void expand(gpu::ShaderSource& source, const VertexLoops& loops);
+
+}  // namespace shoal
