@@ -198,13 +198,17 @@ std::string ShaderSource::rewriteLog(const std::string& driverLog) const {
 }
 
 Location ShaderSource::firstLocation(const std::string& driverLog) const {
-    Location out;
-    forEachLine(driverLog, [&](std::string_view line) {
+    Location first, firstError;
+    forEachLine(driverLog, [&](std::string_view view) {
+        const std::string line(view);
         DriverMessage message;
         Location place;
-        if (out.empty() && locate(*this, std::string(line), message, place)) out = place;
+        if (!locate(*this, line, message, place)) return;
+        const bool error = (message.prefix + line.substr(message.rest)).compare(0, 5, "error") == 0;
+        if (first.empty()) first = place;
+        if (error && firstError.empty()) firstError = place;
     });
-    return out;
+    return firstError.empty() ? first : firstError;
 }
 
 ShaderSource resolveShader(const std::string& root, const std::string& file,

@@ -28,7 +28,7 @@ struct ShaderSource {
     // Every "0:12(5): error:" (Mesa), "0(12) : error" (NVIDIA) and "ERROR: 0:12:" (Intel, AMD, Apple) becomes
     // "file:line[:column]: …"; other lines stay as they are.
     std::string rewriteLog(const std::string& driverLog) const;
-    // Where the first message of the log points; empty when none does.
+    // Where the first error of the log points, else its first message; empty when none does.
     Location firstLocation(const std::string& driverLog) const;
 };
 

@@ -120,6 +120,18 @@ TEST_CASE("the logs of all drivers point into our files", "[shader]") {
     CHECK(source.firstLocation("nothing here").empty());
 }
 
+TEST_CASE("an error goes before the warnings above it", "[shader]") {
+    const ShaderSource source = resolve({{"main.frag", "float a;\nfloat b;\nfloat c\n"}}, "main.frag");
+    // line n of the text is line n - 1 of main.frag
+    for (const char* log : {"0:2(1): warning: `a' used uninitialized\n0:4(9): error: syntax error\n",
+                            "0(2) : warning C7050: \"a\" might be used\n0(4) : error C0000: syntax error",
+                            "WARNING: 0:2: 'a' : odd\nERROR: 0:4: '' : syntax error\nERROR: 0:3: more"}) {
+        INFO(log);
+        CHECK(source.firstLocation(log).line == 3);
+    }
+    CHECK(source.firstLocation("0:3(1): warning: odd\n0:2(1): warning: too\n").line == 2);
+}
+
 TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
     const auto names = declaredUniforms(
         "// uniform float commented;\n"
