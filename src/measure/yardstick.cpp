@@ -50,7 +50,9 @@ bool processorHas(Simd simd) {
 
 template <class Topology>
 bool matches(const Molecule& molecule) {
+    const auto weighsAsMuch = [&](const Vertex& v) { return v.mass == molecule.vertices[0].mass; };
     return molecule.vertices.size() == Topology::vertices &&
+           std::all_of(molecule.vertices.begin(), molecule.vertices.end(), weighsAsMuch) &&
            std::equal(molecule.springs.begin(), molecule.springs.end(), std::begin(Topology::ends),
                       std::end(Topology::ends),
                       [](const Spring& s, const SpringEnds& e) { return s.a == e.a && s.b == e.b; });
@@ -206,17 +208,19 @@ void Yardstick::Data::frameInLanes(const YardstickStep& step) {
     out.friction = step.friction;
     out.vertices = vertexCount;
     out.springs = int(scalar.springs.size());
+    // what is left of a kick of h f / m after the drag, for the first vertex
+    const float kick = step.h * (1 - step.decay) * scalar.inverseMass[0];
     std::vector<KernelSpring> constants;
     for (const ScalarSpring& spring : scalar.springs) {
-        const float stiffness = spring.stiffness * step.stiffness;
-        constants.push_back({stiffness, stiffness * spring.restLength, spring.damping * step.damping});
+        const float stiffness = kick * spring.stiffness * step.stiffness;
+        constants.push_back({stiffness, stiffness * spring.restLength, kick * spring.damping * step.damping});
     }
-    std::vector<float> kick;
+    std::vector<float> shares;
     for (const float inverse : scalar.inverseMass)
-        kick.push_back(step.h * inverse);
+        shares.push_back(inverse / scalar.inverseMass[0]);
     out.ends = ends.data();
     out.constants = constants.data();
-    out.kick = kick.data();
+    out.kick = shares.data();
     threads.run([&](int index) {
         const int first = int(int64_t(blockCount) * index / threads.count());
         const int last = int(int64_t(blockCount) * (index + 1) / threads.count());

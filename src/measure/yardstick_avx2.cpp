@@ -24,20 +24,15 @@ struct V256 {
     SHOAL_INLINE static void store(float* p, V256 a) { _mm256_store_ps(p, a.v); }
     SHOAL_INLINE static V256 fma(V256 a, V256 b, V256 c) { return {_mm256_fmadd_ps(a.v, b.v, c.v)}; }
     SHOAL_INLINE static V256 fnma(V256 a, V256 b, V256 c) { return {_mm256_fnmadd_ps(a.v, b.v, c.v)}; }
+    SHOAL_INLINE static V256 fms(V256 a, V256 b, V256 c) { return {_mm256_fmsub_ps(a.v, b.v, c.v)}; }
     SHOAL_INLINE static V256 minimum(V256 a, V256 b) { return {_mm256_min_ps(a.v, b.v)}; }
     SHOAL_INLINE static V256 maximum(V256 a, V256 b) { return {_mm256_max_ps(a.v, b.v)}; }
     SHOAL_INLINE static V256 absolute(V256 a) { return {_mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v)}; }
     SHOAL_INLINE static V256 floored(V256 a) { return {_mm256_floor_ps(a.v)}; }
-    SHOAL_INLINE static V256 root(V256 a) { return {_mm256_sqrt_ps(a.v)}; }
-    SHOAL_INLINE static V256 quotient(V256 a, V256 b) { return {_mm256_div_ps(a.v, b.v)}; }
-
-    // An estimate of 12 bits and one step of third order: y (1 + e/2 + 3 e^2/8), e = 1 - a y^2.
-    SHOAL_INLINE static V256 inverseRoot(V256 a) {
-        const __m256 y = _mm256_rsqrt_ps(a.v);
-        const __m256 e = _mm256_fnmadd_ps(_mm256_mul_ps(a.v, y), y, _mm256_set1_ps(1));
-        const __m256 p = _mm256_fmadd_ps(e, _mm256_set1_ps(0.375f), _mm256_set1_ps(0.5f));
-        return {_mm256_fmadd_ps(_mm256_mul_ps(y, e), p, y)};
-    }
+    // Within 1.5 ulp. An estimate of 12 bits with a step of third order (1 ulp) took 5 % longer, one with two
+    // steps of Newton's 15 %.
+    SHOAL_INLINE static V256 inverseRoot(V256 a) { return inverse({_mm256_sqrt_ps(a.v)}); }
+    SHOAL_INLINE static V256 inverse(V256 a) { return {_mm256_div_ps(_mm256_set1_ps(1), a.v)}; }
 
     SHOAL_INLINE static Mask less(V256 a, V256 b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
     SHOAL_INLINE static Mask both(Mask a, Mask b) { return {_mm256_and_ps(a.m, b.m)}; }
@@ -47,6 +42,8 @@ struct V256 {
     }
     SHOAL_INLINE static bool any(Mask a) { return _mm256_movemask_ps(a.m) != 0; }
     SHOAL_INLINE static V256 select(Mask m, V256 a, V256 b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
+
+    SHOAL_INLINE static void leave() { _mm256_zeroupper(); }
 };
 
 constexpr KernelSet kernels = kernelsOf<V256>();

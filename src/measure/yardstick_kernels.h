@@ -5,8 +5,9 @@
 
 namespace shoal::measure {
 
+// With the step's factors, and times what a force does to the velocity at the end of a substep.
 struct KernelSpring {
-    float stiffness, pull, damping;  // k, k L, c: with the step's factors
+    float stiffness, pull, damping;  // k, k L, c
 };
 
 // All that a kernel reads beside the state.
@@ -20,7 +21,7 @@ struct KernelStep {
     int vertices, springs;
     const int* ends;                // 2 a spring
     const KernelSpring* constants;  // per spring
-    const float* kick;              // per vertex: h / m
+    const float* kick;              // per vertex, for `any`: 1/m over that of the first
 };
 
 // Advances blocks of `lanes` molecules by a frame. A block: per vertex the vectors x, y, z, vx, vy, vz of
