@@ -28,4 +28,8 @@ std::string shaderRoot() {
                 "\nset SHOAL_DATA to the folder that holds them");
 }
 
+std::string moleculeFolder() {
+    return (fs::path(shaderRoot()).parent_path() / "molecules").string();
+}
+
 }  // namespace shoal::app

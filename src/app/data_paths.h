@@ -7,5 +7,6 @@ namespace shoal::app {
 
 // Error: neither holds the shaders; says where was looked. SHOAL_DATA in the environment goes first.
 std::string shaderRoot();
+std::string moleculeFolder();  // of the molecules that ship, beside the shaders
 
 }  // namespace shoal::app

@@ -27,6 +27,9 @@ int main(int argc, char** argv) {
             case Options::Command::info:
                 code = infoCommand(*options);
                 break;
+            case Options::Command::bench:
+                code = benchCommand(*options);
+                break;
             }
         }
         std::cout.flush();

@@ -101,6 +101,15 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
                        "Window: save its picture after --frames and close");
 }
 
+void addBench(CLI::App& command, Options& options, Texts& texts) {
+    addContext(command, options, texts);
+    command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
+    command.add_option("--seconds", options.seconds, "Time for each group of cases (default 15, quick 3)")
+        ->check(kindOf(isAll<double>, "a time in seconds"));
+    command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
+    command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");
+}
+
 // All long option names of a command, for suggestions.
 std::vector<std::string> optionNames(CLI::App& command) {
     std::vector<std::string> names;
@@ -176,6 +185,11 @@ void checkRanges(const Options& options) {
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
+    if (options.seconds && !(*options.seconds > 0 && *options.seconds <= 3600))
+        throw Error(concat("--seconds: expected a time above 0, at most 3600 s, found ", *options.seconds));
+    const std::string plot = lowerExtension(options.plot);
+    if (!options.plot.empty() && plot != ".svg" && plot != ".png")
+        throw Error(concat("--plot: expected a name ending in .svg or .png, found \"", options.plot, "\""));
     checkTarget("--capture", options.capture, {".png", ".mp4", ".mkv", ".webm", ".mov"});
     checkTarget("--export", options.exports, {".csv", ".ply"});
     if (!options.screenshot.empty() && (options.headless || !options.frames))
@@ -213,6 +227,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App* check = app.add_subcommand("check", "Check molecule and scene files");
     CLI::App* explain = app.add_subcommand("explain", "Print what a scene compiles to, and why");
     CLI::App* info = app.add_subcommand("info", "Print the OpenGL contexts that can be had");
+    CLI::App* bench = app.add_subcommand("bench", "Measure speed, against the limit and the error");
     addRun(*run, options, texts);
     check->add_option("files", options.files, "Molecule or scene files")->required();
     check->add_flag("--json", options.json, "Report as JSON on standard output");
@@ -222,6 +237,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
     explain->add_flag("--json", options.json, "Report as JSON on standard output");
     addContext(*info, options, texts);
+    addBench(*bench, options, texts);
 
     try {
         app.parse(argc, argv);
@@ -236,6 +252,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     options.command = run->parsed()       ? Options::Command::run
                       : check->parsed()   ? Options::Command::check
                       : explain->parsed() ? Options::Command::explain
+                      : bench->parsed()   ? Options::Command::bench
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);

@@ -16,7 +16,7 @@ namespace shoal::app {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info };
+    enum class Command { run, check, explain, info, bench };
     Command command = Command::run;
     std::vector<std::string> files;
 
@@ -42,6 +42,12 @@ struct Options {
     std::string exports;   // folder, or a name that ends in .csv or .ply
     std::vector<int> exportFrames;
     std::string screenshot;  // window: a picture of it after `frames`, then close
+
+    // bench
+    bool quick = false;
+    std::optional<double> seconds;  // of measuring, each group of cases
+    std::string only;               // cases with this in their name
+    std::string plot;               // .svg or .png
 };
 
 // Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns

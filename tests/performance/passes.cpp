@@ -12,7 +12,7 @@
 
 #include "gpu/gl.h"
 #include "molecule/molecule_file.h"
-#include "performance/pin_threads.h"
+#include "measure/pin_threads.h"
 #include "reference/solve.h"
 #include "simulate/simulation.h"
 
@@ -109,7 +109,7 @@ static int measure(int argc, char** argv) {
             rounds = std::max(3, std::atoi(argv[i]));
     }
     gpu::Context context(options);
-    const int pinned = pinRasteriserThreads();
+    const int pinned = measure::pinRasteriserThreads();
     std::printf("%s, OpenGL %s\n%d rounds, sizes in turn; %d rasteriser threads pinned\n",
                 context.info().renderer.c_str(), context.info().version.c_str(), rounds, pinned);
     for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})

@@ -1,5 +1,4 @@
-// A CPU rasteriser's worker threads, left alone, share one core half of the time: up to twice the noise.
-#pragma once
+#include "measure/pin_threads.h"
 
 #include <sched.h>
 
@@ -7,13 +6,16 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <system_error>
 #include <thread>
 
-// Ties the process's llvmpipe workers to one core each, in turn. Returns how many there were.
-inline int pinRasteriserThreads() {
+namespace shoal::measure {
+
+int pinRasteriserThreads() {
     const unsigned cores = std::max(1u, std::thread::hardware_concurrency());
     int pinned = 0;
-    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+    std::error_code none;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task", none)) {
         std::ifstream file(task.path() / "comm");
         std::string name;
         std::getline(file, name);
@@ -25,3 +27,5 @@ inline int pinRasteriserThreads() {
     }
     return pinned;
 }
+
+}  // namespace shoal::measure

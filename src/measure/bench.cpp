@@ -1,0 +1,171 @@
+#include "measure/bench.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "measure/pin_threads.h"
+
+namespace shoal::measure {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+constexpr int framesOfFall = 10;            // between two restarts
+constexpr double sampleSeconds = 2e-3;      // a sample lasts at least this long
+constexpr double shortFrameSeconds = 0.02;  // below this caches matter
+
+class Entrant {
+  public:
+    Entrant(const BenchCase& one, const Molecule& molecule, const BenchStart& start,
+            const BenchDevice& device)
+        : runner_(makeRunner(one, molecule, start, device)), context_(*device.context) {
+        result.one = one;
+        result.stateBytes = runner_->stateBytes;
+        result.movedBytes = runner_->movedBytes;
+        result.lanes = runner_->lanes;
+    }
+
+    // Not counted: compiles, touches memory; then a first look at what a frame and a visit cost.
+    void warmUp() {
+        runner_->restart();
+        runner_->frame();
+        runner_->finish();
+        frames_ = 1;
+        const Clock::time_point start = Clock::now();
+        const double frame = timed(1);
+        result.framesPerSample = framesPerSample(frame, framesOfFall);
+        leadIn_ = frame < shortFrameSeconds;
+        seconds = frame;
+        if (!leadIn_) return;
+        visit();
+        seconds = since(start) - frame;
+        samples_.clear();
+    }
+
+    void visit() {
+        if (frames_ + result.framesPerSample > framesOfFall) {
+            runner_->restart();
+            runner_->finish();
+            frames_ = 0;
+        }
+        if (leadIn_) {
+            runner_->frame();
+            runner_->finish();
+        }
+        samples_.push_back(timed(result.framesPerSample));
+    }
+
+    BenchResult finish() {
+        result.frame = spreadOf(samples_);
+        if (timedFrames_ > 0) result.busStateBytes = double(busBytes_) / double(timedFrames_);
+        return result;
+    }
+
+    BenchResult result;
+    double seconds = 0;  // of a visit
+
+  private:
+    // Seconds a frame.
+    double timed(int frames) {
+        const uint64_t before = context_.traffic().total(gpu::Traffic::Kind::state);
+        const Clock::time_point start = Clock::now();
+        for (int i = 0; i < frames; ++i)
+            runner_->frame();
+        runner_->finish();
+        const double out = since(start) / frames;
+        busBytes_ += context_.traffic().total(gpu::Traffic::Kind::state) - before;
+        timedFrames_ += frames;
+        frames_ += frames;
+        return out;
+    }
+
+    std::unique_ptr<BenchRunner> runner_;
+    gpu::Context& context_;
+    int frames_ = 0;      // timed, since the start
+    bool leadIn_ = true;  // a visit begins with a frame that is not timed
+    int64_t timedFrames_ = 0;
+    uint64_t busBytes_ = 0;
+    std::vector<double> samples_;  // s a frame
+};
+
+}  // namespace
+
+bool VisitPlan::visits(size_t i, int round) const {
+    const int64_t n = samples[i];
+    return (round + 1) * n / rounds > round * n / rounds;
+}
+
+VisitPlan planVisits(const std::vector<double>& cost, const BenchSchedule& schedule) {
+    VisitPlan out;
+    const double share = schedule.seconds / double(std::max<size_t>(1, cost.size()));
+    for (const double one : cost) {
+        const double fit = std::min(double(schedule.mostSamples), share / std::max(one, 1e-9));
+        out.samples.push_back(std::max(schedule.leastSamples, int(fit)));
+        out.rounds = std::max(out.rounds, out.samples.back());
+        out.seconds += one * out.samples.back();
+    }
+    return out;
+}
+
+int framesPerSample(double frameSeconds, int most) {
+    return int(std::clamp(std::ceil(sampleSeconds / std::max(frameSeconds, 1e-9)), 1.0, double(most)));
+}
+
+std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,
+                                      const BenchDevice& device, const BenchSchedule& schedule,
+                                      const BenchProgress& progress) {
+    const Molecule& molecule = molecules.of(cases.front().molecule);
+    const BenchStart start(cases.front(), molecule, device.cores);
+    std::vector<BenchResult> out;
+    std::vector<std::unique_ptr<Entrant>> entrants;
+    std::vector<size_t> places;  // of the entrants in `out`
+    std::vector<double> cost;
+    for (const BenchCase& one : cases) {
+        progress(one.name(), schedule.seconds);
+        BenchResult& result = out.emplace_back();
+        result.one = one;
+        result.leftOut = reasonToLeaveOut(one, device);
+        if (!result.leftOut.empty()) continue;
+        try {
+            entrants.push_back(std::make_unique<Entrant>(one, molecule, start, device));
+        } catch (const gpu::OutOfMemory& error) {
+            result.leftOut = error.message();
+            continue;
+        }
+        pinRasteriserThreads();
+        entrants.back()->warmUp();
+        places.push_back(out.size() - 1);
+        cost.push_back(entrants.back()->seconds);
+    }
+    const VisitPlan plan = planVisits(cost, schedule);
+    double left = plan.seconds;
+    for (int round = 0; round < plan.rounds; ++round) {
+        for (size_t i = 0; i < entrants.size(); ++i) {
+            if (!plan.visits(i, round)) continue;
+            entrants[i]->visit();
+            left = std::max(0.0, left - cost[i]);
+            progress(cases.front().group, left);
+        }
+    }
+    for (size_t i = 0; i < entrants.size(); ++i)
+        out[places[i]] = entrants[i]->finish();
+    device.context->checkErrors("bench");
+    return out;
+}
+
+std::vector<std::vector<BenchCase>> byGroup(const std::vector<BenchCase>& cases) {
+    std::vector<std::vector<BenchCase>> out;
+    for (const BenchCase& one : cases) {
+        if (out.empty() || out.back().front().group != one.group) out.emplace_back();
+        out.back().push_back(one);
+    }
+    return out;
+}
+
+}  // namespace shoal::measure

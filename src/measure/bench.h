@@ -1,0 +1,60 @@
+// The measurement: all cases of a group in turn, round after round, so that a machine whose speed drifts
+// drifts for all alike.
+//
+// A visit of a case: back to the start when it has run ten frames since; for short frames one that is not
+// timed, so that caches are as in a run of its own; then as many frames between two waits as make a sample of
+// 2 ms, ten at most. So every case sees the same ten frames of the fall. Slow cases sit out rounds, evenly.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "measure/bench_case.h"
+#include "measure/bench_runner.h"
+#include "measure/statistics.h"
+
+namespace shoal::measure {
+
+struct BenchResult {
+    BenchCase one;
+    std::string leftOut;  // why it was not measured; empty: it was
+    Spread frame;         // s
+    int framesPerSample = 1;
+    size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
+    double busStateBytes = 0;               // a frame: state that crossed the bus
+    Lanes lanes = Lanes::automatic;
+    double perMolecule() const { return frame.median / one.count; }  // s
+};
+
+struct BenchSchedule {
+    double seconds = 15;  // of frames and restarts, a group
+    int leastSamples = 3, mostSamples = 40;
+};
+
+// How a group is spread over rounds.
+struct VisitPlan {
+    std::vector<int> samples;  // of each case
+    int rounds = 0;            // the most of them
+    double seconds = 0;        // all together
+    // Whether a case takes part in a round: evenly, samples[i] times in all.
+    bool visits(size_t i, int round) const;
+};
+// `cost`: seconds of one visit, for each case.
+VisitPlan planVisits(const std::vector<double>& cost, const BenchSchedule& schedule);
+
+// How many frames make a sample: 2 ms of them, at most `most`.
+int framesPerSample(double frameSeconds, int most);
+
+// What is being done, and the estimated seconds that this group still takes.
+using BenchProgress = std::function<void(const std::string& what, double secondsLeft)>;
+
+// Cases of one group: same molecule and count. Error: the driver refuses a shader.
+std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,
+                                      const BenchDevice& device, const BenchSchedule& schedule,
+                                      const BenchProgress& progress);
+
+// The cases of a list by their groups, in the order of the list.
+std::vector<std::vector<BenchCase>> byGroup(const std::vector<BenchCase>& cases);
+
+}  // namespace shoal::measure

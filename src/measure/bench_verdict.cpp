@@ -1,0 +1,158 @@
+#include "measure/bench_verdict.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+
+namespace shoal::measure {
+
+namespace {
+
+using Test = std::function<bool(const BenchCase&)>;
+
+const BenchResult* find(const std::vector<BenchResult>& all, const Test& test) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const BenchResult& result) {
+        return result.frame.median > 0 && test(result.one);
+    });
+    return found == all.end() ? nullptr : &*found;
+}
+
+const BenchResult* labelled(const std::vector<BenchResult>& all, const std::string& group,
+                            const std::string& label) {
+    return find(all, [&](const BenchCase& one) { return one.group == group && one.label == label; });
+}
+
+std::optional<double> over(const BenchResult* a, const BenchResult* b) {
+    if (!a || !b) return std::nullopt;
+    return a->frame.median / b->frame.median;
+}
+
+double bandwidthOf(const BenchResult& result) {
+    return double(result.movedBytes) / result.frame.median;
+}
+
+// The yardsticks run the uniform wind and draw nothing.
+std::optional<double> againstYardstick(const BenchResult& result, const std::vector<BenchResult>& all,
+                                       Subject subject) {
+    const BenchCase& one = result.one;
+    if (one.drawn || one.wind != Wind::uniform || isCopy(one.subject)) return std::nullopt;
+    return over(&result, find(all, [&](const BenchCase& other) {
+        return other.group == one.group && other.subject == subject && other.substeps == one.substeps;
+    }));
+}
+
+std::optional<double> againstPingPong(const BenchResult& result, const std::vector<BenchResult>& all) {
+    const BenchCase& one = result.one;
+    if (isCopy(one.subject)) return std::nullopt;
+    return over(find(all,
+                     [&](const BenchCase& other) {
+                         return other.group == one.group && other.subject == Subject::pingPong &&
+                                other.substeps == one.substeps && other.solver == one.solver &&
+                                other.wind == one.wind && other.drawn == one.drawn;
+                     }),
+                &result);
+}
+
+std::optional<double> shareOfCopy(const BenchResult& result, const std::vector<BenchResult>& all) {
+    const bool device = isPath(result.one.subject);
+    double best = 0;
+    for (const BenchResult& other : all) {
+        const bool comparable = isCopy(other.one.subject) && other.one.group == result.one.group &&
+                                (other.one.subject == Subject::memoryCopy) != device;
+        if (comparable && other.frame.median > 0) best = std::max(best, bandwidthOf(other));
+    }
+    if (best == 0) return std::nullopt;
+    return bandwidthOf(result) / best;
+}
+
+void addSpeed(std::vector<Target>& out, const std::vector<BenchResult>& all) {
+    const std::vector<std::string> groups = {"16,384 quads", "131,072 quads", "16,384 crosses"};
+    for (const auto& [yardstick, limit] : {std::pair("AVX-512", 4.0), std::pair("AVX2", 2.5)}) {
+        for (const std::string& group : groups) {
+            out.push_back({std::string("fused over the ") + yardstick + " limit, " + group, limit, false,
+                           over(labelled(all, group, "fused"), labelled(all, group, yardstick)), "x"});
+        }
+    }
+    out.push_back({"fused over the AVX-512 limit, 16,384 fish", 6, false,
+                   over(labelled(all, "16,384 fish", "fused"), labelled(all, "16,384 fish", "AVX-512")),
+                   "x"});
+    const std::string many = "131,072 quads";
+    out.push_back({"fused faster than ping-pong, " + many, 10, true,
+                   over(labelled(all, many, "ping-pong"), labelled(all, many, "fused")), "x"});
+}
+
+void addFlatness(std::vector<Target>& out, const std::vector<BenchResult>& all) {
+    std::vector<double> times;
+    for (const char* group : {"16,384 quads", "131,072 quads", "1,048,576 quads"})
+        if (const BenchResult* result = labelled(all, group, "fused")) times.push_back(result->perMolecule());
+    std::optional<double> spread;
+    if (times.size() == 3)
+        spread =
+            *std::max_element(times.begin(), times.end()) / *std::min_element(times.begin(), times.end());
+    out.push_back(
+        {"fused, time per quad, slowest over fastest of 16,384 to 1,048,576", 1.25, false, spread, "x"});
+}
+
+void addMemory(std::vector<Target>& out, const std::vector<BenchResult>& all) {
+    const std::string group = "16,384 quads";
+    const auto bytes = [&](const char* label) -> std::optional<double> {
+        const BenchResult* result = labelled(all, group, label);
+        if (!result) return std::nullopt;
+        return double(result->stateBytes) / result->one.count;
+    };
+    const std::optional<double> two = bytes("fused"), one = bytes("fused, in place"),
+                                drawn = bytes("fused, drawn");
+    out.push_back({"device memory of a quad, two sides", 290, false, two, "bytes"});
+    out.push_back({"device memory of a quad, in place", 160, false, one, "bytes"});
+    std::optional<double> more;
+    if (two && drawn) more = *drawn - *two;
+    out.push_back({"device memory of a quad, more when drawn", 64, false, more, "bytes"});
+    std::optional<double> bus;
+    for (const BenchResult& result : all)
+        if (result.one.subject == Subject::fused && result.frame.samples > 0)
+            bus = std::max(bus.value_or(0), result.busStateBytes);
+    out.push_back({"state over the bus a frame, fused", 0, false, bus, "bytes"});
+}
+
+}  // namespace
+
+Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all) {
+    Ratios out;
+    if (!(result.frame.median > 0)) return out;
+    out.avx512 = againstYardstick(result, all, Subject::avx512);
+    out.avx2 = againstYardstick(result, all, Subject::avx2);
+    out.pingPong = againstPingPong(result, all);
+    if (result.movedBytes == 0 || result.one.drawn) return out;
+    out.bandwidth = bandwidthOf(result);
+    if (!isCopy(result.one.subject)) out.shareOfCopy = shareOfCopy(result, all);
+    return out;
+}
+
+std::vector<Target> targets(const std::vector<BenchResult>& all, bool software) {
+    std::vector<Target> out;
+    addSpeed(out, all);
+    addFlatness(out, all);
+    addMemory(out, all);
+    if (software) return out;
+    Target share{"share of the copy bandwidth, fused, 1,048,576 quads", 0.6, true, std::nullopt, "x"};
+    if (const BenchResult* result = labelled(all, "1,048,576 quads", "fused"))
+        share.measured = ratiosOf(*result, all).shareOfCopy;
+    out.push_back(share);
+    return out;
+}
+
+std::string sentence(const Target& target) {
+    char text[200];
+    const char* wanted = target.atLeast ? "at least" : "at most";
+    const char* space = target.unit == "x" ? "" : " ";
+    if (!target.measured) {
+        std::snprintf(text, sizeof text, "%s: not measured in this run (wanted: %s %.4g%s%s)",
+                      target.what.c_str(), wanted, target.limit, space, target.unit.c_str());
+    } else {
+        std::snprintf(text, sizeof text, "%s: %.3g%s%s (wanted: %s %.4g)", target.what.c_str(),
+                      *target.measured, space, target.unit.c_str(), wanted, target.limit);
+    }
+    return text;
+}
+
+}  // namespace shoal::measure

@@ -1,0 +1,35 @@
+// What the times of a run mean: ratios between cases, and whether the project's targets hold. Pure.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/bench.h"
+
+namespace shoal::measure {
+
+// Of medians; nothing where there is nothing to compare with in the case's group.
+struct Ratios {
+    std::optional<double> avx512, avx2;  // the case's time over that yardstick's
+    std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is
+    std::optional<double> bandwidth;     // B/s: bytes moved over time
+    std::optional<double> shareOfCopy;   // of the fastest copy of as many bytes on the same device
+};
+Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all);
+
+struct Target {
+    std::string what;
+    double limit = 0;
+    bool atLeast = false;            // else at most
+    std::optional<double> measured;  // nothing: this run has not what it takes
+    std::string unit;                // "x", "%", "bytes"
+    bool holds() const { return measured && (atLeast ? *measured >= limit : *measured <= limit); }
+};
+// `software`: a CPU rasteriser, for which the share of a GPU's bandwidth is no target.
+std::vector<Target> targets(const std::vector<BenchResult>& all, bool software);
+
+// One line for people: what was wanted, what was measured.
+std::string sentence(const Target& target);
+
+}  // namespace shoal::measure
