@@ -3,17 +3,15 @@
 //
 // A solver with COMING_KICK still owes the velocity half a kick of the springs: contact acts on the velocity that
 // will have it, or friction would cancel only half of what the springs do in a step.
-bool touches[VERTICES];
 
-// Marks the vertices that are inside a collider; whether there is one.
+// Whether a vertex that is not held lies inside a collider.
 bool findContacts()
 {
-    bool found = false;
+    float least = 1e30;
     for (int i = 0; i < VERTICES; ++i) {
-        touches[i] = !isHeld(pinned[i]) && clearance(anchor, x[i]) < 0.0;
-        found = found || touches[i];
+        if (!isHeld(pinned[i])) least = min(least, clearance(anchor, x[i]));
     }
-    return found;
+    return least < 0.0;
 }
 
 void respondTo(inout vec3 position, inout vec3 velocity, vec3 kick)
@@ -21,49 +19,17 @@ void respondTo(inout vec3 position, inout vec3 velocity, vec3 kick)
     vec3 whole = velocity + kick;
     Contact c = collideAll(anchor, position, whole, gravity, Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
     position = c.position;
-    if (c.velocity != whole) velocity = c.velocity - kick;
+    velocity = c.velocity != whole ? c.velocity - kick : velocity;
 }
 
-#ifdef CONTACT_ONE_BY_ONE
-// One vertex after the other, as many as touch: for molecules of many vertices, of which few touch at a time.
+// All at once; nothing happens to those that do not touch.
 void resolveContacts()
 {
-    int k = VERTICES;
     for (int i = 0; i < VERTICES; ++i) {
-        if (touches[i]) k = min(k, i);
-    }
-    while (k < VERTICES) {
-        vec3 position = vec3(0.0);
-        vec3 velocity = vec3(0.0);
         vec3 kick = vec3(0.0);
-        for (int i = 0; i < VERTICES; ++i) {
-            position = i == k ? x[i] : position;
-            velocity = i == k ? v[i] : velocity;
 #ifdef COMING_KICK
-            kick = i == k ? comingKick[i] : kick;
+        kick = comingKick[i];
 #endif
-        }
-        respondTo(position, velocity, kick);
-        int next = VERTICES;
-        for (int i = 0; i < VERTICES; ++i) {
-            x[i] = i == k ? position : x[i];
-            v[i] = i == k ? velocity : v[i];
-            next = touches[i] && i > k ? min(next, i) : next;
-        }
-        k = next;
+        if (!isHeld(pinned[i])) respondTo(x[i], v[i], kick);
     }
 }
-#else
-void resolveContacts()
-{
-    for (int i = 0; i < VERTICES; ++i) {
-        if (touches[i]) {
-            vec3 kick = vec3(0.0);
-#ifdef COMING_KICK
-            kick = comingKick[i];
-#endif
-            respondTo(x[i], v[i], kick);
-        }
-    }
-}
-#endif

@@ -84,6 +84,13 @@ void main()
     int first = firstElement(molecule, STATE_ELEMENTS);
     loadState(first);
 #ifndef ONLY_NORMALS
+    loadUniforms();
+#ifdef FIELDS
+    loadFieldParameters();
+#endif
+#ifdef COLLIDE
+    loadColliderParameters();
+#endif
     loadRecord(molecule);
     bool wasReleased = released;
     bool moved = false;

@@ -81,6 +81,13 @@ void main()
     if (molecule >= moleculeCount) return;
     loadState(molecule);
 #ifndef ONLY_NORMALS
+    loadUniforms();
+#ifdef FIELDS
+    loadFieldParameters();
+#endif
+#ifdef COLLIDE
+    loadColliderParameters();
+#endif
     loadRecord(molecule);
     bool wasReleased = released;
     bool moved = false;

@@ -17,21 +17,77 @@ uniform samplerBuffer oldState;
 uniform samplerBuffer oldRecords;
 uniform samplerBuffer constants;
 
-uniform int moleculeCount;
-uniform int frame;            // number of this frame, from 0
-uniform int substeps;         // of a frame
-uniform float substep;        // h, s
-uniform float frameTime;      // s, at the start of the frame
-uniform float frameDuration;  // s
-uniform vec3 gravity;         // m/s^2
-uniform float wind;           // factor on the fields
-uniform vec2 decay;           // 1 - exp(-gamma h) across and along the surface
-uniform vec2 phi;             // decay / gamma, h where gamma = 0
-uniform float stiffnessFactor;
-uniform float dampingFactor;
-uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule let go
-uniform float releaseChance;  // in this frame
-uniform vec3 driftOfStep;     // physics/collide.glsl: step, kickDrift, lag
+uniform int moleculeCount;  // of this dispatch
+uniform int givenFrame;
+uniform int givenSubsteps;
+uniform float givenSubstep;
+uniform float givenFrameTime;
+uniform float givenFrameDuration;
+uniform vec3 givenGravity;
+uniform float givenWind;
+uniform vec2 givenDecay;
+uniform vec2 givenPhi;
+uniform float givenStiffnessFactor;
+uniform float givenDampingFactor;
+uniform float givenReleaseForce;
+uniform float givenReleaseChance;
+uniform vec3 givenDriftOfStep;
+
+// The same in registers, where the step reads them. Mesa's rasteriser fetches a uniform lane by lane, in every turn
+// of a loop again, and a plain copy is a uniform to it: an operation that changes nothing makes a value of it.
+int frame;  // number of this frame, from 0
+int substeps;  // of a frame
+float substep;  // h, s
+float frameTime;  // s, at the start of the frame
+float frameDuration;  // s
+vec3 gravity;  // m/s^2
+float wind;  // factor on the fields
+vec2 decay;  // 1 - exp(-gamma h) across and along the surface
+vec2 phi;  // decay / gamma, h where gamma = 0
+float stiffnessFactor;
+float dampingFactor;
+float releaseForce;  // N: above this pull on a pin, all pins of the molecule let go
+float releaseChance;  // in this frame
+vec3 driftOfStep;  // physics/collide.glsl: step, kickDrift, lag
+
+int inRegister(int value)
+{
+    return min(value, 2147483647);
+}
+float inRegister(float value)
+{
+    return min(value, 3.4e38);
+}
+vec2 inRegister(vec2 value)
+{
+    return min(value, vec2(3.4e38));
+}
+vec3 inRegister(vec3 value)
+{
+    return min(value, vec3(3.4e38));
+}
+vec4 inRegister(vec4 value)
+{
+    return min(value, vec4(3.4e38));
+}
+
+void loadUniforms()
+{
+    frame = inRegister(givenFrame);
+    substeps = inRegister(givenSubsteps);
+    substep = inRegister(givenSubstep);
+    frameTime = inRegister(givenFrameTime);
+    frameDuration = inRegister(givenFrameDuration);
+    gravity = inRegister(givenGravity);
+    wind = inRegister(givenWind);
+    decay = inRegister(givenDecay);
+    phi = inRegister(givenPhi);
+    stiffnessFactor = inRegister(givenStiffnessFactor);
+    dampingFactor = inRegister(givenDampingFactor);
+    releaseForce = inRegister(givenReleaseForce);
+    releaseChance = inRegister(givenReleaseChance);
+    driftOfStep = inRegister(givenDriftOfStep);
+}
 
 #ifdef SHARED_MOLECULE
 #define PER_VERTEX shared vec3

@@ -4,10 +4,10 @@
 
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 
-// x: relative to a point of the plane.
-vec4 planeSurface(vec3 x, vec3 normal)
+// origin: of x, relative to a point of the plane; apart, so that its part is the same in every substep.
+vec4 planeSurface(vec3 origin, vec3 x, vec3 normal)
 {
-    return vec4(normal, dot(x, normal));
+    return vec4(normal, dot(origin, normal) + dot(x, normal));
 }
 
 // x: relative to the centre.

@@ -29,14 +29,15 @@ const float restingSlack = 1e-6f;
 // vertex flies back from the surface for that time; if gravity brings it down again within it, it rests.
 // Friction changes the velocity by at most mu times the normal change, never past a stop, and takes back the
 // part of the drift that the lost velocity had made: a vertex that sticks does not creep.
+//
+// Without branches: what does not apply is chosen away at the end, because a rasteriser on a CPU runs every branch of
+// its lanes anyway, and then pays for the bookkeeping of the branches as well.
 Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
                 Drift drift)
 {
-    if (distance >= 0.0f) return Contact(x, v);
-    float depth = -distance;
+    float depth = max(-distance, 0.0f);
     float vn = dot(v, n);
     vec3 surface = x + n * depth;
-    if (vn >= 0.0f) return Contact(surface, v);  // already on its way out
 
     float gn = dot(gravity, n);
     float synchronised = vn + gn * drift.lag;
@@ -54,13 +55,21 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     // the impulse acts over the whole resting step, or at the impact
     float normalChange = bounces ? rebound + impact : -vn;
     float lost = min(friction * normalChange, speed);
+    vec3 lostVelocity = tangential * (lost / max(speed, 1e-30f));
+    vec3 position = surface + n * height - lostVelocity * frictionTime;
+    vec3 velocity = tangential - lostVelocity + n * newNormal;
+
     // What started its drift on the surface, at rest, goes back exactly: anything else would add up a rounding a
     // step. The slack stays well below the drift itself, or what rests above the surface would seem to bounce.
     float started = distance - vn * drift.kickDrift;
     float slack = min(restingSlack, -0.02f * vn * drift.kickDrift);
-    if (!bounces && lost >= speed && abs(started) < slack) return Contact(x - v * drift.kickDrift, vec3(0.0f));
-    vec3 lostVelocity = speed > 0.0f ? tangential * (lost / speed) : vec3(0.0f);
-    return Contact(surface + n * height - lostVelocity * frictionTime, tangential - lostVelocity + n * newNormal);
+    bool rests = !bounces && lost >= speed && abs(started) < slack;
+    position = rests ? x - v * drift.kickDrift : position;
+    velocity = rests ? vec3(0.0f) : velocity;
+
+    bool leaves = vn >= 0.0f;  // already on its way out
+    bool outside = distance >= 0.0f;
+    return Contact(outside ? x : leaves ? surface : position, outside || leaves ? v : velocity);
 }
 
 // Height field cell: bilinear height from the four corner heights, fractions f in [0, 1].

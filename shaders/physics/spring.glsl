@@ -5,11 +5,11 @@
 vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, float restLength)
 {
     float squared = dot(d, d);
-    if (squared < 1e-24f) return vec3(0.0f);
-    float inverse = 1.0f / sqrt(squared);
-    vec3 n = d * inverse;
-    float stretch = squared * inverse - restLength;
-    return n * -(stiffness * stretch + damping * dot(n, relativeVelocity));
+    float inverse = squared > 1e-24f ? 1.0f / sqrt(squared) : 0.0f;
+    // along d instead of n: -[k (1 - L/l) + c d.(vi - vj) / l^2] d
+    float stretch = restLength * inverse - 1.0f;
+    float approach = dot(d, relativeVelocity) * (inverse * inverse);
+    return d * (stiffness * stretch - damping * approach);
 }
 
 // A muscle's rest length at a phase (2 pi f t + phi), in radians.

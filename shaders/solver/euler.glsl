@@ -17,7 +17,7 @@ void advance(int step)
     springForces(time);
     letGo(step);
     for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) v[i] += force[i] * inverseMass[i] * substep;
+        if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
     }
 #endif
     for (int i = 0; i < VERTICES; ++i) {

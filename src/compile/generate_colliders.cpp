@@ -36,7 +36,7 @@ class Emitter {
     // Each returns text of a vec4: unit normal, signed distance (negative inside).
     std::string emit(const PlaneCollider& plane) {
         const std::string point = slot(plane.point), normal = slot(glm::normalize(plane.normal));
-        return concat("planeSurface((anchor - ", point, ".xyz) + c.position, ", normal, ".xyz)");
+        return concat("planeSurface(anchor - ", point, ".xyz, c.position, ", normal, ".xyz)");
     }
 
     std::string emit(const SphereCollider& sphere) {
@@ -87,7 +87,7 @@ Generated generateColliders(const std::vector<Collider>& colliders, std::vector<
     Generated out = std::move(emitter.result);
     out.source = concat(
         "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
-        "uniform vec4 colliderParameters[", out.parameters.size(), "];\n\n",
+        parameterArray("colliderParameters", out.parameters.size()),
         "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
         "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
         "    return c;\n}\n\n// m: from the nearest surface, less its thickness; negative inside.\n",

@@ -104,10 +104,20 @@ Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4
     Generated out = std::move(emitter.result);
     out.source =
         concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
-               "uniform vec4 fieldParameters[", out.parameters.size(), "];\n\n",
+               parameterArray("fieldParameters", out.parameters.size()),
                "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                out.source, "    return u;\n}\n");
     return out;
+}
+
+std::string parameterArray(const std::string& name, size_t count) {
+    const std::string capital = concat(char(name[0] - 'a' + 'A'), name.substr(1));
+    std::string load;
+    for (size_t i = 0; i < count; ++i)
+        load += concat("    ", name, "[", i, "] = inRegister(given", capital, "[", i, "]);\n");
+    return concat("#ifdef FUSED\nuniform vec4 given", capital, "[", count, "];\nvec4 ", name, "[", count,
+                  "];\n\nvoid load", capital, "()\n{\n", load, "}\n#else\nuniform vec4 ", name, "[", count,
+                  "];\n#endif\n\n");
 }
 
 std::string inComment(const std::string& name) {

@@ -20,7 +20,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs);
 
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {
-    static constexpr int block = 32;  // molecules that lie together
+    static constexpr int block = 16;  // molecules that lie together
     int vertexCount = 0;
 
     int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals

@@ -55,9 +55,9 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         made.step = Program(context, shaderRoot, program);
         made.step.use();
         if (group.needs.fields)
-            made.step.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
+            made.step.set("givenFieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (group.needs.collide)
-            made.step.set("colliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
+            made.step.set("givenColliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
         if (!options.drawn || !group.needs.normals) continue;
         kernel.onlyNormals = true;
         program = kernelProgram(plan, g, kernel);
@@ -69,21 +69,21 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
 void Fused::setUniforms(const Program& program, const GroupPlan& group, const Frame& frame) const {
     const Parameters& parameters = frame.parameters;
     const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
-    program.set("frame", frame.number);
-    program.set("substeps", parameters.substeps);
-    program.set("substep", float(frame.h));
-    program.set("frameTime", float(frame.time));
-    program.set("frameDuration", float(parameters.frameTime));
-    program.set("gravity", glm::vec3(parameters.gravity));
-    program.set("wind", float(parameters.wind));
-    program.set("decay", drag.decay);
-    program.set("phi", drag.phi);
-    program.set("stiffnessFactor", float(group.stiffness * parameters.stiffness));
-    program.set("dampingFactor", float(group.damping * parameters.damping));
+    program.set("givenFrame", frame.number);
+    program.set("givenSubsteps", parameters.substeps);
+    program.set("givenSubstep", float(frame.h));
+    program.set("givenFrameTime", float(frame.time));
+    program.set("givenFrameDuration", float(parameters.frameTime));
+    program.set("givenGravity", glm::vec3(parameters.gravity));
+    program.set("givenWind", float(parameters.wind));
+    program.set("givenDecay", drag.decay);
+    program.set("givenPhi", drag.phi);
+    program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
+    program.set("givenDampingFactor", float(group.damping * parameters.damping));
     const ReleaseLimits release = releaseLimits(group, frame);
-    program.set("releaseForce", release.force);
-    program.set("releaseChance", release.chance);
-    program.set("driftOfStep", driftOf(group.solver, frame.h));
+    program.set("givenReleaseForce", release.force);
+    program.set("givenReleaseChance", release.chance);
+    program.set("givenDriftOfStep", driftOf(group.solver, frame.h));
 }
 
 void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {

@@ -10,9 +10,6 @@ namespace shoal {
 
 namespace {
 
-// Beyond this many vertices contacts are resolved one after the other, as many as there are.
-constexpr int contactsAtOnce = 8;
-
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
     const BufferLayout layout{group.vertexCount};
@@ -24,6 +21,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         if (need) out.emplace_back(name);
     };
     const bool perLane = options.lanes == Lanes::molecule;
+    define(true, "FUSED");
     define(!perLane, "SHARED_MOLECULE");
     define(options.pairedStores && perLane, "PAIRED_STORES");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
@@ -41,7 +39,6 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.collide, "COLLIDE");
     define(needs.collide && needs.springs && group.solver == SolverKind::leapfrog, "COMING_KICK");
-    define(perLane && group.vertexCount > contactsAtOnce, "CONTACT_ONE_BY_ONE");
     return out;
 }
 
