@@ -99,7 +99,7 @@ void printTable(Measured& run) {
 }  // namespace
 
 // Arguments: the number of rounds (default 15); --context egl|osmesa.
-static int measure(int argc, char** argv) {
+static int measureAll(int argc, char** argv) {
     int rounds = 15;
     gpu::ContextOptions options;
     for (int i = 1; i < argc; ++i) {
@@ -145,7 +145,7 @@ static int measure(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     try {
-        return measure(argc, argv);
+        return measureAll(argc, argv);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "shoal-performance: %s\n", error.what());
         return 1;
