@@ -5,11 +5,11 @@
 vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, float restLength)
 {
     float squared = dot(d, d);
-    float inverse = squared > 1e-24f ? 1.0f / sqrt(squared) : 0.0f;
+    float inverse = 1.0f / sqrt(max(squared, 1e-24f));
     // along d instead of n: -[k (1 - L/l) + c d.(vi - vj) / l^2] d
     float stretch = restLength * inverse - 1.0f;
     float approach = dot(d, relativeVelocity) * (inverse * inverse);
-    return d * (stiffness * stretch - damping * approach);
+    return d * (squared > 1e-24f ? stiffness * stretch - damping * approach : 0.0f);
 }
 
 // A muscle's rest length at a phase (2 pi f t + phi), in radians.

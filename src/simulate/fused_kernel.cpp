@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compile/generate.h"
+#include "gpu/conditions.h"
 #include "gpu/shader_source.h"
 #include "simulate/vertex_loops.h"
 
@@ -89,6 +90,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/colliders.glsl", plan.collideSource}};
     out.label = concat("fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options.lanes)](gpu::ShaderSource& source) {
+        gpu::resolveConditions(source);
         expand(source, loops);
     };
     return out;
