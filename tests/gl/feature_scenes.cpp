@@ -68,7 +68,7 @@ void addContact(std::vector<FeatureScene>& out) {
         }
         Scene many = swarm(shippedMolecule("fish"), 40, solver);  // more vertices than contacts at once
         many.gravity = down;
-        many.colliders = colliders;
+        many.colliders = {colliders[0], colliders[2]};
         groupOf(many).drag = {2, 0.5};
         setStableSubsteps(many);
         out.push_back({concat("contact of 24 vertices, ", name(solver)), std::move(many)});
@@ -120,7 +120,7 @@ void addShapes(std::vector<FeatureScene>& out) {
     two.groups.push_back(swarm(leaf(150, 1), 31, SolverKind::leapfrog).groups[0]);
     two.gravity = down;
     two.fields = everyField();
-    two.colliders = everyCollider();
+    two.colliders = {everyCollider()[1], everyCollider()[3]};
     for (Group& group : two.groups)
         group.drag = {3, 0.8};
     two.groups[1].stiffness = 1.5, two.groups[1].damping = 0.5;

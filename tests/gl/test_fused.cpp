@@ -1,0 +1,163 @@
+// The fused path in all the ways it can be run: in place, a lane a molecule or a vertex, split into parts.
+#include <algorithm>
+
+#include "gl/agreement.h"
+#include "gl/feature_scenes.h"
+#include "render/renderer.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using test::FeatureScene;
+
+namespace {
+
+constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
+
+// Contact, pins that let go, directional drag, muscles and fields at once.
+Scene fullScene(Molecule molecule, int count, FieldSampling sampling, SolverKind solver) {
+    molecule.vertices[0].pinned = molecule.vertices.size() > 1;
+    test::addMuscles(molecule, 0.1);
+    Scene scene = test::swarm(molecule, count, solver, {0, 1.5, 0});
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.fieldSampling = sampling;
+    scene.fields = {test::everyField()[1], test::everyField()[2]};
+    scene.colliders = {test::everyCollider()[0], test::everyCollider()[1]};
+    Group& group = scene.groups[0];
+    group.drag = {3, 0.8};
+    group.release = Release{{}, 1.5, 0};
+    group.phaseSpread = 3;
+    test::setStableSubsteps(scene);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes]") {
+    if (!test::canFuse()) return;
+    using Sampling = FieldSampling;
+    struct Case {
+        Molecule molecule;
+        std::vector<Sampling> samplings;
+    };
+    // 64 vertices are what a lane holds at most, and take it seconds to compile
+    const Case cases[] = {
+        {test::shippedMolecule("quad"),
+         {Sampling::vertexSubstep, Sampling::vertexFrame, Sampling::moleculeFrame}},
+        {test::shippedMolecule("fish"), {Sampling::vertexFrame, Sampling::vertexSubstep}},
+        {test::sheet(11, 3, true), {Sampling::moleculeFrame}},
+        {test::sheet(8, 8, true), {Sampling::vertexSubstep}},
+        {test::point(0.3), {Sampling::vertexSubstep}},
+    };
+    REQUIRE(cases[2].molecule.vertices.size() == 33);
+    REQUIRE(cases[3].molecule.vertices.size() == 64);
+    int contacts = 0, releases = 0, number = 0;
+    for (const auto& [molecule, samplings] : cases) {
+        for (const Sampling sampling : samplings) {
+            const SolverKind solver = ++number % 2 == 0 ? SolverKind::euler : SolverKind::leapfrog;
+            const Scene scene = fullScene(molecule, 67, sampling, solver);
+            test::Agreement agreement(scene, {.path = Path::fused, .lanes = Lanes::molecule},
+                                      {.path = Path::fused, .lanes = Lanes::vertex});
+            CHECK(agreement.first().lanes(0) == Lanes::molecule);
+            for (const int frame : {0, 10, 40}) {
+                const test::Comparison c = agreement.at(frame);
+                UNSCOPED_INFO(molecule.name << ", " << name(solver) << ", " << name(sampling) << ", frame "
+                                            << frame << ": " << text(c));
+                CHECK(c.wrong == 0);
+                CHECK(c.excepted < 0.05 * c.molecules);
+                CHECK(c.normal < test::Agreement::normalTolerance);
+                contacts += c.contacts;
+                releases += c.releases;
+            }
+        }
+    }
+    CHECK(contacts > 100);
+    CHECK(releases > 10);
+}
+
+TEST_CASE("in place the bits are the same, from half the memory", "[fused]") {
+    if (!test::canFuse()) return;
+    for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
+        for (const int count : {1, 67, 1030}) {
+            const Scene scene = fullScene(test::shippedMolecule("leaf"), count, FieldSampling::vertexSubstep,
+                                          SolverKind::leapfrog);
+            const Plan plan = compile(scene);
+            Simulation two(testContext(), shaders, plan, {.path = Path::fused, .lanes = lanes});
+            Simulation one(testContext(), shaders, plan,
+                           {.path = Path::fused, .inPlace = true, .lanes = lanes});
+            const BufferLayout layout{9};
+            CHECK(two.stateBytes() - one.stateBytes() ==
+                  BufferLayout::padded(size_t(count)) * size_t(layout.stateElements()) * 16);
+            test::run(two, 31);
+            test::run(one, 31);
+            INFO(name(lanes) << ", " << count << " molecules");
+            CHECK(one.hash() == two.hash());
+            CHECK(one.snapshot(0).normals == two.snapshot(0).normals);
+            const SavedState saved = one.save();
+            one.restart();
+            one.load(saved);
+            CHECK(one.save().groups == two.save().groups);
+            test::run(two, 3);
+            test::run(one, 3);
+            CHECK(one.hash() == two.hash());
+        }
+    }
+}
+
+TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][render]") {
+    if (!test::canFuse()) return;
+    gpu::Context& context = testContext();
+    for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
+        for (const bool inPlace : {false, true}) {
+            INFO(name(lanes) << (inPlace ? ", in place" : ""));
+            Scene scene = fullScene(test::shippedMolecule("leaf"), 1030, FieldSampling::vertexSubstep,
+                                    SolverKind::euler);
+            scene.camera.eye = {0, 2, 7};
+            scene.camera.target = {0, 1.5, 0};
+            const Plan plan = compile(scene);
+            Simulation whole(context, shaders, plan,
+                             {.path = Path::fused, .inPlace = inPlace, .lanes = lanes});
+            REQUIRE(whole.state().buffers->front().parts().size() == 1);
+
+            const Tables tables(context, plan);
+            Fused split(context, shaders, plan, tables, {.drawn = true, .inPlace = inPlace, .lanes = lanes});
+            split.state[0] = GroupBuffers(context, plan.groups[0], true, inPlace, 300);
+            const std::vector<GroupBuffers::Part>& parts = split.state[0].parts();
+            REQUIRE(parts.size() >= 3);
+            int covered = 0;
+            for (const GroupBuffers::Part& part : parts) {
+                CHECK(part.first == covered);
+                CHECK(part.first % BufferLayout::block == 0);
+                CHECK(part.count <= 300);
+                covered += part.count;
+            }
+            CHECK(covered == 1030);
+
+            gpu::PassTimers timers(context, gpu::PassTimers::Mode::off);
+            split.state[0].write(plan.groups[0], plan.groups[0].start);
+            split.computeNormals(timers);
+            CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
+            for (int frame = 0; frame < 40; ++frame) {
+                const Parameters& parameters = whole.parameters;
+                split.step({whole.time(), parameters.frameTime / parameters.substeps, frame, parameters},
+                           timers);
+                whole.frame();
+            }
+            CHECK(split.state[0].read(plan.groups[0]) == whole.save().groups[0]);
+            CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
+
+            RenderOptions size;
+            size.width = 160, size.height = 120;
+            Renderer renderer(context, shaders, scene, plan, size);
+            renderer.draw(whole.state(), View::of(scene.camera));
+            const Image expected = renderer.capture();
+            renderer.draw({nullptr, &split.state}, View::of(scene.camera));
+            CHECK(renderer.capture().pixels == expected.pixels);
+            renderer.draw(Simulation(context, shaders, plan, {.path = Path::fused}).state(),
+                          View::of(scene.camera));
+            CHECK(renderer.capture().pixels != expected.pixels);
+        }
+    }
+}
+
+}  // namespace shoal
