@@ -4,8 +4,10 @@
 #include <fstream>
 #include <iostream>
 #include <memory>
+#include <numeric>
 #include <thread>
 
+#include "app/bench_plot.h"
 #include "app/bench_report.h"
 #include "app/commands.h"
 #include "app/data_paths.h"
@@ -18,6 +20,12 @@ namespace shoal::app {
 using namespace measure;
 
 namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
 
 constexpr int pictureWidth = 640, pictureHeight = 360;
 
@@ -38,45 +46,62 @@ Draw makeDraw(gpu::Context& context, const Scene& scene, const Plan& plan) {
     return [renderer, view = View::of(scene.camera)](const StateView& state) { renderer->draw(state, view); };
 }
 
-std::vector<BenchCase> wantedCases(const Options& options) {
-    std::vector<BenchCase> out = benchCases(options.quick);
-    const std::vector<BenchCase> all = out;
-    std::erase_if(out,
-                  [&](const BenchCase& one) { return one.name().find(options.only) == std::string::npos; });
-    if (!out.empty()) return out;
+// Everything is asked for by its name: cases, and these beside them.
+constexpr const char *errors = "errors", *starts = "start-up", *passes = "passes";
+
+// What this run is to do.
+struct Wanted {
+    std::vector<std::vector<BenchCase>> groups;
+    bool errors = false, starts = false, passes = false;
+};
+
+Wanted wantedOf(const Options& options) {
+    const auto named = [&](const std::string& name) { return name.find(options.only) != std::string::npos; };
+    const std::vector<BenchCase> all = benchCases(options.quick);
+    std::vector<BenchCase> some;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+                 [&](const BenchCase& one) { return named(one.name()); });
+    Wanted out{byGroup(some), named(errors), named(starts), named(passes)};
+    if (!some.empty() || out.errors || out.starts || out.passes) {
+        if (!options.plot.empty()) checkPlot(some);
+        return out;
+    }
     std::string names;
     for (const std::vector<BenchCase>& group : byGroup(all))
-        names += (names.empty() ? "" : ", ") + group.front().group;
-    throw Error(concat("--only: no case has \"", options.only, "\" in its name; there are ", names,
-                       ", each with fused, ping-pong, AVX-512 and so on"));
+        names += "\"" + group.front().group + "\", ";
+    throw Error(concat("--only: nothing has \"", options.only, "\" in its name; there are ", names,
+                       "each with fused, ping-pong, AVX-512 and so on, and \"", errors, "\", \"", starts,
+                       "\", \"", passes, "\""));
 }
 
 // One bar for the whole run, whose end is estimated anew with every step.
 class WholeRun {
   public:
-    WholeRun(size_t groups, double secondsAGroup) : groups_(groups), secondsAGroup_(secondsAGroup) {}
+    // `parts`: seconds that each is expected to take.
+    explicit WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {}
 
-    void say(size_t group, double left) {
-        const double seconds = elapsed();
-        const double rest = left + double(groups_ - group - 1) * secondsAGroup_;
-        const int percent = std::min(99, int(100 * seconds / (seconds + rest)));
+    double expected() const { return std::accumulate(parts_.begin(), parts_.end(), 0.0); }
+    // `left`: seconds until this part ends.
+    void tell(double left) {
+        const double rest = std::accumulate(parts_.begin() + part_ + 1, parts_.end(), left);
+        show(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
+    }
+    void tellShare(double share) { tell((1 - share) * parts_[size_t(part_)]); }
+    void next() { ++part_; }
+    void end() { show(100); }
+    double elapsed() const { return secondsSince(start_); }
+
+  private:
+    void show(int percent) {
         for (; shown_ < percent; ++shown_)
             bar_.step();
     }
-    void end() {
-        for (; shown_ < 100; ++shown_)
-            bar_.step();
-    }
-    double elapsed() const {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-    }
 
-  private:
-    size_t groups_;
-    double secondsAGroup_;
+    std::vector<double> parts_;
+    ptrdiff_t part_ = 0;
     int shown_ = 0;
     Progress bar_{"per cent", 100};
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+    Clock::time_point start_ = Clock::now();
 };
 
 std::string duration(double seconds) {
@@ -84,48 +109,80 @@ std::string duration(double seconds) {
     return concat(int(seconds / 60 + 0.5), " minutes");
 }
 
+BenchReport describe(const Options& options, const gpu::Context& context) {
+    BenchReport out;
+    out.processor = processorName();
+    out.cores = int(std::max(1u, std::thread::hardware_concurrency()));
+    out.pinned = pinRasteriserThreads();
+    out.context = context.info();
+    out.quick = options.quick;
+    out.whole = options.only.empty();
+    out.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 12);
+    out.width = pictureWidth;
+    out.height = pictureHeight;
+    return out;
+}
+
+// Expected seconds of each part, in the order of measureAll.
+std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& report) {
+    // beside the frames of a group: placing, compiling, the least number of frames
+    std::vector<double> out(wanted.groups.size(), 1.2 * report.secondsAGroup + 1);
+    if (wanted.passes) out.push_back(report.secondsAGroup + 1);
+    if (wanted.errors) out.push_back(report.quick ? 2 : 8);
+    if (wanted.starts) out.push_back(report.quick ? 2 : 8);
+    return out;
+}
+
+void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const BenchDevice& device,
+                BenchReport& report) {
+    WholeRun run(expectedSeconds(wanted, report));
+    std::cerr << "This takes about " << duration(run.expected()) << ".\n";
+    const auto share = [&](double done) { run.tellShare(done); };
+    BenchSchedule schedule;
+    schedule.seconds = report.secondsAGroup;
+    for (const std::vector<BenchCase>& group : wanted.groups) {
+        const auto progress = [&](const std::string&, double left) { run.tell(left); };
+        const std::vector<BenchResult> results = measureGroup(group, molecules, device, schedule, progress);
+        report.results.insert(report.results.end(), results.begin(), results.end());
+        run.next();
+    }
+    if (wanted.passes) {
+        report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, share);
+        run.next();
+    }
+    if (wanted.errors) {
+        report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, share);
+        run.next();
+    }
+    if (wanted.starts) report.starts = measureStart(molecules, device, report.quick, share);
+    run.end();
+    report.seconds = run.elapsed();
+}
+
 }  // namespace
 
 int benchCommand(const Options& options) {
-    const std::vector<std::vector<BenchCase>> groups = byGroup(wantedCases(options));
+    const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
-    gpu::ContextOptions wanted;
-    wanted.kind = options.context;
-    gpu::Context context(wanted);
+    gpu::ContextOptions contextOptions;
+    contextOptions.kind = options.context;
+    const Clock::time_point start = Clock::now();
+    gpu::Context context(contextOptions);
+    const double contextSeconds = secondsSince(start);
+    BenchReport report = describe(options, context);
+    report.contextSeconds = contextSeconds;
+    if (!context.info().computeShaders)
+        std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has "
+                  << context.info().version << ": its cases are left out\n";
+
     gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
-
-    BenchReport report;
-    report.processor = processorName();
-    report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    report.pinned = pinRasteriserThreads();
-    report.context = context.info();
-    report.quick = options.quick;
-    report.secondsAGroup = options.seconds.value_or(options.quick ? 3 : 15);
-    report.width = pictureWidth;
-    report.height = pictureHeight;
-
-    BenchDevice device;
-    device.context = &context;
-    device.shaderRoot = shaderRoot();
-    device.cache = &cache;
-    device.cores = report.cores;
+    BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores};
     device.makeDraw = [&](const Scene& scene, const Plan& plan) { return makeDraw(context, scene, plan); };
-    BenchSchedule schedule;
-    schedule.seconds = report.secondsAGroup;
-
-    // what a group takes beside its frames: compiling, placing, the least number of frames
-    const double aGroup = report.secondsAGroup * 1.2 + 2;
-    std::cerr << "This takes about " << duration(aGroup * double(groups.size())) << ".\n";
-    WholeRun run(groups.size(), aGroup);
-    for (size_t g = 0; g < groups.size(); ++g) {
-        const auto progress = [&](const std::string&, double left) { run.say(g, left); };
-        const std::vector<BenchResult> results =
-            measureGroup(groups[g], molecules, device, schedule, progress);
-        report.results.insert(report.results.end(), results.begin(), results.end());
-    }
-    run.end();
-    report.seconds = run.elapsed();
+    measureAll(wanted, molecules, device, report);
+    if (!options.plot.empty())
+        plot(options.plot, report.processor + ", " + context.info().renderer, report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
+    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << options.plot << "\n";
     return 0;
 }
 

@@ -65,7 +65,8 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
     }
 }
 
-void addVerdicts(std::ostringstream& out, const std::vector<Target>& all) {
+// `whole`: nothing was left out by wish.
+void addVerdicts(std::ostringstream& out, const std::vector<Target>& all, bool whole) {
     const auto list = [&](const char* title, auto&& belongs) {
         bool any = false;
         for (const Target& target : all) {
@@ -77,66 +78,80 @@ void addVerdicts(std::ostringstream& out, const std::vector<Target>& all) {
     };
     list("These targets hold in this run:", [](const Target& t) { return t.holds(); });
     list("These do not:", [](const Target& t) { return t.measured && !t.holds(); });
-    list("These were not measured:", [](const Target& t) { return !t.measured; });
+    if (whole) list("These were not measured:", [](const Target& t) { return !t.measured; });
 }
 
-JsonValue orNull(const std::optional<double>& value) {
-    return value ? JsonValue::makeNumber(*value) : JsonValue();
-}
-
-JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all) {
-    const BenchCase& one = result.one;
-    JsonValue out = JsonValue::makeObject();
-    out.add("group", JsonValue::makeString(one.group))
-        .add("case", JsonValue::makeString(one.label))
-        .add("subject", JsonValue::makeString(name(one.subject)))
-        .add("molecule", JsonValue::makeString(one.molecule))
-        .add("count", JsonValue::makeNumber(one.count));
-    if (!result.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(result.leftOut));
-    if (!isCopy(one.subject)) {
-        out.add("solver", JsonValue::makeString(shoal::name(one.solver)))
-            .add("substeps", JsonValue::makeNumber(one.substeps))
-            .add("wind", JsonValue::makeString(one.wind == Wind::uniform ? "uniform" : "gusts"));
+void addErrors(std::ostringstream& out, const BenchReport& report) {
+    if (report.errors.empty()) return;
+    out << "\nerror after 1 s, quads in the air, against double precision; ns each of so many quads\n";
+    const auto row = [&](const std::string& what, const std::string& error, const std::string& small,
+                         const std::string& large) {
+        out << "  " << std::left << std::setw(46) << what << std::right << std::setw(12) << error
+            << std::setw(10) << small << std::setw(10) << large << "\n";
+    };
+    row("", "error", "16,384", "131,072");
+    for (const BenchError& one : report.errors) {
+        const auto speed = [&](int count) -> std::string {
+            const BenchResult* result = speedOf(one, count, report.results);
+            return result ? short3(result->perMolecule() * 1e9) : "-";
+        };
+        char error[32] = "-";
+        if (one.relative) std::snprintf(error, sizeof error, "%.1e", *one.relative);
+        row(concat(name(one.subject), ", ", shoal::name(one.solver), ", ", name(one.wind), ", ",
+                   shoal::name(one.sampling)),
+            error, speed(16384), speed(131072));
     }
-    if (isPath(one.subject)) {
-        out.add("fieldSampling", JsonValue::makeString(shoal::name(one.sampling)))
-            .add("lanes", JsonValue::makeString(shoal::name(result.lanes)))
-            .add("inPlace", JsonValue::makeBoolean(one.inPlace))
-            .add("drawn", JsonValue::makeBoolean(one.drawn));
+}
+
+void addStarts(std::ostringstream& out, const BenchReport& report) {
+    if (report.starts.empty()) return;
+    out << "\nstart-up, ms: the context " << number(report.contextSeconds * 1e3, 0)
+        << "; plan, then simulation and first frame: unseen kernel, in the driver's cache, in ours\n";
+    for (const StartTime& one : report.starts) {
+        out << "  " << std::left << std::setw(34)
+            << concat(grouped(one.count), " ", one.molecule, ", ", shoal::name(one.solver)) << std::right;
+        for (const double seconds : {one.compile, one.cold, one.driver, one.cached})
+            out << std::setw(10) << number(seconds * 1e3, 0);
+        out << "\n";
     }
-    const Ratios ratios = ratiosOf(result, all);
-    out.add("samples", JsonValue::makeNumber(result.frame.samples))
-        .add("framesPerSample", JsonValue::makeNumber(result.framesPerSample))
-        .add("minSeconds", JsonValue::makeNumber(result.frame.min))
-        .add("medianSeconds", JsonValue::makeNumber(result.frame.median))
-        .add("nanosecondsPerMolecule", JsonValue::makeNumber(result.perMolecule() * 1e9))
-        .add("overAvx512", orNull(ratios.avx512))
-        .add("overAvx2", orNull(ratios.avx2))
-        .add("fasterThanPingPong", orNull(ratios.pingPong))
-        .add("stateBytesPerMolecule", JsonValue::makeNumber(double(result.stateBytes) / one.count))
-        .add("movedBytesPerFrame",
-             result.movedBytes ? JsonValue::makeNumber(double(result.movedBytes)) : JsonValue())
-        .add("bytesPerSecond", orNull(ratios.bandwidth))
-        .add("shareOfCopy", orNull(ratios.shareOfCopy))
-        .add("busStateBytesPerFrame", JsonValue::makeNumber(result.busStateBytes));
-    return out;
 }
 
-JsonValue asJson(const Target& target) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("target", JsonValue::makeString(target.what))
-        .add(target.atLeast ? "atLeast" : "atMost", JsonValue::makeNumber(target.limit))
-        .add("measured", orNull(target.measured));
-    if (target.measured) out.add("holds", JsonValue::makeBoolean(target.holds()));
-    return out;
+std::string minAndMedian(double min, double median) {
+    return number(min * 1e3, 2) + " / " + number(median * 1e3, 2);
 }
 
-template <typename Items>
-JsonValue arrayOf(const Items& items) {
-    JsonValue out = JsonValue::makeArray();
-    for (const auto& item : items)
-        out.items.push_back(asJson(item));
-    return out;
+// Tables of one path and solver side by side, one column each size.
+void addPassTable(std::ostringstream& out, const std::vector<const PassTable*>& sizes) {
+    const PassTable& first = *sizes.front();
+    constexpr int width = 20;
+    out << "\npasses of quads, " << name(first.subject) << ", " << shoal::name(first.solver)
+        << "; all calls of a frame, min / median ms\n"
+        << "  pass       calls";
+    for (const PassTable* size : sizes)
+        out << std::right << std::setw(width) << grouped(size->count);
+    out << "\n";
+    for (size_t i = 0; i < first.passes.size(); ++i) {
+        out << "  " << std::left << std::setw(10) << first.passes[i].name << std::right << std::setw(6)
+            << first.passes[i].calls;
+        for (const PassTable* size : sizes)
+            out << std::setw(width) << minAndMedian(size->passes[i].min, size->passes[i].median);
+        out << "\n";
+    }
+    out << "  frame           ";
+    for (const PassTable* size : sizes)
+        out << std::setw(width) << minAndMedian(size->frame.min, size->frame.median);
+    out << "\n";
+}
+
+void addPasses(std::ostringstream& out, const std::vector<PassTable>& tables) {
+    for (const Subject subject : {Subject::fused, Subject::pingPong}) {
+        for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog}) {
+            std::vector<const PassTable*> sizes;
+            for (const PassTable& table : tables)
+                if (table.subject == subject && table.solver == solver) sizes.push_back(&table);
+            if (!sizes.empty()) addPassTable(out, sizes);
+        }
+    }
 }
 
 }  // namespace
@@ -149,35 +164,14 @@ std::string asText(const BenchReport& report) {
         << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
         << " x " << report.height << ".\n"
         << "ns each: median by molecules. /AVX-512, /AVX2: times that yardstick. vs p-p: times as fast as\n"
-        << "ping-pong. bytes: of state, each. copy: share of the fastest copy's bandwidth.\n";
+        << "ping-pong. bytes: of state, each. GB/s: state read and written over time. copy: share of the\n"
+        << "fastest copy's.\n";
     addTimes(out, report.results);
-    addVerdicts(out, targets(report.results, report.context.software));
+    addErrors(out, report);
+    addStarts(out, report);
+    addPasses(out, report.passes);
+    addVerdicts(out, targets(report.results, report.context.software), report.whole);
     return out.str();
-}
-
-JsonValue asJson(const BenchReport& report) {
-    JsonValue machine = JsonValue::makeObject();
-    machine.add("processor", JsonValue::makeString(report.processor))
-        .add("cores", JsonValue::makeNumber(report.cores))
-        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.pinned));
-    JsonValue context = JsonValue::makeObject();
-    context.add("kind", JsonValue::makeString(gpu::name(report.context.kind)))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("version", JsonValue::makeString(report.context.version))
-        .add("software", JsonValue::makeBoolean(report.context.software));
-    JsonValue cases = JsonValue::makeArray();
-    for (const BenchResult& result : report.results)
-        cases.items.push_back(asJson(result, report.results));
-    JsonValue out = JsonValue::makeObject();
-    out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("machine", std::move(machine))
-        .add("context", std::move(context))
-        .add("quick", JsonValue::makeBoolean(report.quick))
-        .add("secondsAGroup", JsonValue::makeNumber(report.secondsAGroup))
-        .add("seconds", JsonValue::makeNumber(report.seconds))
-        .add("cases", std::move(cases))
-        .add("targets", arrayOf(targets(report.results, report.context.software)));
-    return out;
 }
 
 }  // namespace shoal::app

@@ -7,6 +7,9 @@
 #include "core/json.h"
 #include "gpu/context.h"
 #include "measure/bench.h"
+#include "measure/bench_error.h"
+#include "measure/bench_passes.h"
+#include "measure/bench_start.h"
 #include "measure/bench_verdict.h"
 
 namespace shoal::app {
@@ -16,10 +19,15 @@ struct BenchReport {
     int cores = 1, pinned = 0;  // pinned: workers of a CPU rasteriser
     gpu::ContextInfo context;
     bool quick = false;
+    bool whole = true;  // everything was asked for
     double secondsAGroup = 0;
     int width = 0, height = 0;  // of the pictures
     double seconds = 0;         // the whole run
+    double contextSeconds = 0;  // to make the context
     std::vector<measure::BenchResult> results;
+    std::vector<measure::BenchError> errors;
+    std::vector<measure::StartTime> starts;
+    std::vector<measure::PassTable> passes;
 };
 
 std::string asText(const BenchReport& report);

@@ -75,7 +75,7 @@ void addSamplings(std::vector<BenchCase>& out, int count) {
     BenchCase one = grouped("quad", "quads in wind", count);
     for (const Wind wind : {Wind::uniform, Wind::gusts}) {
         one.wind = wind;
-        const std::string what = wind == Wind::uniform ? "uniform" : "gusts";
+        const std::string what = name(wind);
         one.subject = Subject::fused;
         for (const FieldSampling sampling :
              {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
@@ -86,6 +86,14 @@ void addSamplings(std::vector<BenchCase>& out, int count) {
         one.sampling = FieldSampling::vertexSubstep;
         one.subject = Subject::pingPong;
         one.label = "ping-pong, " + what + ", " + shoal::name(one.sampling);
+        out.push_back(one);
+    }
+    one.solver = SolverKind::leapfrog;
+    one.subject = Subject::fused;
+    for (const FieldSampling sampling :
+         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+        one.sampling = sampling;
+        one.label = std::string("fused, leapfrog, gusts, ") + shoal::name(sampling);
         out.push_back(one);
     }
 }
@@ -108,6 +116,9 @@ const char* name(Subject subject) {
     static constexpr const char* names[] = {"fused",  "ping-pong",    "AVX-512",      "AVX2",
                                             "scalar", "copy, buffer", "copy, kernel", "copy, memory"};
     return names[size_t(subject)];
+}
+const char* name(Wind wind) {
+    return wind == Wind::uniform ? "uniform" : "gusts";
 }
 bool isPath(Subject subject) {
     return subject == Subject::fused || subject == Subject::pingPong;

@@ -34,6 +34,7 @@ enum class Wind {
     uniform,
     gusts,  // a gust and curl noise: fields that cost something
 };
+const char* name(Wind wind);  // "uniform", "gusts"
 
 struct BenchCase {
     std::string group;     // cases that are measured in turn, such as "16,384 quads"

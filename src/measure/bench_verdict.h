@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "measure/bench.h"
+#include "measure/bench_error.h"
 
 namespace shoal::measure {
 
-// Of medians; nothing where there is nothing to compare with in the case's group.
+// Of medians unless it says otherwise; nothing where there is nothing to compare with in the case's group.
 struct Ratios {
     std::optional<double> avx512, avx2;  // the case's time over that yardstick's
     std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is
@@ -21,13 +22,17 @@ Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all);
 struct Target {
     std::string what;
     double limit = 0;
-    bool atLeast = false;            // else at most
-    std::optional<double> measured;  // nothing: this run has not what it takes
-    std::string unit;                // "x", "%", "bytes"
+    bool atLeast = false;                 // else at most
+    std::optional<double> measured = {};  // of medians; nothing: this run has not what it takes
+    std::string unit = "x";               // or "bytes"
+    std::optional<double> ofMinima = {};  // the same of the shortest times, which say what the work costs
     bool holds() const { return measured && (atLeast ? *measured >= limit : *measured <= limit); }
 };
 // `software`: a CPU rasteriser, for which the share of a GPU's bandwidth is no target.
 std::vector<Target> targets(const std::vector<BenchResult>& all, bool software);
+
+// The case that says how fast `count` quads run with what an error was measured of; null without one.
+const BenchResult* speedOf(const BenchError& error, int count, const std::vector<BenchResult>& all);
 
 // One line for people: what was wanted, what was measured.
 std::string sentence(const Target& target);

@@ -1,0 +1,153 @@
+#include "app/bench_report.h"
+
+namespace shoal::app {
+
+using namespace measure;
+
+namespace {
+
+JsonValue orNull(const std::optional<double>& value) {
+    return value ? JsonValue::makeNumber(*value) : JsonValue();
+}
+
+JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all) {
+    const BenchCase& one = result.one;
+    JsonValue out = JsonValue::makeObject();
+    out.add("group", JsonValue::makeString(one.group))
+        .add("case", JsonValue::makeString(one.label))
+        .add("subject", JsonValue::makeString(name(one.subject)))
+        .add("molecule", JsonValue::makeString(one.molecule))
+        .add("count", JsonValue::makeNumber(one.count));
+    if (!result.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(result.leftOut));
+    if (!isCopy(one.subject)) {
+        out.add("solver", JsonValue::makeString(shoal::name(one.solver)))
+            .add("substeps", JsonValue::makeNumber(one.substeps))
+            .add("wind", JsonValue::makeString(name(one.wind)));
+    }
+    if (isPath(one.subject)) {
+        out.add("fieldSampling", JsonValue::makeString(shoal::name(one.sampling)))
+            .add("lanes", JsonValue::makeString(shoal::name(result.lanes)))
+            .add("inPlace", JsonValue::makeBoolean(one.inPlace))
+            .add("drawn", JsonValue::makeBoolean(one.drawn));
+    }
+    const Ratios ratios = ratiosOf(result, all);
+    out.add("samples", JsonValue::makeNumber(result.frame.samples))
+        .add("framesPerSample", JsonValue::makeNumber(result.framesPerSample))
+        .add("minSeconds", JsonValue::makeNumber(result.frame.min))
+        .add("medianSeconds", JsonValue::makeNumber(result.frame.median))
+        .add("nanosecondsPerMolecule", JsonValue::makeNumber(result.perMolecule() * 1e9))
+        .add("overAvx512", orNull(ratios.avx512))
+        .add("overAvx2", orNull(ratios.avx2))
+        .add("fasterThanPingPong", orNull(ratios.pingPong))
+        .add("stateBytesPerMolecule", JsonValue::makeNumber(double(result.stateBytes) / one.count))
+        .add("movedBytesPerFrame",
+             result.movedBytes ? JsonValue::makeNumber(double(result.movedBytes)) : JsonValue())
+        .add("bytesPerSecond", orNull(ratios.bandwidth))
+        .add("shareOfCopy", orNull(ratios.shareOfCopy))
+        .add("busStateBytesPerFrame", JsonValue::makeNumber(result.busStateBytes));
+    return out;
+}
+
+JsonValue asJson(const Target& target) {
+    JsonValue out = JsonValue::makeObject();
+    out.add("target", JsonValue::makeString(target.what))
+        .add(target.atLeast ? "atLeast" : "atMost", JsonValue::makeNumber(target.limit))
+        .add("measured", orNull(target.measured));
+    if (target.ofMinima) out.add("ofMinima", JsonValue::makeNumber(*target.ofMinima));
+    if (target.measured) out.add("holds", JsonValue::makeBoolean(target.holds()));
+    return out;
+}
+
+JsonValue asJson(const BenchError& error, const std::vector<BenchResult>& all) {
+    JsonValue out = JsonValue::makeObject();
+    out.add("subject", JsonValue::makeString(name(error.subject)))
+        .add("solver", JsonValue::makeString(shoal::name(error.solver)))
+        .add("wind", JsonValue::makeString(name(error.wind)))
+        .add("fieldSampling", JsonValue::makeString(shoal::name(error.sampling)))
+        .add("relativeError", orNull(error.relative));
+    for (const int count : {16384, 131072})
+        if (const BenchResult* speed = speedOf(error, count, all))
+            out.add("nanosecondsPerMolecule" + std::to_string(count),
+                    JsonValue::makeNumber(speed->perMolecule() * 1e9));
+    return out;
+}
+
+JsonValue asJson(const StartTime& start) {
+    JsonValue out = JsonValue::makeObject();
+    out.add("molecule", JsonValue::makeString(start.molecule))
+        .add("count", JsonValue::makeNumber(start.count))
+        .add("solver", JsonValue::makeString(shoal::name(start.solver)))
+        .add("planSeconds", JsonValue::makeNumber(start.compile))
+        .add("coldSeconds", JsonValue::makeNumber(start.cold))
+        .add("driverCacheSeconds", JsonValue::makeNumber(start.driver))
+        .add("programCacheSeconds", JsonValue::makeNumber(start.cached));
+    return out;
+}
+
+JsonValue asJson(const PassTable& table) {
+    JsonValue passes = JsonValue::makeArray();
+    for (const gpu::PassTime& pass : table.passes) {
+        JsonValue entry = JsonValue::makeObject();
+        entry.add("pass", JsonValue::makeString(pass.name))
+            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
+            .add("minSeconds", JsonValue::makeNumber(pass.min))
+            .add("medianSeconds", JsonValue::makeNumber(pass.median));
+        passes.items.push_back(std::move(entry));
+    }
+    JsonValue out = JsonValue::makeObject();
+    out.add("molecule", JsonValue::makeString("quad"))
+        .add("count", JsonValue::makeNumber(table.count))
+        .add("subject", JsonValue::makeString(name(table.subject)))
+        .add("solver", JsonValue::makeString(shoal::name(table.solver)))
+        .add("frameMinSeconds", JsonValue::makeNumber(table.frame.min))
+        .add("frameMedianSeconds", JsonValue::makeNumber(table.frame.median))
+        .add("passes", std::move(passes));
+    return out;
+}
+
+template <typename Items>
+JsonValue arrayOf(const Items& items) {
+    JsonValue out = JsonValue::makeArray();
+    for (const auto& item : items)
+        out.items.push_back(asJson(item));
+    return out;
+}
+
+}  // namespace
+
+JsonValue asJson(const BenchReport& report) {
+    JsonValue machine = JsonValue::makeObject();
+    machine.add("processor", JsonValue::makeString(report.processor))
+        .add("cores", JsonValue::makeNumber(report.cores))
+        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.pinned));
+    JsonValue context = JsonValue::makeObject();
+    context.add("kind", JsonValue::makeString(gpu::name(report.context.kind)))
+        .add("renderer", JsonValue::makeString(report.context.renderer))
+        .add("version", JsonValue::makeString(report.context.version))
+        .add("software", JsonValue::makeBoolean(report.context.software));
+    JsonValue cases = JsonValue::makeArray();
+    for (const BenchResult& result : report.results)
+        cases.items.push_back(asJson(result, report.results));
+    JsonValue errors = JsonValue::makeArray();
+    for (const BenchError& error : report.errors)
+        errors.items.push_back(asJson(error, report.results));
+    JsonValue start = JsonValue::makeObject();
+    start.add("contextSeconds", JsonValue::makeNumber(report.contextSeconds))
+        .add("simulations", arrayOf(report.starts));
+    JsonValue out = JsonValue::makeObject();
+    out.add("version", JsonValue::makeString(SHOAL_VERSION))
+        .add("machine", std::move(machine))
+        .add("context", std::move(context))
+        .add("quick", JsonValue::makeBoolean(report.quick))
+        .add("pictureSize", JsonValue::makeString(concat(report.width, "x", report.height)))
+        .add("secondsAGroup", JsonValue::makeNumber(report.secondsAGroup))
+        .add("seconds", JsonValue::makeNumber(report.seconds))
+        .add("cases", std::move(cases))
+        .add("errors", std::move(errors))
+        .add("startUp", std::move(start))
+        .add("passTimes", arrayOf(report.passes))
+        .add("targets", arrayOf(targets(report.results, report.context.software)));
+    return out;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,22 @@
+// The picture of `shoal bench`: time per molecule against their number, through gnuplot.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "measure/bench.h"
+
+namespace shoal::app {
+
+// Before anything is measured. Error: gnuplot is not installed; none of the cases is one that is plotted.
+void checkPlot(const std::vector<measure::BenchCase>& cases);
+
+// `file`: .svg or .png. Error: gnuplot fails, the file cannot be written.
+void plot(const std::string& file, const std::string& title,
+          const std::vector<measure::BenchResult>& results);
+
+// What gnuplot is told.
+std::string plotScript(const std::string& file, const std::string& title,
+                       const std::vector<measure::BenchResult>& results);
+
+}  // namespace shoal::app
