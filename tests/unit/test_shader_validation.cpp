@@ -1,5 +1,7 @@
 // Every shader through the reference compiler: the passes as desktop 3.3 and as WebGL 2's language, with each
-// set of defines that a plan can ask for; the renderer's as 3.3. A driver that is generous hides mistakes.
+// set of defines that a plan can ask for; the renderer's as 3.3; the fused path's kernels as 4.3. A driver
+// that is generous hides mistakes.
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -9,8 +11,10 @@
 
 #include "compile/generate.h"
 #include "gpu/shader_source.h"
+#include "simulate/fused_kernel.h"
 #include "support/catch.h"
 #include "support/scratch.h"
+#include "support/shapes.h"
 
 using namespace shoal;
 
@@ -53,16 +57,17 @@ class Validator {
     std::map<std::string, std::string> generated;
 
     void add(const std::string& file, const Defines& defines, const char* header) {
+        add(file, defines, header,
+            gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, defines, generated, header));
+    }
+    void addKernel(const Plan& plan, const KernelOptions& options) {
+        const gpu::ProgramOptions program = kernelProgram(plan, 0, options);
+        const char* header = gpu::header430();
         gpu::ShaderSource source =
-            gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, defines, generated, header);
-        if (!seen_.insert(source.text).second) return;
-        const std::string stage = file.substr(file.rfind('.'));
-        const std::string path = scratch_.write("shader" + std::to_string(seen_.size()) + stage, source.text);
-        std::string what =
-            file + " as " + std::string(header).substr(0, std::string(header).find('\n')) + ", defines:";
-        for (const std::string& define : defines)
-            what += " " + define;
-        shaders_.push_back({path, what, std::move(source)});
+            gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", program.compute, program.defines,
+                               program.generated, header);
+        program.rewrite(source);
+        add(program.compute, program.defines, header, std::move(source));
     }
     void addBoth(const std::string& file, const Defines& defines) {
         add(file, defines, gpu::header330());
@@ -88,6 +93,17 @@ class Validator {
         std::string path, what;
         gpu::ShaderSource source;
     };
+    void add(const std::string& file, const Defines& defines, const char* header, gpu::ShaderSource source) {
+        if (!seen_.insert(source.text).second) return;
+        const std::string stage = file.substr(file.rfind('.'));
+        const std::string path = scratch_.write("shader" + std::to_string(seen_.size()) + stage, source.text);
+        std::string what =
+            file + " as " + std::string(header).substr(0, std::string(header).find('\n')) + ", defines:";
+        for (const std::string& define : defines)
+            what += " " + define;
+        shaders_.push_back({path, what, std::move(source)});
+    }
+
     test::Scratch scratch_;
     std::set<std::string> seen_;
     std::vector<Shader> shaders_;
@@ -154,6 +170,33 @@ std::map<std::string, std::string> generate(const std::vector<Field>& fields,
             {"generated/colliders.glsl", generateColliders(colliders, samples).source}};
 }
 
+// A leaf with what the words name.
+Scene leafScene(const Defines& words, SolverKind solver, FieldSampling sampling) {
+    const auto has = [&](const char* word) {
+        return std::find(words.begin(), words.end(), word) != words.end();
+    };
+    Scene scene;
+    scene.solver = {solver, 32, sampling, {}};
+    Group group;
+    group.name = "leaf\n}}} #error \\";  // must not leave its comment
+    group.molecule = test::leaf(200, 1);
+    group.count = 1;
+    if (has("muscles")) group.molecule.springs[2].actuation = Actuation{0.1, 1, 0};
+    if (has("instances differ")) group.place.scale = {0.5, 0.6}, group.phaseSpread = 1;
+    if (!has("springs")) group.molecule.springs.clear();
+    if (!has("triangles")) group.molecule.triangles.clear();
+    group.drag = has("drag by direction") ? Drag{4, 1} : Drag{1, 1};
+    group.molecule.vertices[1].pinned = has("pins") || has("release");
+    if (has("release")) group.release = Release{1.0, 1.0, 0};
+    if (has("fields")) scene.fields = everyField();
+    if (has("colliders")) scene.colliders = everyCollider();
+    scene.groups.push_back(std::move(group));
+    return scene;
+}
+
+constexpr SolverKind bothSolvers[] = {SolverKind::euler, SolverKind::leapfrog};
+constexpr Lanes bothLanes[] = {Lanes::molecule, Lanes::vertex};
+
 }  // namespace
 
 TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
@@ -205,6 +248,61 @@ TEST_CASE("names of fields and colliders cannot leave their comment", "[shaders]
     validator.generated = generate(fields, colliders);
     validator.addBoth("passes/advect.frag", {"FIELDS"});
     validator.addBoth("passes/collide.frag", {});
+    validator.check();
+}
+
+TEST_CASE("the kernels of every need are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    int number = 0;
+    for (const SolverKind solver : bothSolvers) {
+        for (const Defines& words : combinations({"springs", "triangles", "drag by direction", "fields",
+                                                  "colliders", "pins", "release", "muscles"})) {
+            Scene scene = leafScene(words, solver, FieldSampling::vertexSubstep);
+            if (++number % 2 == 0) scene.groups[0].place.scale = {0.5, 0.6};
+            const Plan plan = compile(scene);
+            for (const Lanes lanes : bothLanes)
+                validator.addKernel(plan, {.lanes = lanes, .normals = number % 3 == 0});
+        }
+    }
+    CHECK(validator.count() > 300);
+    validator.check();
+}
+
+TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    const Defines all{"springs", "triangles", "drag by direction", "fields",          "colliders",
+                      "pins",    "release",   "muscles",           "instances differ"};
+    for (const SolverKind solver : bothSolvers) {
+        for (const FieldSampling sampling :
+             {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+            const Plan plan = compile(leafScene(all, solver, sampling));
+            for (const Lanes lanes : bothLanes) {
+                for (int bits = 0; bits < 8; ++bits) {
+                    KernelOptions options{.lanes = lanes};
+                    options.groupVote = (bits & 1) != 0;
+                    options.pairedStores = (bits & 2) != 0;
+                    options.normals = (bits & 4) != 0;
+                    validator.addKernel(plan, options);
+                    options.onlyNormals = options.normals;
+                    validator.addKernel(plan, options);
+                }
+            }
+        }
+    }
+    Scene large = leafScene(all, SolverKind::leapfrog, FieldSampling::vertexSubstep);
+    Molecule& molecule = large.groups[0].molecule;
+    for (const int vertices :
+         {1, 2, 9, 33, 129}) {  // one contact after the other; more than a workgroup's lanes
+        molecule.springs.clear();
+        molecule.triangles.clear();
+        molecule.vertices.assign(size_t(vertices), Vertex{});
+        const Plan plan = compile(large);
+        for (const Lanes lanes : bothLanes)
+            validator.addKernel(plan, {.lanes = lanes, .normals = true, .groupVote = true});
+    }
+    CHECK(validator.count() > 80);
     validator.check();
 }
 
