@@ -45,12 +45,12 @@ TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes]") {
         {test::shippedMolecule("quad"),
          {Sampling::vertexSubstep, Sampling::vertexFrame, Sampling::moleculeFrame}},
         {test::shippedMolecule("fish"), {Sampling::vertexFrame, Sampling::vertexSubstep}},
-        {test::sheet(11, 3, true), {Sampling::moleculeFrame}},
         {test::sheet(8, 8, true), {Sampling::vertexSubstep}},
+        {test::sheet(11, 3, true), {Sampling::moleculeFrame}},
         {test::point(0.3), {Sampling::vertexSubstep}},
     };
-    REQUIRE(cases[2].molecule.vertices.size() == 33);
-    REQUIRE(cases[3].molecule.vertices.size() == 64);
+    REQUIRE(cases[3].molecule.vertices.size() == 33);
+    REQUIRE(cases[2].molecule.vertices.size() == 64);
     int contacts = 0, releases = 0, number = 0;
     for (const auto& [molecule, samplings] : cases) {
         for (const Sampling sampling : samplings) {
