@@ -53,7 +53,7 @@ JsonValue asJson(const Target& target) {
     out.add("target", JsonValue::makeString(target.what))
         .add(target.atLeast ? "atLeast" : "atMost", JsonValue::makeNumber(target.limit))
         .add("measured", orNull(target.measured));
-    if (target.ofMinima) out.add("ofMinima", JsonValue::makeNumber(*target.ofMinima));
+    if (target.ofMedians) out.add("ofMedians", JsonValue::makeNumber(*target.ofMedians));
     if (target.measured) out.add("holds", JsonValue::makeBoolean(target.holds()));
     return out;
 }

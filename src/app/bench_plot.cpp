@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <sstream>
 
 #include "core/error.h"
@@ -107,7 +108,7 @@ int runGnuplot(const std::string& program, const std::string& script, std::strin
 
 void addData(std::ostringstream& out, Subject subject, const std::vector<BenchResult>& results) {
     for (const BenchResult& result : results)
-        if (result.one.subject == subject && plotted(result.one) && result.frame.median > 0)
+        if (result.one.subject == subject && plotted(result.one) && result.frame.min > 0)
             out << result.one.count << " " << result.perMolecule() * 1e9 << "\n";
 }
 
@@ -125,6 +126,12 @@ void checkPlot(const std::vector<BenchCase>& cases) {
 std::string plotScript(const std::string& file, const std::string& title,
                        const std::vector<BenchResult>& results) {
     std::ostringstream out, lines;
+    double low = std::numeric_limits<double>::max(), high = 0;
+    for (const BenchResult& result : results) {
+        if (!plotted(result.one) || !(result.frame.min > 0)) continue;
+        low = std::min(low, result.perMolecule() * 1e9);
+        high = std::max(high, result.perMolecule() * 1e9);
+    }
     for (size_t i = 0; i < std::size(curves); ++i) {
         std::ostringstream data;
         addData(data, curves[i].subject, results);
@@ -139,14 +146,17 @@ std::string plotScript(const std::string& file, const std::string& title,
         << (svg ? "set terminal svg size 960,600 dynamic font 'DejaVu Sans,15' background rgb 'white'\n"
                 : "set terminal pngcairo size 1440,900 font 'DejaVu Sans,20' linewidth 1.5\n")
         << "set output " << quoted(file) << "\n"
-        << "set title " << quoted(title) << " noenhanced\n"
-        << "set xlabel 'quads'\nset ylabel 'nanoseconds a quad and frame (median)'\n"
-        << "set logscale xy\nset xrange [700:1500000]\nset yrange [*:*]\n"
+        << "set title " << quoted("euler, 4 substeps a frame; " + title) << " noenhanced\n"
+        << "set xlabel 'quads' offset 0,-0.3\nset ylabel 'nanoseconds a quad and frame'\n"
+        << "set logscale xy\nset xrange [700:1500000]\n"
+        << "set yrange [" << low / 1.6 << ":" << high * 1.6 << "]\n"
         << "set xtics ('1,024' 1024, '16,384' 16384, '131,072' 131072, '1,048,576' 1048576)\n"
-        << "set format y '%g'\nset mytics 10\nset border 3 linecolor rgb '#555555'\nset tics nomirror\n"
-        << "set grid xtics ytics mytics linecolor rgb '#C8C8C8' linewidth 0.8, linecolor rgb '#E8E8E8' "
-           "linewidth 0.5\n"
-        << "set key outside right center samplen 2.5 spacing 1.4\n"
+        << "set ytics ('1' 1, '10' 10, '100' 100, '1,000' 1e3, '10,000' 1e4, '100,000' 1e5)\n"
+        << "do for [decade = -2:5] { do for [i = 2:9] { set ytics add ('' i * 10.0**decade 1) } }\n"
+        << "set border 3 linecolor rgb '#555555'\nset tics nomirror\n"
+        << "set grid xtics ytics mytics linetype 1 linecolor rgb '#BBBBBB' linewidth 0.7, "
+           "linetype 1 linecolor rgb '#E4E4E4' linewidth 0.5\n"
+        << "set key outside right center Left reverse samplen 2 spacing 1.4\n"
         << lines.str() << "\nset output\n";
     return out.str();
 }

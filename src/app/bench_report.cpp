@@ -26,10 +26,10 @@ std::string orDash(const std::optional<double>& value) {
     return value ? short3(*value) : "-";
 }
 
-constexpr int labelWidth = 34;
+constexpr int labelWidth = 40;
 
 void addRow(std::ostringstream& out, const std::vector<std::string>& cells) {
-    static constexpr int widths[] = {labelWidth, 10, 11, 10, 10, 8, 8, 8, 8, 7};
+    static constexpr int widths[] = {labelWidth, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
     std::ostringstream line;
     for (size_t i = 0; i < cells.size(); ++i)
         line << (i == 0 ? std::left : std::right) << std::setw(widths[i]) << cells[i];
@@ -44,10 +44,13 @@ void addResult(std::ostringstream& out, const BenchResult& result, const std::ve
         return;
     }
     const Ratios ratios = ratiosOf(result, all);
+    const auto each = [&](size_t bytes) -> std::string {
+        return bytes > 0 ? number(double(bytes) / result.one.count, 0) : "-";
+    };
     const auto milliseconds = [](double seconds) { return number(seconds * 1e3, 3); };
     addRow(out, {label, milliseconds(result.frame.min), milliseconds(result.frame.median),
                  short3(result.perMolecule() * 1e9), orDash(ratios.avx512), orDash(ratios.avx2),
-                 orDash(ratios.pingPong), number(double(result.stateBytes) / result.one.count, 0),
+                 orDash(ratios.pingPong), each(result.stateBytes), each(result.movedBytes),
                  ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
                  ratios.shareOfCopy ? number(*ratios.shareOfCopy * 100, 0) + "%" : "-"});
 }
@@ -58,8 +61,8 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
         if (result.one.group != group) {
             group = result.one.group;
             out << "\n";
-            addRow(out, {group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "bytes",
-                         "GB/s", "copy"});
+            addRow(out, {group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
+                         "moved", "GB/s", "copy"});
         }
         addResult(out, result, results);
     }
@@ -163,9 +166,11 @@ std::string asText(const BenchReport& report) {
         << report.context.version << "\n"
         << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
         << " x " << report.height << ".\n"
-        << "ns each: median by molecules. /AVX-512, /AVX2: times that yardstick. vs p-p: times as fast as\n"
-        << "ping-pong. bytes: of state, each. GB/s: state read and written over time. copy: share of the\n"
-        << "fastest copy's.\n";
+        << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
+           "yardstick.\n"
+        << "vs p-p: times as fast as ping-pong. state, moved: bytes of a molecule, kept on the device and "
+           "read\n"
+        << "and written in a frame. GB/s: moved over time; copy: as a share of the fastest copy's.\n";
     addTimes(out, report.results);
     addErrors(out, report);
     addStarts(out, report);

@@ -104,7 +104,7 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
 void addBench(CLI::App& command, Options& options, Texts& texts) {
     addContext(command, options, texts);
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
-    command.add_option("--seconds", options.seconds, "Time for each group of cases (default 15, quick 3)")
+    command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")
         ->check(kindOf(isAll<double>, "a time in seconds"));
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
     command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");

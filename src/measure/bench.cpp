@@ -130,7 +130,7 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
         progress(one.name(), schedule.seconds);
         BenchResult& result = out.emplace_back();
         result.one = one;
-        result.leftOut = reasonToLeaveOut(one, device);
+        result.leftOut = reasonToLeaveOut(one, molecule, device);
         if (!result.leftOut.empty()) continue;
         try {
             entrants.push_back(std::make_unique<Entrant>(one, molecule, start, device));

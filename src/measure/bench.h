@@ -4,6 +4,9 @@
 // A visit of a case: back to the start when it has run ten frames since; for short frames one that is not
 // timed, so that caches are as in a run of its own; then as many frames between two waits as make a sample of
 // 2 ms, ten at most. So every case sees the same ten frames of the fall. Slow cases sit out rounds, evenly.
+//
+// All samples of a case do the same work, so that they differ only by what disturbs them: the shortest says
+// what the work costs, and what is derived (ratios, bandwidth) goes by it; the median says what to expect.
 #pragma once
 
 #include <functional>
@@ -24,7 +27,7 @@ struct BenchResult {
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
     double busStateBytes = 0;               // a frame: state that crossed the bus
     Lanes lanes = Lanes::automatic;
-    double perMolecule() const { return frame.median / one.count; }  // s
+    double perMolecule() const { return frame.min / one.count; }  // s, by the shortest
 };
 
 struct BenchSchedule {

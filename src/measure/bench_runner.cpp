@@ -192,13 +192,18 @@ size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
     return elements * sizeof(glm::vec4);
 }
 
-std::string reasonToLeaveOut(const BenchCase& one, const BenchDevice& device) {
+std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
     if (needsCompute(one.subject) && !info.computeShaders)
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
     if (isYardstick(one.subject) && !available(simdOf(one.subject)))
         return "this processor or build lacks the instructions";
     if (one.drawn && !device.makeDraw) return "nothing to draw with";
+    const auto bytes = int64_t(sideBytes(one, molecule));
+    const int64_t texels = bytes / int64_t(sizeof(glm::vec4));
+    const bool fits = bytes <= info.maxStorageBlockBytes && texels <= info.maxBufferTexels &&
+                      texels / KernelCopy::lanesOfGroup < info.maxWorkGroupsX;
+    if (one.subject == Subject::kernelCopy && !fits) return "more than one dispatch can copy here";
     return {};
 }
 

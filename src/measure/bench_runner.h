@@ -52,7 +52,7 @@ class BenchRunner {
 };
 
 // Why a case cannot be run here; empty when it can.
-std::string reasonToLeaveOut(const BenchCase& one, const BenchDevice& device);
+std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device);
 
 // Borrows all of its arguments. Error: out of memory, the driver refuses a shader.
 std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,

@@ -12,7 +12,7 @@ using Test = std::function<bool(const BenchCase&)>;
 
 const BenchResult* find(const std::vector<BenchResult>& all, const Test& test) {
     const auto found = std::find_if(all.begin(), all.end(), [&](const BenchResult& result) {
-        return result.frame.median > 0 && test(result.one);
+        return result.frame.min > 0 && test(result.one);
     });
     return found == all.end() ? nullptr : &*found;
 }
@@ -24,11 +24,11 @@ const BenchResult* labelled(const std::vector<BenchResult>& all, const std::stri
 
 std::optional<double> over(const BenchResult* a, const BenchResult* b) {
     if (!a || !b) return std::nullopt;
-    return a->frame.median / b->frame.median;
+    return a->frame.min / b->frame.min;
 }
 
 double bandwidthOf(const BenchResult& result) {
-    return double(result.movedBytes) / result.frame.median;
+    return double(result.movedBytes) / result.frame.min;
 }
 
 // The yardsticks run the uniform wind and draw nothing.
@@ -59,7 +59,7 @@ std::optional<double> shareOfCopy(const BenchResult& result, const std::vector<B
     for (const BenchResult& other : all) {
         const bool comparable = isCopy(other.one.subject) && other.one.group == result.one.group &&
                                 (other.one.subject == Subject::memoryCopy) != device;
-        if (comparable && other.frame.median > 0) best = std::max(best, bandwidthOf(other));
+        if (comparable && other.frame.min > 0) best = std::max(best, bandwidthOf(other));
     }
     if (best == 0) return std::nullopt;
     return bandwidthOf(result) / best;
@@ -70,8 +70,8 @@ Target times(const std::string& what, double limit, bool atLeast, const BenchRes
              const BenchResult* fast) {
     Target out{what, limit, atLeast};
     if (!slow || !fast) return out;
-    out.measured = slow->frame.median / fast->frame.median;
-    out.ofMinima = slow->frame.min / fast->frame.min;
+    out.measured = slow->frame.min / fast->frame.min;
+    out.ofMedians = slow->frame.median / fast->frame.median;
     return out;
 }
 
@@ -104,8 +104,8 @@ void addFlatness(std::vector<Target>& out, const std::vector<BenchResult>& all) 
                *std::min_element(values.begin(), values.end());
     };
     if (medians.size() == 3) {
-        flat.measured = spread(medians);
-        flat.ofMinima = spread(minima);
+        flat.measured = spread(minima);
+        flat.ofMedians = spread(medians);
     }
     out.push_back(flat);
 }
@@ -135,7 +135,7 @@ void addMemory(std::vector<Target>& out, const std::vector<BenchResult>& all) {
 
 Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all) {
     Ratios out;
-    if (!(result.frame.median > 0)) return out;
+    if (!(result.frame.min > 0)) return out;
     out.avx512 = againstYardstick(result, all, Subject::avx512);
     out.avx2 = againstYardstick(result, all, Subject::avx2);
     out.pingPong = againstPingPong(result, all);
@@ -177,7 +177,7 @@ std::string sentence(const Target& target) {
         (target.atLeast ? "wanted: at least " : "wanted: at most ") + number(target.limit);
     if (!target.measured) return target.what + " (" + wanted + unit + ")";
     std::string out = target.what + ": " + number(*target.measured) + unit;
-    if (target.ofMinima) out += ", " + number(*target.ofMinima) + " by the shortest";
+    if (target.ofMedians) out += ", by medians " + number(*target.ofMedians);
     return out + " (" + wanted + ")";
 }
 

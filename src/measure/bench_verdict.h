@@ -10,7 +10,7 @@
 
 namespace shoal::measure {
 
-// Of medians unless it says otherwise; nothing where there is nothing to compare with in the case's group.
+// Of the shortest times; nothing where there is nothing to compare with in the case's group.
 struct Ratios {
     std::optional<double> avx512, avx2;  // the case's time over that yardstick's
     std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is
@@ -23,9 +23,9 @@ struct Target {
     std::string what;
     double limit = 0;
     bool atLeast = false;                 // else at most
-    std::optional<double> measured = {};  // of medians; nothing: this run has not what it takes
+    std::optional<double> measured = {};  // of the shortest times; nothing: this run has not what it takes
     std::string unit = "x";               // or "bytes"
-    std::optional<double> ofMinima = {};  // the same of the shortest times, which say what the work costs
+    std::optional<double> ofMedians = {};
     bool holds() const { return measured && (atLeast ? *measured >= limit : *measured <= limit); }
 };
 // `software`: a CPU rasteriser, for which the share of a GPU's bandwidth is no target.

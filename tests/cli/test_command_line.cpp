@@ -16,7 +16,7 @@ TEST_CASE("version and help", "[cli]") {
 
     const Outcome help = runShoal({"--help"});
     CHECK(help.code == 0);
-    for (const char* command : {"run", "check", "explain", "info"})
+    for (const char* command : {"run", "check", "explain", "info", "bench"})
         CHECK_THAT(help.out, Catch::Contains(command));
 
     const Outcome run = runShoal({"run", "--help"});

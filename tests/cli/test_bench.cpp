@@ -1,0 +1,129 @@
+// `shoal bench`: what it reports, and what it refuses.
+#include <filesystem>
+
+#include "cli/shoal_command.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+const Words fast = {"bench", "--quick", "--only", "1,024 quads: ", "--seconds", "0.05"};
+
+// The fastest that can be plotted.
+const Words plotted = {"bench", "--quick", "--only", "1,024 quads: scalar", "--seconds", "0.05"};
+
+Words with(Words words, const Words& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
+}  // namespace
+
+TEST_CASE("bench reports every case as JSON", "[cli]") {
+    const Outcome outcome = runShoal(with(fast, {"--json"}));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("This takes about "));
+    const JsonValue report = outcome.json();
+    CHECK_FALSE(member(member(report, "machine"), "processor").text.empty());
+    CHECK(member(member(report, "machine"), "cores").number >= 1);
+    CHECK_FALSE(member(member(report, "context"), "renderer").text.empty());
+    for (const char* key : {"version", "quick", "secondsAGroup", "seconds", "errors", "startUp", "passTimes"})
+        member(report, key);
+    const std::vector<JsonValue>& cases = member(report, "cases").items;
+    REQUIRE(cases.size() >= 8);
+    for (const JsonValue& one : cases) {
+        CHECK(member(one, "group").text == "1,024 quads");
+        CHECK(member(one, "count").number == 1024);
+        CAPTURE(member(one, "case").text);
+        if (one.find("leftOut")) continue;
+        CHECK(member(one, "samples").number >= 3);
+        CHECK(member(one, "minSeconds").number > 0);
+        CHECK(member(one, "medianSeconds").number >= member(one, "minSeconds").number);
+        CHECK(member(one, "busStateBytesPerFrame").number == 0);
+        for (const char* key : {"subject", "molecule", "framesPerSample", "nanosecondsPerMolecule",
+                                "overAvx512", "overAvx2", "fasterThanPingPong", "stateBytesPerMolecule",
+                                "movedBytesPerFrame", "bytesPerSecond", "shareOfCopy"})
+            member(one, key);
+        if (member(one, "subject").text == "ping-pong" || member(one, "subject").text == "fused")
+            for (const char* key :
+                 {"solver", "substeps", "wind", "fieldSampling", "lanes", "inPlace", "drawn"})
+                member(one, key);
+    }
+    REQUIRE_FALSE(member(report, "targets").items.empty());
+    for (const JsonValue& target : member(report, "targets").items) {
+        CHECK_FALSE(member(target, "target").text.empty());
+        member(target, "measured");
+        CHECK((target.find("atLeast") != nullptr) != (target.find("atMost") != nullptr));
+    }
+}
+
+TEST_CASE("bench prints a table", "[cli]") {
+    const Outcome outcome =
+        runShoal({"bench", "--quick", "--only", "1,024 quads: ping-pong", "--seconds", "0.05"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("1,024 quads") && Catch::Contains("median ms") &&
+                                Catch::Contains("ping-pong"));
+}
+
+TEST_CASE("bench leaves out what the context lacks", "[cli]") {
+    const Outcome outcome = runShoal(
+        {"bench", "--quick", "--only", "1,024 quads: fused, in", "--seconds", "0.05"},
+        {.environment = {{"MESA_GL_VERSION_OVERRIDE", "3.3"}, {"MESA_GLSL_VERSION_OVERRIDE", "330"}}});
+    REQUIRE(outcome.code == 0);
+    if (outcome.out.find("left out") == std::string::npos) {
+        WARN("skipped: this driver takes no notice of MESA_GL_VERSION_OVERRIDE");
+        return;
+    }
+    CHECK_THAT(outcome.out, Catch::Contains("left out: needs OpenGL 4.3; this context has 3.3"));
+    CHECK_THAT(outcome.err, Catch::Contains("warning: the fused path needs OpenGL 4.3"));
+}
+
+TEST_CASE("bench refuses what it cannot do", "[cli]") {
+    refusal({"bench", "--seconds", "0"}, "--seconds: expected a time above 0, at most 3600 s, found 0");
+    refusal({"bench", "--seconds", "nan"}, "--seconds: expected a time above 0");
+    refusal({"bench", "--seconds", "ten"}, "--seconds: expected a time in seconds, found \"ten\"");
+    refusal({"bench", "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png, found \"x.pdf\"");
+    refusal({"bench", "--context", "egll"}, "did you mean \"egl\"?");
+    refusal({"bench", "--quik"}, "unknown option --quik (did you mean \"--quick\"?)");
+    refusal({"bench", "hello.scene.json"}, "hello.scene.json");
+    const std::string none = refusal({"bench", "--only", "squids"}, "nothing has \"squids\" in its name");
+    CHECK_THAT(none, Catch::Contains("16,384 crosses"));
+    refusal({"bench", "--only", "fish", "--plot", "x.svg"}, "--only leaves none of them");
+}
+
+TEST_CASE("bench asks for gnuplot before it measures", "[cli]") {
+    const Scratch scratch;
+    Words words = with(plotted, {"--plot", scratch.path("speed.svg")});
+    const std::string message = refusal(words, "needs the gnuplot command", {.environment = {{"PATH", ""}}});
+    CHECK_THAT(message, Catch::Contains("apt install gnuplot-nox"));
+    CHECK(filesIn(scratch.folder().string()).empty());
+
+    // one that fails: no picture, no remains, its words
+    scratch.write("gnuplot", "#!/bin/sh\necho cannot draw >&2\nexit 3\n");
+    std::filesystem::permissions(scratch / "gnuplot", std::filesystem::perms::owner_all);
+    const Outcome failed = runShoal(words, {.environment = {{"PATH", scratch.folder().string()}}});
+    CHECK(failed.code == 1);
+    REQUIRE(failed.messages().size() == 1);
+    CHECK_THAT(failed.messages()[0], Catch::Contains("gnuplot did not draw it: cannot draw"));
+    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"gnuplot"});
+}
+
+TEST_CASE("bench plots", "[cli]") {
+    if (std::system("gnuplot --version >/dev/null 2>&1") != 0) {
+        WARN("skipped: gnuplot is not installed");
+        return;
+    }
+    const Scratch scratch;
+    for (const char* file : {"a'b.svg", "new/speed.png"}) {
+        const Outcome outcome = runShoal(with(plotted, {"--plot", scratch.path(file)}));
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(std::filesystem::file_size(scratch / file) > 1000);
+    }
+    CHECK(filesIn(scratch.folder().string()).size() == 2);
+}
