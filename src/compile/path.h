@@ -44,8 +44,8 @@ struct FusedLimits {
     // Beyond this a lane's code takes too long to compile, and on a GPU does not fit its registers.
     static constexpr int softwareLane = 64, gpuLane = 16;
     // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal, acceleration and
-    // kick.
-    static constexpr int sharedBytesPerVertex = 9 * 12;
+    // kick. Drivers may give each as much as a 4-vector; Mesa does.
+    static constexpr int sharedBytesPerVertex = 9 * 16;
     static int workgroup(const PathLimits& limits) { return limits.maxSharedBytes / sharedBytesPerVertex; }
 };
 
