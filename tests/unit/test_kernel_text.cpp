@@ -253,7 +253,8 @@ TEST_CASE("no slider changes a kernel's text", "[kernel]") {
 
 TEST_CASE("a kernel holds the branches that the group needs, and no other", "[kernel]") {
     using Set = std::set<std::string>;
-    const Set always{"LANES", "BLOCK", "VERTICES", "POSITION_ELEMENTS", "STATE_ELEMENTS", "SAMPLE_SUBSTEPS"};
+    const Set always{"LANES",          "BLOCK", "VERTICES",       "POSITION_ELEMENTS",
+                     "STATE_ELEMENTS", "FUSED", "SAMPLE_SUBSTEPS"};
     const auto with = [&](Set more) {
         more.insert(always.begin(), always.end());
         return more;
