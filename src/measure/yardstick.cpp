@@ -239,6 +239,10 @@ void Yardstick::frame(const YardstickStep& step) {
     });
 }
 
+double Yardstick::processorTime() const {
+    return data_->threads.slowest();
+}
+
 bool Yardstick::unrolled() const {
     return data_->kernels != nullptr && data_->kernel != data_->kernels->any;
 }

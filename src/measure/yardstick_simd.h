@@ -199,6 +199,18 @@ SHOAL_INLINE Ground<V> beginFrame(float* block, int vertices, const KernelStep& 
 
 // ---- Kernels
 
+// Springs first to last - 1 change the velocities in `next`.
+template <class V, class Topology, int first, int last>
+SHOAL_INLINE void pullAll(const V3<V>* x, const V3<V>* v, V3<V>* next, const KernelSpring* constants) {
+    unrolled<first, last>([&](auto s) SHOAL_BODY {
+        constexpr int a = Topology::ends[s.value].a, b = Topology::ends[s.value].b;
+        const V3<V> d = x[a] - x[b];
+        const V factor = springFactor(d, v[a] - v[b], constants[s.value]);
+        next[a] = plus(next[a], d, factor);
+        next[b] = minus(next[b], d, factor);
+    });
+}
+
 // The molecule stays in registers, as far as they go, from the first substep to the last.
 template <class V, class Topology>
 void runInRegisters(float* blocks, int count, const KernelStep& step, float*) {
@@ -211,16 +223,9 @@ void runInRegisters(float* blocks, int count, const KernelStep& step, float*) {
             v[i.value] = load3<V>(blocks + (6 * i.value + 3) * V::lanes);
         });
         for (int substep = 0; substep < step.substeps; ++substep) {
-            const KernelSpring* const constants = afresh(step.constants);
             V3<V> next[vertices];
             unrolled<0, vertices>([&](auto i) SHOAL_BODY { next[i.value] = relaxed(v[i.value], step); });
-            unrolled<0, Topology::springs>([&](auto s) SHOAL_BODY {
-                constexpr int a = Topology::ends[s.value].a, b2 = Topology::ends[s.value].b;
-                const V3<V> d = x[a] - x[b2];
-                const V factor = springFactor(d, v[a] - v[b2], constants[s.value]);
-                next[a] = plus(next[a], d, factor);
-                next[b2] = minus(next[b2], d, factor);
-            });
+            pullAll<V, Topology, 0, Topology::springs>(x, v, next, afresh(step.constants));
             V lowest = constant<V>(1);
             unrolled<0, vertices>([&](auto i) SHOAL_BODY {
                 v[i.value] = next[i.value];
@@ -243,7 +248,8 @@ void runInRegisters(float* blocks, int count, const KernelStep& step, float*) {
     V::leave();
 }
 
-// Larger ones: the state stays in a core's first cache, and only the springs are unrolled.
+// Larger ones: the state stays in a core's first cache, and the springs are unrolled as far as they repeat,
+// so that their code stays in the core's caches as well.
 template <class V, class Topology>
 void runInCache(float* blocks, int count, const KernelStep& step, float*) {
     constexpr int vertices = Topology::vertices;
@@ -255,16 +261,15 @@ void runInCache(float* blocks, int count, const KernelStep& step, float*) {
             v[i] = load3<V>(blocks + (6 * i + 3) * V::lanes);
         }
         for (int substep = 0; substep < step.substeps; ++substep) {
-            const KernelSpring* const constants = afresh(step.constants);
             for (int i = 0; i < vertices; ++i)
                 next[i] = relaxed(v[i], step);
-            unrolled<0, Topology::springs>([&](auto s) SHOAL_BODY {
-                constexpr int a = Topology::ends[s.value].a, b2 = Topology::ends[s.value].b;
-                const V3<V> d = x[a] - x[b2];
-                const V factor = springFactor(d, v[a] - v[b2], constants[s.value]);
-                next[a] = plus(next[a], d, factor);
-                next[b2] = minus(next[b2], d, factor);
-            });
+            for (int r = 0; r < Topology::repeats; ++r) {
+                const int first = r * Topology::shift;
+                pullAll<V, Topology, 0, Topology::period>(x + first, v + first, next + first,
+                                                          afresh(step.constants + r * Topology::period));
+            }
+            pullAll<V, Topology, Topology::repeats * Topology::period, Topology::springs>(
+                x, v, next, afresh(step.constants));
             for (int i = 0; i < vertices; ++i) {
                 v[i] = next[i];
                 x[i] = plus(x[i], v[i], V::broadcast(&step.h));

@@ -2,6 +2,9 @@
 
 #include <sched.h>
 
+#include <algorithm>
+#include <ctime>
+
 namespace shoal::measure {
 
 namespace {
@@ -34,9 +37,15 @@ void pin(const std::vector<int>& cores, int index) {
     sched_setaffinity(0, sizeof set, &set);
 }
 
+double processorTime() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
 }  // namespace
 
-PinnedThreads::PinnedThreads(int count) : cores_(usableCores()) {
+PinnedThreads::PinnedThreads(int count) : cores_(usableCores()), seconds_(size_t(count)) {
     for (int i = 1; i < count; ++i)
         workers_.emplace_back([this, i] { wait(i); });
 }
@@ -56,9 +65,19 @@ void PinnedThreads::wait(int index) {
             relax();
         round_.wait(seen, std::memory_order_acquire);
         if (ends_) return;
-        (*work_)(index);
+        measured(*work_, index);
         busy_.fetch_sub(1, std::memory_order_acq_rel);
     }
+}
+
+void PinnedThreads::measured(const std::function<void(int)>& work, int index) {
+    const double start = processorTime();
+    work(index);
+    seconds_[size_t(index)] = processorTime() - start;
+}
+
+double PinnedThreads::slowest() const {
+    return *std::max_element(seconds_.begin(), seconds_.end());
 }
 
 void PinnedThreads::run(const std::function<void(int)>& work) {
@@ -69,7 +88,7 @@ void PinnedThreads::run(const std::function<void(int)>& work) {
     busy_ = int(workers_.size());
     ++round_;
     round_.notify_all();
-    work(0);
+    measured(work, 0);
     for (int i = 0; busy_.load(std::memory_order_acquire) != 0; ++i) {
         if (i < spins)
             relax();

@@ -21,8 +21,11 @@ struct Cross {
         {3, 5}, {4, 6}, {6, 8}, {7, 9},  {9, 11},  {0, 10}, {2, 4}, {5, 7}, {8, 10}, {1, 11}};
 };
 
+// Five times a ring of four and its way to the next, then the last ring.
 struct Fish {
     static constexpr int vertices = 24, springs = 96;
+    static constexpr int period = 18, repeats = 5,
+                         shift = 4;  // spring s + period is spring s, `shift` vertices on
     static constexpr SpringEnds ends[springs] = {
         {0, 1},   {0, 2},   {0, 4},   {0, 5},   {1, 4},   {1, 2},   {1, 3},   {1, 5},   {1, 6},   {2, 5},
         {2, 3},   {2, 6},   {2, 7},   {3, 6},   {0, 3},   {3, 7},   {3, 4},   {0, 7},   {4, 5},   {4, 6},
@@ -35,5 +38,15 @@ struct Fish {
         {17, 22}, {18, 21}, {18, 19}, {18, 22}, {18, 23}, {19, 22}, {16, 19}, {19, 23}, {19, 20}, {16, 23},
         {20, 21}, {20, 22}, {21, 22}, {21, 23}, {22, 23}, {20, 23}};
 };
+
+template <class Topology>
+consteval bool repeats() {
+    for (int s = Topology::period; s < Topology::repeats * Topology::period; ++s) {
+        const SpringEnds one = Topology::ends[s - Topology::period], next = Topology::ends[s];
+        if (next.a != one.a + Topology::shift || next.b != one.b + Topology::shift) return false;
+    }
+    return true;
+}
+static_assert(repeats<Fish>());
 
 }  // namespace shoal::measure
