@@ -35,7 +35,9 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
         .add("framesPerSample", JsonValue::makeNumber(result.framesPerSample))
         .add("minSeconds", JsonValue::makeNumber(result.frame.min))
         .add("medianSeconds", JsonValue::makeNumber(result.frame.median))
-        .add("nanosecondsPerMolecule", JsonValue::makeNumber(result.perMolecule() * 1e9))
+        .add("nanosecondsPerMolecule", one.subject == Subject::multiplyAdd
+                                           ? JsonValue()
+                                           : JsonValue::makeNumber(result.perMolecule() * 1e9))
         .add("overAvx512", orNull(ratios.avx512))
         .add("overAvx2", orNull(ratios.avx2))
         .add("fasterThanPingPong", orNull(ratios.pingPong))
@@ -44,6 +46,8 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
              result.movedBytes ? JsonValue::makeNumber(double(result.movedBytes)) : JsonValue())
         .add("bytesPerSecond", orNull(ratios.bandwidth))
         .add("shareOfCopy", orNull(ratios.shareOfCopy))
+        .add("operationsPerSecond", orNull(ratios.arithmetic))
+        .add("shareOfPeak", orNull(ratios.shareOfPeak))
         .add("busStateBytesPerFrame", JsonValue::makeNumber(result.busStateBytes));
     return out;
 }
@@ -146,6 +150,7 @@ JsonValue asJson(const BenchReport& report) {
         .add("errors", std::move(errors))
         .add("startUp", std::move(start))
         .add("passTimes", arrayOf(report.passes))
+        .add("disturbedCases", JsonValue::makeNumber(disturbed(report.results)))
         .add("targets", arrayOf(targets(report.results, report.context.software)));
     return out;
 }

@@ -49,9 +49,9 @@ void addResult(std::ostringstream& out, const BenchResult& result, const std::ve
     };
     const auto milliseconds = [](double seconds) { return number(seconds * 1e3, 3); };
     addRow(out, {label, milliseconds(result.frame.min), milliseconds(result.frame.median),
-                 short3(result.perMolecule() * 1e9), orDash(ratios.avx512), orDash(ratios.avx2),
-                 orDash(ratios.pingPong), each(result.stateBytes), each(result.movedBytes),
-                 ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
+                 result.one.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
+                 orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
+                 each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
                  ratios.shareOfCopy ? number(*ratios.shareOfCopy * 100, 0) + "%" : "-"});
 }
 
@@ -82,6 +82,13 @@ void addVerdicts(std::ostringstream& out, const std::vector<Target>& all, bool w
     list("These targets hold in this run:", [](const Target& t) { return t.holds(); });
     list("These do not:", [](const Target& t) { return t.measured && !t.holds(); });
     if (whole) list("These were not measured:", [](const Target& t) { return !t.measured; });
+}
+
+void addDistances(std::ostringstream& out, const std::vector<BenchResult>& results) {
+    const std::vector<std::string> lines = distances(results);
+    if (!lines.empty()) out << "\nhow near the device's own limits\n";
+    for (const std::string& line : lines)
+        out << "  " << line << "\n";
 }
 
 void addErrors(std::ostringstream& out, const BenchReport& report) {
@@ -172,10 +179,16 @@ std::string asText(const BenchReport& report) {
            "read\n"
         << "and written in a frame. GB/s: moved over time; copy: as a share of the fastest copy's.\n";
     addTimes(out, report.results);
+    addDistances(out, report.results);
     addErrors(out, report);
     addStarts(out, report);
     addPasses(out, report.passes);
     addVerdicts(out, targets(report.results, report.context.software), report.whole);
+    if (const int count = disturbed(report.results))
+        out << "\nIn " << count << " of " << report.results.size()
+            << " cases the median is more than 1.3 times the shortest: something else was running. Measure "
+               "again\n"
+               "on a quiet machine before believing a ratio.\n";
     return out.str();
 }
 

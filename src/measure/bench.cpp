@@ -28,6 +28,7 @@ class Entrant {
         result.one = one;
         result.stateBytes = runner_->stateBytes;
         result.movedBytes = runner_->movedBytes;
+        result.operations = runner_->operations;
         result.lanes = runner_->lanes;
     }
 

@@ -25,6 +25,7 @@ struct BenchResult {
     Spread frame;         // s
     int framesPerSample = 1;
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
+    double operations = 0;                  // BenchRunner's
     double busStateBytes = 0;               // a frame: state that crossed the bus
     Lanes lanes = Lanes::automatic;
     double perMolecule() const { return frame.min / one.count; }  // s, by the shortest

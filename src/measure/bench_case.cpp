@@ -69,6 +69,10 @@ void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
         one.label = std::string(name(subject)) + ", 16 substeps";
         out.push_back(one);
     }
+    one = base;
+    one.subject = Subject::multiplyAdd;
+    one.label = name(one.subject);
+    out.push_back(one);
 }
 
 void addSamplings(std::vector<BenchCase>& out, int count) {
@@ -113,8 +117,9 @@ void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* man
 }  // namespace
 
 const char* name(Subject subject) {
-    static constexpr const char* names[] = {"fused",  "ping-pong",    "AVX-512",      "AVX2",
-                                            "scalar", "copy, buffer", "copy, kernel", "copy, memory"};
+    static constexpr const char* names[] = {"fused",        "ping-pong",    "AVX-512",
+                                            "AVX2",         "scalar",       "copy, buffer",
+                                            "copy, kernel", "copy, memory", "multiply-adds"};
     return names[size_t(subject)];
 }
 const char* name(Wind wind) {
@@ -127,10 +132,10 @@ bool isYardstick(Subject subject) {
     return subject == Subject::avx512 || subject == Subject::avx2 || subject == Subject::scalar;
 }
 bool isCopy(Subject subject) {
-    return !isPath(subject) && !isYardstick(subject);
+    return subject == Subject::bufferCopy || subject == Subject::kernelCopy || subject == Subject::memoryCopy;
 }
 bool needsCompute(Subject subject) {
-    return subject == Subject::fused || subject == Subject::kernelCopy;
+    return subject == Subject::fused || subject == Subject::kernelCopy || subject == Subject::multiplyAdd;
 }
 Simd simdOf(Subject subject) {
     assert(isYardstick(subject));
@@ -154,7 +159,9 @@ std::vector<BenchCase> benchCases(bool quick) {
     addSize(out, base, !quick);
     if (!quick) addLeapfrog(out, base);
     if (!quick) addManySubsteps(out, base);
-    if (!quick) addSize(out, grouped("quad", "quads", 1048576), true);
+    base = grouped("quad", "quads", 1048576);
+    if (!quick) addSize(out, base, true);
+    if (!quick) addManySubsteps(out, base);
     addSize(out, grouped("cross", "crosses", 16384), !quick);
     addSize(out, grouped("fish", "fish", 16384), !quick);
     if (quick) return out;

@@ -19,9 +19,10 @@ enum class Subject {
     avx512,  // yardsticks: measure/yardstick.h
     avx2,
     scalar,
-    bufferCopy,  // the state, by the device's own command
-    kernelCopy,  // the state, by a compute kernel that does nothing else
-    memoryCopy,  // the yardstick's state, by memcpy on all cores
+    bufferCopy,   // the state, by the device's own command
+    kernelCopy,   // the state, by a compute kernel that does nothing else
+    memoryCopy,   // the yardstick's state, by memcpy on all cores
+    multiplyAdd,  // a compute kernel of arithmetic alone
 };
 const char* name(Subject subject);   // "fused", "ping-pong", "AVX-512", …
 bool isPath(Subject subject);        // fused or ping-pong

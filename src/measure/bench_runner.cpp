@@ -24,6 +24,7 @@ class PathRunner : public BenchRunner {
         if (one.drawn) draw_ = device.makeDraw(scene_, simulation_.plan());
         stateBytes = simulation_.stateBytes();
         lanes = simulation_.lanes(0);
+        operations = one.drawn ? 0 : operationsPerFrame(one, molecule);
         if (one.subject == Subject::fused) movedBytes = fusedBytesPerFrame(simulation_.plan(), one.drawn);
     }
     void restart() override { simulation_.restart(); }
@@ -62,6 +63,7 @@ class YardstickRunner : public BenchRunner {
           yardstick_(molecule, one.count, simdOf(one.subject), cores) {
         stateBytes = yardstick_.bytesPerMolecule() * size_t(one.count);
         movedBytes = 2 * stateBytes;
+        operations = operationsPerFrame(one, molecule);
         restart();
     }
     void restart() override { yardstick_.set(start_.positions, start_.velocities); }
@@ -122,6 +124,35 @@ class KernelCopy : public BufferCopy {
   private:
     gpu::Program program_;
     gpu::BufferTexture textures_[2];
+};
+
+class MultiplyAdd : public BenchRunner {
+  public:
+    explicit MultiplyAdd(const BenchDevice& device) {
+        gpu::ProgramOptions options;
+        options.compute = "measure/multiply_add.comp";
+        options.label = "multiply-adds";
+        options.defines = {concat("LANES ", lanesOfGroup), concat("ROUNDS ", rounds)};
+        program_ = gpu::Program(*device.context, device.shaderRoot, options);
+        result_ = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, nullptr,
+                              size_t(groups * lanesOfGroup) * sizeof(float), "multiply-adds");
+        operations = 16.0 * rounds * groups * lanesOfGroup;
+    }
+    void restart() override {}
+    void frame() override {
+        program_.use();
+        program_.set("factor", glm::vec4(0.999f, 0.998f, 0.997f, 0.996f));
+        program_.set("addend", glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+        program_.storage("Result", 0, result_, 0, result_.bytes());
+        program_.dispatch(groups);
+        gpu::barrier({gpu::Barrier::storage});
+    }
+    void finish() override { glFinish(); }
+
+  private:
+    static constexpr int lanesOfGroup = 128, groups = 2048, rounds = 1024;
+    gpu::Program program_;
+    gpu::Buffer result_;
 };
 
 class MemoryCopy : public BenchRunner {
@@ -192,6 +223,14 @@ size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
     return elements * sizeof(glm::vec4);
 }
 
+// A spring: 35 of them, its root counted as one; a vertex: drag and gravity 6, moving 6, the distance from
+// the ground 6.
+double operationsPerFrame(const BenchCase& one, const Molecule& molecule) {
+    if (one.solver != SolverKind::euler || one.wind != Wind::uniform) return 0;
+    const double substep = 35.0 * double(molecule.springs.size()) + 18.0 * double(molecule.vertices.size());
+    return substep * one.substeps * one.count;
+}
+
 std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
     if (needsCompute(one.subject) && !info.computeShaders)
@@ -216,6 +255,7 @@ std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& mo
         const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(one.count);
         return std::make_unique<MemoryCopy>(bytes, device.cores);
     }
+    if (one.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
     const size_t bytes = sideBytes(one, molecule);
     if (one.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);
     return std::make_unique<BufferCopy>(bytes, device);

@@ -48,8 +48,12 @@ class BenchRunner {
 
     size_t stateBytes = 0;           // where the state lives, all copies of it
     size_t movedBytes = 0;           // read and written in a frame, at the least; 0: not known
+    double operations = 0;           // additions and multiplications of a frame, about; 0: not known
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
 };
+
+// About how many a frame of the workload takes, in uniform wind and in the air.
+double operationsPerFrame(const BenchCase& one, const Molecule& molecule);
 
 // Why a case cannot be run here; empty when it can.
 std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device);

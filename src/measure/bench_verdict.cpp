@@ -31,11 +31,15 @@ double bandwidthOf(const BenchResult& result) {
     return double(result.movedBytes) / result.frame.min;
 }
 
+bool comparable(const BenchCase& one) {
+    return isPath(one.subject) || isYardstick(one.subject);
+}
+
 // The yardsticks run the uniform wind and draw nothing.
 std::optional<double> againstYardstick(const BenchResult& result, const std::vector<BenchResult>& all,
                                        Subject subject) {
     const BenchCase& one = result.one;
-    if (one.drawn || one.wind != Wind::uniform || isCopy(one.subject)) return std::nullopt;
+    if (one.drawn || one.wind != Wind::uniform || !comparable(one)) return std::nullopt;
     return over(&result, find(all, [&](const BenchCase& other) {
         return other.group == one.group && other.subject == subject && other.substeps == one.substeps;
     }));
@@ -43,7 +47,7 @@ std::optional<double> againstYardstick(const BenchResult& result, const std::vec
 
 std::optional<double> againstPingPong(const BenchResult& result, const std::vector<BenchResult>& all) {
     const BenchCase& one = result.one;
-    if (isCopy(one.subject)) return std::nullopt;
+    if (!comparable(one)) return std::nullopt;
     return over(find(all,
                      [&](const BenchCase& other) {
                          return other.group == one.group && other.subject == Subject::pingPong &&
@@ -57,9 +61,9 @@ std::optional<double> shareOfCopy(const BenchResult& result, const std::vector<B
     const bool device = isPath(result.one.subject);
     double best = 0;
     for (const BenchResult& other : all) {
-        const bool comparable = isCopy(other.one.subject) && other.one.group == result.one.group &&
-                                (other.one.subject == Subject::memoryCopy) != device;
-        if (comparable && other.frame.min > 0) best = std::max(best, bandwidthOf(other));
+        const bool alike = isCopy(other.one.subject) && other.one.group == result.one.group &&
+                           (other.one.subject == Subject::memoryCopy) != device;
+        if (alike && other.frame.min > 0) best = std::max(best, bandwidthOf(other));
     }
     if (best == 0) return std::nullopt;
     return bandwidthOf(result) / best;
@@ -139,6 +143,10 @@ Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all) 
     out.avx512 = againstYardstick(result, all, Subject::avx512);
     out.avx2 = againstYardstick(result, all, Subject::avx2);
     out.pingPong = againstPingPong(result, all);
+    if (result.operations > 0) out.arithmetic = result.operations / result.frame.min;
+    const BenchResult* peak = labelled(all, result.one.group, name(Subject::multiplyAdd));
+    if (out.arithmetic && peak && isPath(result.one.subject))
+        out.shareOfPeak = *out.arithmetic / (peak->operations / peak->frame.min);
     if (result.movedBytes == 0 || result.one.drawn) return out;
     out.bandwidth = bandwidthOf(result);
     if (!isCopy(result.one.subject)) out.shareOfCopy = shareOfCopy(result, all);
@@ -164,6 +172,29 @@ const BenchResult* speedOf(const BenchError& error, int count, const std::vector
                one.solver == error.solver && one.wind == error.wind && one.sampling == error.sampling &&
                one.substeps == 4 && !one.drawn && !one.inPlace;
     });
+}
+
+int disturbed(const std::vector<BenchResult>& all) {
+    constexpr double much = 1.3;
+    return int(std::count_if(all.begin(), all.end(), [](const BenchResult& result) {
+        return result.frame.min > 0 && result.frame.median > much * result.frame.min;
+    }));
+}
+
+std::vector<std::string> distances(const std::vector<BenchResult>& all) {
+    std::vector<std::string> out;
+    for (const BenchResult& result : all) {
+        if (result.one.subject != Subject::fused || result.one.inPlace) continue;
+        const Ratios ratios = ratiosOf(result, all);
+        if (!ratios.shareOfPeak || !ratios.shareOfCopy) continue;
+        char text[200];
+        std::snprintf(text, sizeof text,
+                      "%s: %.3g GB/s, %.0f%% of a copy; about %.3g Gflop/s, %.0f%% of multiply-adds alone",
+                      result.one.name().c_str(), *ratios.bandwidth * 1e-9, *ratios.shareOfCopy * 100,
+                      *ratios.arithmetic * 1e-9, *ratios.shareOfPeak * 100);
+        out.emplace_back(text);
+    }
+    return out;
 }
 
 std::string sentence(const Target& target) {

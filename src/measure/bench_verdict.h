@@ -16,6 +16,8 @@ struct Ratios {
     std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is
     std::optional<double> bandwidth;     // B/s: bytes moved over time
     std::optional<double> shareOfCopy;   // of the fastest copy of as many bytes on the same device
+    std::optional<double> arithmetic;    // operations a second, about
+    std::optional<double> shareOfPeak;   // of what multiply-adds alone reach on the same device
 };
 Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all);
 
@@ -33,6 +35,13 @@ std::vector<Target> targets(const std::vector<BenchResult>& all, bool software);
 
 // The case that says how fast `count` quads run with what an error was measured of; null without one.
 const BenchResult* speedOf(const BenchError& error, int count, const std::vector<BenchResult>& all);
+
+// How near the fused path comes to what the device can move and compute, where both were measured; for
+// people.
+std::vector<std::string> distances(const std::vector<BenchResult>& all);
+
+// How many cases took much longer by the median than by the shortest time: something else was running.
+int disturbed(const std::vector<BenchResult>& all);
 
 // One line for people: what was wanted, what was measured.
 std::string sentence(const Target& target);

@@ -205,6 +205,29 @@ TEST_CASE("the share of the bandwidth is a target of GPUs", "[bench]") {
     CHECK(std::none_of(software.begin(), software.end(), [&](const Target& t) { return t.what == what; }));
 }
 
+TEST_CASE("arithmetic is compared with multiply-adds, and disturbances are counted", "[bench]") {
+    std::vector<BenchResult> all = someResults();
+    CHECK(disturbed(all) == 0);
+    CHECK(distances(all).empty());
+    all[0].operations = 6e9;
+    all.push_back(result("131,072 quads", "multiply-adds", Subject::multiplyAdd, 131072, 0.04));
+    all.back().operations = 4e10;
+    all.back().movedBytes = 0;
+    all.back().frame.median = 1;
+    CHECK(disturbed(all) == 1);
+    CHECK(ratiosOf(all[0], all).arithmetic.value() == Approx(1e12));
+    CHECK(ratiosOf(all[0], all).shareOfPeak.value() == Approx(1));
+    CHECK_FALSE(ratiosOf(all[2], all).shareOfPeak);  // the yardstick is on another device
+    CHECK_FALSE(ratiosOf(all.back(), all).avx512);
+    REQUIRE(distances(all).size() == 1);
+    CHECK_THAT(distances(all)[0], Catch::Contains("1e+03 Gflop/s, 100% of multiply-adds alone"));
+    BenchCase one;
+    one.count = 10;
+    CHECK(operationsPerFrame(one, cloth(2)) == Approx(10 * 4 * (6 * 35 + 4 * 18)));
+    one.wind = Wind::gusts;
+    CHECK(operationsPerFrame(one, cloth(2)) == 0);
+}
+
 TEST_CASE("an error finds the case that says how fast it is", "[bench]") {
     std::vector<BenchResult> all = someResults();
     BenchError error;
