@@ -181,8 +181,14 @@ TEST_CASE("a step that is too long names the substeps that would do", "[cli]") {
               .code == 0);
 }
 
-TEST_CASE("more molecules than can be had say how much they would take", "[cli]") {
-    const std::string message = refusal({"run", helloScene(), "--headless", "--count", "1000000000"}, "MiB");
-    CHECK_THAT(message, Catch::Contains("hello.scene.json:"));
-    refusal({"explain", helloScene(), "--count", "2147483647"}, "MiB");
+TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
+    refusal({"run", helloScene(), "--headless", "--count", "1000000000"}, "expected at most 16777216");
+    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 16777216");
+    const Scratch scratch;  // 9 vertices each are too many before that
+    const std::string scene = scratch.write(
+        "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 16777216, "molecule": ")" +
+                               sourceFile("molecules/leaf.json") + R"(",
+        "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]})");
+    CHECK_THAT(refusal({"explain", scene}, "at most 14913080 such molecules fit"),
+               Catch::Contains("many.scene.json:1:"));
 }

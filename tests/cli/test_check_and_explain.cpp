@@ -46,9 +46,9 @@ std::string writeScene(const Scratch& scratch, const std::string& molecule, cons
                              group + "}]}");
 }
 
-// The passes of the only group, as "name" or "name!" for those of every substep.
+// The passes of the only group on the ping-pong path, as "name" or "name!" for those of every substep.
 std::multiset<std::string> passes(const std::string& scene, const Words& options = {}) {
-    Words words{"explain", scene, "--json"};
+    Words words{"explain", scene, "--path", "ping-pong", "--json"};
     words.insert(words.end(), options.begin(), options.end());
     const Outcome outcome = runShoal(words);
     INFO(outcome.err);

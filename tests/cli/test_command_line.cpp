@@ -105,8 +105,11 @@ TEST_CASE("info names each context and why one is missing", "[cli]") {
         for (const char* key : {"platform", "renderer", "vendor", "version", "glslVersion"})
             CHECK_FALSE(member(contexts[i], key).text.empty());
         CHECK(member(contexts[i], "maxTextureSize").number >= 1024);
-        REQUIRE(member(contexts[i], "paths").items.size() >= 1);
-        CHECK(member(contexts[i], "paths").items[0].text == "ping-pong");
+        const std::vector<JsonValue>& paths = member(contexts[i], "paths").items;
+        const bool fused = member(contexts[i], "computeShaders").boolean;
+        REQUIRE(paths.size() == (fused ? 2 : 1));
+        CHECK(paths.front().text == (fused ? "fused" : "ping-pong"));
+        CHECK(paths.back().text == "ping-pong");
     }
     CHECK_FALSE(member(contexts[0], "available").boolean);
     CHECK_THAT(member(contexts[0], "reason").text, Catch::Contains("display"));
