@@ -18,6 +18,7 @@
 #include <iostream>
 
 #include "core/file.h"
+#include "scene/scene_file.h"
 
 namespace shoal::app {
 
@@ -174,6 +175,7 @@ void checkRanges(const Options& options) {
     atLeast("--substeps", options.substeps, 1);
     atMost("--substeps", options.substeps, maxSubsteps);
     atLeast("--count", options.count, 1);
+    atMost("--count", options.count, maxGroupCount);
     atLeast("--capture-every", options.captureEvery, 1);
     for (const int frame : options.exportFrames)
         atLeast("--export-frames", frame, 0);
