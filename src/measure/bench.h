@@ -33,7 +33,7 @@ struct BenchResult {
 
 struct BenchSchedule {
     double seconds = 15;  // of frames and restarts, a group
-    int leastSamples = 3, mostSamples = 40;
+    int leastSamples = 3, mostSamples = 100;
 };
 
 // How a group is spread over rounds.
