@@ -76,14 +76,17 @@ if(NOT EXISTS ${elsewhere}/pictures/frame-00002.png)
   message(FATAL_ERROR "no picture where the command ran:\n${text}")
 endif()
 
-# The shaders are the bundle's: a mistake in them shows.
-file(APPEND ${bundle}/shaders/passes/advect.frag "\n#error from the bundle\n")
+# The shaders are the bundle's: a mistake in them shows, on whichever path.
+foreach(shader passes/advect.frag fused/lane.comp)
+  file(APPEND ${bundle}/shaders/${shader} "\n#error from the bundle\n")
+endforeach()
 execute_process(COMMAND ${plain} ./linked run ../shoal/models/hello/hello.scene.json --headless --frames 2
     RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text WORKING_DIRECTORY ${elsewhere})
 if(code EQUAL 0)
   message(FATAL_ERROR "the shaders of the bundle were not taken:\n${text}")
 endif()
-expect("${text}" "${bundle}/shaders/passes/advect.frag")
+expect("${text}" "${bundle}/shaders/")
+expect("${text}" "from the bundle")
 
 # A folder that holds something else is left alone.
 execute_process(COMMAND ${SOURCE_DIR}/cmake/bundle.sh ${BUILD_DIR}/shoal ${elsewhere}
@@ -119,7 +122,7 @@ if(code EQUAL 0)
   run(text ${plain} /shoal/shoal check /shoal/molecules/leaf.json)
   expect("${text}" "\"leaf\": 9 vertices")
   run(text ${plain} /shoal/shoal explain /shoal/models/hello/hello.scene.json)
-  expect("${text}" "advect")
+  expect("${text}" "each molecule is read and written once a frame")
   execute_process(COMMAND ${plain} /shoal/shoal info --context egl RESULT_VARIABLE code OUTPUT_VARIABLE text
       ERROR_VARIABLE text)
   if(NOT code EQUAL 1)
