@@ -19,7 +19,7 @@ Simulation on(Path path, const Plan& plan) {
 
 }  // namespace
 
-TEST_CASE("the two paths agree on every scene", "[fused][agreement]") {
+TEST_CASE("the two paths agree on every scene", "[fused][agreement][long]") {
     if (!test::canFuse()) return;
     std::vector<FeatureScene> scenes = test::shippedScenes(300);
     REQUIRE(scenes.size() >= 2);

@@ -33,7 +33,7 @@ Scene fullScene(Molecule molecule, int count, FieldSampling sampling, SolverKind
 
 }  // namespace
 
-TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes]") {
+TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes][long]") {
     if (!test::canFuse()) return;
     using Sampling = FieldSampling;
     struct Case {
@@ -45,8 +45,8 @@ TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes]") {
         {test::shippedMolecule("quad"),
          {Sampling::vertexSubstep, Sampling::vertexFrame, Sampling::moleculeFrame}},
         {test::shippedMolecule("fish"), {Sampling::vertexFrame, Sampling::vertexSubstep}},
-        {test::sheet(8, 8, true), {Sampling::vertexSubstep}},
-        {test::sheet(11, 3, true), {Sampling::moleculeFrame}},
+        {test::sheet(8, 8, true), {Sampling::moleculeFrame}},
+        {test::sheet(11, 3, true), {Sampling::vertexSubstep}},
         {test::point(0.3), {Sampling::vertexSubstep}},
     };
     REQUIRE(cases[3].molecule.vertices.size() == 33);
