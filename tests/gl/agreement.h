@@ -1,6 +1,7 @@
 // One frame from one state, run in two ways, and how far apart they end.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "gl/numerics.h"
@@ -37,7 +38,8 @@ class Agreement {
   private:
     Plan plan_;
     Simulation first_, second_;
-    Simulation touching_, free_;  // ping-pong, with and without colliders
+    std::optional<Simulation> touching_,
+        free_;  // ping-pong, with and without colliders, where there are some
 };
 
 // Whether the context has the fused path; warns where it does not.
