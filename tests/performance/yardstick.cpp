@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "app/bullet_yardstick.h"
 #include "measure/yardstick.h"
 #include "measure/yardstick_threads.h"
 #include "molecule/molecule_file.h"
@@ -99,7 +100,7 @@ YardstickStep workload() {
     return out;
 }
 
-// As passes.cpp places them, no vertex below the ground.
+// Above 40 m by 40 m of ground.
 void place(Case& one) {
     Scene scene;
     Group& group = scene.groups.emplace_back();
@@ -167,6 +168,31 @@ void print(const Case& one) {
     }
 }
 
+// Bullet, on one thread, with one step a frame and with four: few molecules, for it gains nothing from many.
+void printBullet() {
+    if (!bulletAvailable()) return;
+    const Molecule molecule = readMolecule(SHOAL_SOURCE_DIR "/molecules/quad.json");
+    constexpr int count = 256;
+    std::printf("\n%d quads as soft bodies of Bullet, one thread\n  %-24s %14s %13s %15s\n", count, "",
+                "falling: min ns", "landed: min ns", "lowest vertex m");
+    for (const int substeps : {1, 4}) {
+        for (const auto& [form, words] : {std::pair{BulletYardstick::Form::bodies, "a body each"},
+                                          {BulletYardstick::Form::merged, "all in one body"}}) {
+            BulletYardstick bullet(molecule, count, form);
+            double least[] = {1e30, 1e30};  // s: falling, landed
+            for (int i = 0; i < 240; ++i) {
+                const double start = now();
+                for (int k = 0; k < substeps; ++k)
+                    bullet.frame(1.0 / 60 / substeps);
+                double& one = least[i >= 120];
+                if (i < 12 || i >= 228) one = std::min(one, now() - start);
+            }
+            std::printf("  %-15s %d a frame %15.0f %14.0f %15.4f\n", words, substeps, least[0] * 1e9 / count,
+                        least[1] * 1e9 / count, bullet.lowestHeight());
+        }
+    }
+}
+
 }  // namespace
 
 // Arguments: the number of rounds (default 5); --threads N (default 2).
@@ -195,6 +221,7 @@ static int measureAll(int argc, char** argv) {
     }
     for (const Case& one : cases)
         print(one);
+    printBullet();
     return 0;
 }
 
