@@ -5,9 +5,8 @@
 // Every molecule is read and written once a frame, whatever the number of substeps.
 //
 // Layout. `scalar` keeps an array of vertices per molecule and loops over springs, as one writes it without
-// SIMD in mind. `avx2` and `avx512` put one molecule in each lane: blocks of 8 or 16 molecules, and in a
-// block
-//   6 vectors a vertex: x, y, z, vx, vy, vz;  then 3 a molecule: its anchor.
+// SIMD in mind. `avx2` and `avx512` put one molecule in each lane: blocks of 8 or 16 molecules, in a block
+//   6 vectors a vertex: x, y, z, vx, vy, vz;  then 3 vectors: the anchors.
 // Positions are relative to a molecule's anchor as on the GPU (shaders/physics/anchor.glsl).
 // Quad, cross and fish have their springs unrolled at compile time; other molecules take loops.
 #pragma once

@@ -3,10 +3,11 @@
 // yardstick_kernels.h.
 //
 // V has: lanes, Mask, operators + - *, and
-//   broadcast(const float*), load(const float*), store(float*, V), fma(a, b, c) = a b + c, fnma = c - a b,
-//   fms = a b - c, minimum, maximum, absolute, floored (nearest lower integer), inverse, inverseRoot, less(a,
-//   b) -> Mask, both, either, no(Mask), any(Mask), select(Mask, ifSo, ifNot), leave() for what the processor
-//   wants before narrower code goes on
+//   broadcast(const float*), load(const float*), store(float*, V)
+//   fma(a, b, c) = a b + c, fnma = c - a b, fms = a b - c
+//   minimum, maximum, absolute, floored (nearest lower integer), inverse, inverseRoot
+//   less(a, b) -> Mask, both, either, no(Mask), any(Mask), select(Mask, ifSo, ifNot)
+//   leave(): what the processor wants before narrower code goes on
 #pragma once
 
 #include "measure/yardstick_kernels.h"
