@@ -9,6 +9,7 @@
 
 #include "app/bench_plot.h"
 #include "app/bench_report.h"
+#include "app/bullet_yardstick.h"
 #include "app/commands.h"
 #include "app/data_paths.h"
 #include "app/progress.h"
@@ -45,6 +46,28 @@ Draw makeDraw(gpu::Context& context, const Scene& scene, const Plan& plan) {
     const auto renderer = std::make_shared<Renderer>(context, shaderRoot(), scene, plan, options);
     return [renderer, view = View::of(scene.camera)](const StateView& state) { renderer->draw(state, view); };
 }
+
+class BulletRunner : public BenchRunner {
+  public:
+    BulletRunner(const BenchCase& one, const Molecule& molecule) : one_(one), molecule_(molecule) {
+        restart();
+    }
+    void restart() override {
+        bullet_ = std::make_unique<BulletYardstick>(molecule_, one_.count,
+                                                    one_.subject == Subject::bulletMerged
+                                                        ? BulletYardstick::Form::merged
+                                                        : BulletYardstick::Form::bodies);
+    }
+    void frame() override {
+        for (int i = 0; i < one_.substeps; ++i)
+            bullet_->frame(1.0 / 60 / one_.substeps);
+    }
+
+  private:
+    BenchCase one_;
+    const Molecule& molecule_;
+    std::unique_ptr<BulletYardstick> bullet_;
+};
 
 // Everything is asked for by its name: cases, and these beside them.
 constexpr const char *errors = "errors", *starts = "start-up", *passes = "passes";
@@ -185,8 +208,12 @@ int benchCommand(const Options& options) {
                   << context.info().version << ": its cases are left out\n";
 
     gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
-    BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores};
+    BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores, {}};
     device.makeDraw = [&](const Scene& scene, const Plan& plan) { return makeDraw(context, scene, plan); };
+    if (bulletAvailable())
+        device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
+            return std::make_unique<BulletRunner>(one, molecule);
+        };
     measureAll(wanted, molecules, device, report);
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";

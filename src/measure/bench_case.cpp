@@ -117,9 +117,10 @@ void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* man
 }  // namespace
 
 const char* name(Subject subject) {
-    static constexpr const char* names[] = {"fused",        "ping-pong",    "AVX-512",
-                                            "AVX2",         "scalar",       "copy, buffer",
-                                            "copy, kernel", "copy, memory", "multiply-adds"};
+    static constexpr const char* names[] = {
+        "fused",         "ping-pong",           "AVX-512",       "AVX2",
+        "scalar",        "copy, buffer",        "copy, kernel",  "copy, memory",
+        "multiply-adds", "Bullet, soft bodies", "Bullet, merged"};
     return names[size_t(subject)];
 }
 const char* name(Wind wind) {
@@ -137,6 +138,9 @@ bool isCopy(Subject subject) {
 bool needsCompute(Subject subject) {
     return subject == Subject::fused || subject == Subject::kernelCopy || subject == Subject::multiplyAdd;
 }
+bool isBullet(Subject subject) {
+    return subject == Subject::bulletBodies || subject == Subject::bulletMerged;
+}
 Simd simdOf(Subject subject) {
     assert(isYardstick(subject));
     return subject == Subject::avx512 ? Simd::avx512 : subject == Subject::avx2 ? Simd::avx2 : Simd::scalar;
@@ -151,8 +155,14 @@ std::string grouped(int count) {
 
 std::vector<BenchCase> benchCases(bool quick) {
     std::vector<BenchCase> out;
-    addSize(out, grouped("quad", "quads", 1024), true);
-    BenchCase base = grouped("quad", "quads", 16384);
+    BenchCase base = grouped("quad", "quads", 1024);
+    addSize(out, base, true);
+    for (const Subject subject : {Subject::bulletBodies, Subject::bulletMerged}) {
+        base.subject = subject;
+        base.label = name(subject);
+        out.push_back(base);
+    }
+    base = grouped("quad", "quads", 16384);
     addSize(out, base, true);
     addLeapfrog(out, base);
     base = grouped("quad", "quads", 131072);

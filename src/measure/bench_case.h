@@ -19,16 +19,19 @@ enum class Subject {
     avx512,  // yardsticks: measure/yardstick.h
     avx2,
     scalar,
-    bufferCopy,   // the state, by the device's own command
-    kernelCopy,   // the state, by a compute kernel that does nothing else
-    memoryCopy,   // the yardstick's state, by memcpy on all cores
-    multiplyAdd,  // a compute kernel of arithmetic alone
+    bufferCopy,    // the state, by the device's own command
+    kernelCopy,    // the state, by a compute kernel that does nothing else
+    memoryCopy,    // the yardstick's state, by memcpy on all cores
+    multiplyAdd,   // a compute kernel of arithmetic alone
+    bulletBodies,  // Bullet's soft bodies, one a molecule
+    bulletMerged,  // all molecules as one of them
 };
-const char* name(Subject subject);   // "fused", "ping-pong", "AVX-512", …
-bool isPath(Subject subject);        // fused or ping-pong
-bool isYardstick(Subject subject);   // AVX-512, AVX2 or scalar
-bool isCopy(Subject subject);        // moves the state and does nothing else
-Simd simdOf(Subject subject);        // of a yardstick
+const char* name(Subject subject);  // "fused", "ping-pong", "AVX-512", …
+bool isPath(Subject subject);       // fused or ping-pong
+bool isYardstick(Subject subject);  // AVX-512, AVX2 or scalar
+bool isCopy(Subject subject);       // moves the state and does nothing else
+Simd simdOf(Subject subject);       // of a yardstick
+bool isBullet(Subject subject);
 bool needsCompute(Subject subject);  // OpenGL 4.3
 
 enum class Wind {

@@ -237,6 +237,7 @@ std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, con
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
     if (isYardstick(one.subject) && !available(simdOf(one.subject)))
         return "this processor or build lacks the instructions";
+    if (isBullet(one.subject) && !device.makeBullet) return "not built with Bullet (apt: libbullet-dev)";
     if (one.drawn && !device.makeDraw) return "nothing to draw with";
     const auto bytes = int64_t(sideBytes(one, molecule));
     const int64_t texels = bytes / int64_t(sizeof(glm::vec4));
@@ -255,6 +256,7 @@ std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& mo
         const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(one.count);
         return std::make_unique<MemoryCopy>(bytes, device.cores);
     }
+    if (isBullet(one.subject)) return device.makeBullet(one, molecule);
     if (one.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
     const size_t bytes = sideBytes(one, molecule);
     if (one.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);

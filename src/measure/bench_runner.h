@@ -21,12 +21,17 @@ namespace shoal::measure {
 using Draw = std::function<void(const StateView&)>;
 using DrawMaker = std::function<Draw(const Scene&, const Plan&)>;
 
+class BenchRunner;
+// Runs Bullet's soft bodies; made by who is built with Bullet.
+using BulletMaker = std::function<std::unique_ptr<BenchRunner>(const BenchCase&, const Molecule&)>;
+
 struct BenchDevice {
     gpu::Context* context = nullptr;
     std::string shaderRoot;
     gpu::ProgramCache* cache = nullptr;
-    DrawMaker makeDraw;  // null: cases with a picture are left out
-    int cores = 1;       // threads of the yardsticks
+    DrawMaker makeDraw;           // null: cases with a picture are left out
+    int cores = 1;                // threads of the yardsticks
+    BulletMaker makeBullet = {};  // null: its cases are left out
 };
 
 // Where all cases of one molecule and count begin: some way into the fall, so that there are contacts.

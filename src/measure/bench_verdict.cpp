@@ -32,7 +32,7 @@ double bandwidthOf(const BenchResult& result) {
 }
 
 bool comparable(const BenchCase& one) {
-    return isPath(one.subject) || isYardstick(one.subject);
+    return !isCopy(one.subject) && one.subject != Subject::multiplyAdd;
 }
 
 // The yardsticks run the uniform wind and draw nothing.
