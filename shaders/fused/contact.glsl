@@ -4,32 +4,50 @@
 // A solver with COMING_KICK still owes the velocity half a kick of the springs: contact acts on the velocity that
 // will have it, or friction would cancel only half of what the springs do in a step.
 
+// The loops work on copies, so that x and v stay in registers where these loops are kept (a long text for many
+// colliders).
+vec3 touchPosition[VERTICES];
+vec3 touchVelocity[VERTICES];
+
 // Whether a vertex that is not held lies inside a collider.
 bool findContacts()
 {
     float least = 1e30;
     for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) least = min(least, clearance(anchor, x[i]));
+        touchPosition[i] = x[i];
+    }
+    for (int k = 0; k < VERTICES; ++k) {
+        if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k]));
     }
     return least < 0.0;
 }
 
-void respondTo(inout vec3 position, inout vec3 velocity, vec3 kick)
-{
-    vec3 whole = velocity + kick;
-    Contact c = collideAll(anchor, position, whole, gravity, Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
-    position = c.position;
-    velocity = c.velocity != whole ? c.velocity - kick : velocity;
-}
-
-// All at once; nothing happens to those that do not touch.
+// Of all vertices; nothing happens to those that do not touch.
 void resolveContacts()
 {
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 kick = vec3(0.0);
+        touchPosition[i] = x[i];
+        touchVelocity[i] = v[i];
 #ifdef COMING_KICK
-        kick = comingKick[i];
+        touchVelocity[i] += comingKick[i];
 #endif
-        if (!isHeld(pinned[i])) respondTo(x[i], v[i], kick);
+    }
+    for (int k = 0; k < VERTICES; ++k) {
+        if (!isHeld(pinned[k])) {
+            Contact c = collideAll(anchor, touchPosition[k], touchVelocity[k], gravity,
+                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
+            touchPosition[k] = c.position;
+            touchVelocity[k] = c.velocity;
+        }
+    }
+    for (int i = 0; i < VERTICES; ++i) {
+        vec3 whole = v[i];
+#ifdef COMING_KICK
+        whole += comingKick[i];
+        v[i] = touchVelocity[i] != whole ? touchVelocity[i] - comingKick[i] : v[i];
+#else
+        v[i] = touchVelocity[i];
+#endif
+        x[i] = touchPosition[i];
     }
 }

@@ -72,7 +72,6 @@ void run()
     for (int done = 0; done < substeps; ++done) {
         advance(done);
 #ifdef COLLIDE
-        findContacts();
         resolveContacts();
 #endif
     }

@@ -51,7 +51,7 @@ void run()
             ++done;
             found = findContacts();
         } while (!anyInvocationARB(found) && done < substeps);
-        resolveContacts();
+        if (found) resolveContacts();
     } while (done < substeps);
 #else
     for (; done < substeps; ++done) {

@@ -10,7 +10,7 @@
 // POSITION_ELEMENTS. A record is one 4-vector a molecule: xyz anchor (m); w: 1 + seed, negative once the pins have
 // let go. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
-// Set by C++ (src/simulate/fused.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
+// Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
 layout(local_size_x = LANES) in;
 
 uniform samplerBuffer oldState;
@@ -33,8 +33,9 @@ uniform float givenReleaseForce;
 uniform float givenReleaseChance;
 uniform vec3 givenDriftOfStep;
 
-// The same in registers, where the step reads them. Mesa's rasteriser fetches a uniform lane by lane, in every turn
-// of a loop again, and a plain copy is a uniform to it: an operation that changes nothing makes a value of it.
+// The same where the step reads them. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser: it fetches a uniform lane by
+// lane, in every turn of a loop again, and a plain copy is a uniform to it; an operation that changes nothing makes a
+// value of it.
 int frame;  // number of this frame, from 0
 int substeps;  // of a frame
 float substep;  // h, s
@@ -50,26 +51,19 @@ float releaseForce;  // N: above this pull on a pin, all pins of the molecule le
 float releaseChance;  // in this frame
 vec3 driftOfStep;  // physics/collide.glsl: step, kickDrift, lag
 
-int inRegister(int value)
-{
-    return min(value, 2147483647);
-}
-float inRegister(float value)
-{
-    return min(value, 3.4e38);
-}
-vec2 inRegister(vec2 value)
-{
-    return min(value, vec2(3.4e38));
-}
-vec3 inRegister(vec3 value)
-{
-    return min(value, vec3(3.4e38));
-}
-vec4 inRegister(vec4 value)
-{
-    return min(value, vec4(3.4e38));
-}
+#ifdef UNIFORMS_IN_REGISTERS
+int inRegister(int value) { return min(value, 2147483647); }
+float inRegister(float value) { return min(value, 3.4e38); }
+vec2 inRegister(vec2 value) { return min(value, vec2(3.4e38)); }
+vec3 inRegister(vec3 value) { return min(value, vec3(3.4e38)); }
+vec4 inRegister(vec4 value) { return min(value, vec4(3.4e38)); }
+#else
+int inRegister(int value) { return value; }
+float inRegister(float value) { return value; }
+vec2 inRegister(vec2 value) { return value; }
+vec3 inRegister(vec3 value) { return value; }
+vec4 inRegister(vec4 value) { return value; }
+#endif
 
 void loadUniforms()
 {
@@ -114,8 +108,8 @@ uint seed;
 
 // Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so that
 // every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own vertices,
-// after all lanes have met. Loops over j are the same for bodies so long that writing them out does not pay
-// (src/simulate/vertex_loops.h).
+// after all lanes have met. Loops over j (fields) and k (contacts) are the same for bodies that may be too long to
+// write out (src/simulate/vertex_loops.h).
 
 // Before a vertex is read by a lane that did not write it.
 void meet()

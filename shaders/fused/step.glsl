@@ -12,7 +12,8 @@ bool isHeld(bool pinned)
 #endif
 }
 
-// The first forces of a frame decide whether the molecule's pins hold. To be called after springForces.
+// The first forces of a frame decide whether the molecule's pins hold. To be called after springForces, if there are
+// springs.
 void letGo(int step)
 {
 #ifdef RELEASE

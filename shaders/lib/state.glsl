@@ -1,4 +1,4 @@
-// Where a molecule's data lies in the state textures. The layout is stated in src/compile/plan.h.
+// Where a molecule's data lies in the state textures. The layout is stated in src/simulate/texture_state.h.
 uniform sampler2D positions;
 uniform sampler2D velocities;
 uniform sampler2D accelerations;

@@ -1,6 +1,5 @@
 // euler: symplectic Euler with drag and gravity taken exactly (Latta, 3 and 8), order 1.
 //   v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
-#define SOLVER_EULER
 
 void beginSolver()
 {
@@ -15,7 +14,9 @@ void advance(int step)
         w[i] = v[i];
     }
     springForces(time);
+#endif
     letGo(step);
+#ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
     }

@@ -3,7 +3,6 @@
 //   a = F(x, v + a h/2, t + h) / m;  v += a h/2
 // The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
-#define SOLVER_LEAPFROG
 
 #ifdef SPRINGS
 PER_VERTEX acceleration[VERTICES];  // m/s^2, of the springs
@@ -26,7 +25,9 @@ void kickBySprings(int step, float kickTime)
         w[i] = v[i] + acceleration[i] * kickTime;
     }
     springForces(frameTime + float(step) * substep);
+#endif
     letGo(step);
+#ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
         acceleration[i] = isHeld(pinned[i]) ? vec3(0.0) : force[i] * inverseMass[i];
         v[i] += acceleration[i] * kickTime;

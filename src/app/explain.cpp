@@ -26,18 +26,21 @@ int explainCommand(const Options& options) {
         throw Error("--shader prints the fused path's kernels; this scene runs on the other path: " +
                     choice.why);
     if (options.json) {
-        std::cout << writeJson(explainJson(loaded.plan, choice));
+        std::cout << writeJson(explainJson(loaded.plan, choice, options.inPlace));
         return 0;
     }
     if (!options.shader) {
-        std::cout << explain(loaded.plan, choice);
+        std::cout << explain(loaded.plan, choice, options.inPlace);
         return 0;
     }
+    std::cout
+        << "// As a GPU gets it. A CPU rasteriser runs up to " << FusedLimits::softwareLane
+        << " vertices in a lane (--lanes molecule), and stores and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
         kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
         kernel.normals = true;
-        std::cout << kernelText(shaderRoot(), loaded.plan, g, kernel) << "\n";
+        std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";
     }
     return 0;
 }

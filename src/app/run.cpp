@@ -56,6 +56,10 @@ bool exportsFrame(const Options& options, int frame, int last) {
 SimulationOptions simulationOptions(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
     SimulationOptions out;
     if (options.timings) out.timing = gpu::PassTimers::suitedTo(context.info());
+    // a run that asks for nothing writes pictures
+    const bool nothing =
+        options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
+    out.drawn = nothing || !options.capture.empty() || !options.exports.empty();
     out.path = options.path;
     out.lanes = options.lanes;
     out.inPlace = options.inPlace;

@@ -138,8 +138,8 @@ class WindowRun {
         SimulationOptions wanted;
         wanted.timing = gpu::PassTimers::suitedTo(context_.info());
         wanted.path = path_;
-        // what was asked of one path does not bind the other
-        if (path_ == options_.path) wanted.inPlace = options_.inPlace, wanted.lanes = options_.lanes;
+        // what was asked of the fused path does not bind the other
+        if (path_ != Path::pingPong) wanted.inPlace = options_.inPlace, wanted.lanes = options_.lanes;
         wanted.cache = &cache_;
         simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), wanted);
         tellWarnings(*simulation_, cache_);

@@ -49,21 +49,22 @@ static std::string kernelParts(const GroupPlan& group) {
     return parts;
 }
 
-static std::string leftOut(const GroupPlan& group) {
+static std::string leftOut(const GroupPlan& group, bool fused) {
     std::string absent;
     const auto without = [&](bool need, const char* what) {
         if (!need) absent += (absent.empty() ? "" : ", ") + std::string(what);
     };
-    without(group.needs.springs, "no springs: no restore");
-    without(group.needs.collide, "no colliders: no collide");
+    without(group.needs.springs, fused ? "no springs" : "no springs: no restore");
+    without(group.needs.collide, fused ? "no colliders" : "no colliders: no collide");
     without(group.needs.drag, "no drag: no field is read");
     without(group.needs.fields || !group.needs.drag, "no fields");
     without(group.needs.normals, "no triangles: no normals");
-    without(group.needs.records, "all molecules hang on pins: no records");
+    without(group.needs.records,
+            fused ? "all molecules hang on pins: anchors stay" : "all molecules hang on pins: no records");
     return absent;
 }
 
-std::string explain(const Plan& plan, const PathChoice& choice) {
+std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
     out << "frame    1/" << plan.frameRate << " s in " << plan.substeps << " substeps of "
@@ -71,7 +72,7 @@ std::string explain(const Plan& plan, const PathChoice& choice) {
     out << "path     " << name(choice.path) << ": " << choice.why << "\n";
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         out << "fields   " << name(plan.fieldSampling) << "\n";
-    out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true)) << ", tables "
+    out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true, inPlace)) << ", tables "
         << mebibytes(plan.tableBytes()) << "\n";
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
@@ -84,7 +85,7 @@ std::string explain(const Plan& plan, const PathChoice& choice) {
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
             listPasses(out, plan, g);
-        const std::string absent = leftOut(group);
+        const std::string absent = leftOut(group, choice.path == Path::fused);
         if (!absent.empty()) out << "  left out: " << absent << "\n";
     }
     return out.str();
@@ -98,7 +99,7 @@ static JsonValue passEntry(const char* pass, const char* moment, const std::stri
     return entry;
 }
 
-JsonValue explainJson(const Plan& plan, const PathChoice& choice) {
+JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) {
     JsonValue groups = JsonValue::makeArray();
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
@@ -125,7 +126,7 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice) {
         .add("fieldSampling", JsonValue::makeString(name(plan.fieldSampling)))
         .add("frameRate", JsonValue::makeNumber(plan.frameRate))
         .add("substeps", JsonValue::makeNumber(plan.substeps))
-        .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true))))
+        .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true, inPlace))))
         .add("tableBytes", JsonValue::makeNumber(double(plan.tableBytes())))
         .add("groups", std::move(groups));
     return out;

@@ -45,7 +45,7 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
         out +=
             "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = "
             "0.0;\n";
-        for (size_t v = 0; v < count; ++v)
+        for (size_t v = 0; v < count && needs.springs; ++v)
             if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
         out += "    return pull;\n}\n";
     }

@@ -46,6 +46,12 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
 void checkFused(const Plan& plan, const PathLimits& limits) {
     if (!limits.compute)
         throw Error(concat("the fused path needs OpenGL 4.3; this context has ", limits.version));
+    // beside the two arrays a kernel has about 40 numbers of its own
+    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameters.size()) + 64;
+    if (uniforms > size_t(limits.maxUniformComponents))
+        throw Error(concat("fields and colliders take ", uniforms,
+                           " numbers of uniforms; a compute shader holds ", limits.maxUniformComponents,
+                           " on this device"));
     const int most =
         std::max(FusedLimits::workgroup(limits), limits.software ? FusedLimits::softwareLane : 0);
     for (const GroupPlan& group : plan.groups) {
@@ -92,7 +98,9 @@ Lanes lanes(const std::string& word) {
 
 Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
     const int most = limits.software ? FusedLimits::softwareLane : FusedLimits::gpuLane;
-    if (wanted == Lanes::automatic) return group.vertexCount <= most ? Lanes::molecule : Lanes::vertex;
+    if (wanted == Lanes::automatic)
+        return group.vertexCount <= most && group.springCount <= FusedLimits::laneSprings ? Lanes::molecule
+                                                                                          : Lanes::vertex;
     if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::softwareLane)
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a lane holds at most ", FusedLimits::softwareLane));

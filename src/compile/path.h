@@ -36,13 +36,15 @@ struct PathLimits {
     bool software = false;        // a CPU rasteriser
     int maxTextureSize = 16384;
     int maxSharedBytes = 32768;
-    int64_t maxWorkGroups = 65535;
+    int maxUniformComponents = 1024;  // of a compute shader
 };
 
 // Largest molecules of the fused path, in vertices.
 struct FusedLimits {
-    // Beyond this a lane's code takes too long to compile, and on a GPU does not fit its registers.
+    // Beyond these a lane's code takes too long to compile, and on a GPU its state does not fit the
+    // registers.
     static constexpr int softwareLane = 64, gpuLane = 16;
+    static constexpr int laneSprings = 1024;
     // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal, acceleration and
     // kick. Drivers may give each as much as a 4-vector; Mesa does.
     static constexpr int sharedBytesPerVertex = 9 * 16;
@@ -67,9 +69,9 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits);
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace = false);
 
 // For people: groups, passes and why each is there, memory.
-std::string explain(const Plan& plan, const PathChoice& choice);
+std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace = false);
 // For programs.
 class JsonValue;
-JsonValue explainJson(const Plan& plan, const PathChoice& choice);
+JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace = false);
 
 }  // namespace shoal

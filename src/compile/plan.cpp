@@ -11,7 +11,7 @@ namespace shoal {
 
 namespace {
 
-// Uniform arrays of fields and colliders together stay within what OpenGL 3.3 promises a fragment shader
+// Uniform arrays of fields and of colliders each stay within what OpenGL 3.3 promises a fragment shader
 // (1024 components), with room for the passes' own uniforms.
 constexpr size_t maxParameters = 200;
 
@@ -58,6 +58,7 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.index = index;
     out.count = group.count;
     out.vertexCount = int(group.molecule.vertices.size());
+    out.springCount = int(group.molecule.springs.size());
     out.needs = findNeeds(scene, group);
     out.solver = scene.solver.kind;
     out.drag = group.drag;
@@ -82,6 +83,7 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     for (const GroupPlan& group : plan.groups)
         before += int64_t(group.count) * group.vertexCount;
     const Group& group = scene.groups[index];
+    if (group.count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
     if (before + group.count * vertices <= most) return;
     throw Error(group.location, concat(group.count, " molecules of ", vertices, " vertices",
@@ -205,6 +207,8 @@ Plan compile(const Scene& scene) {
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
     Generated fields, colliders;
+    plan.fieldCount = scene.fields.size();
+    plan.colliderCount = scene.colliders.size();
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
         return std::holds_alternative<GustField>(field.shape) ||
                std::holds_alternative<CurlNoiseField>(field.shape) ||

@@ -40,7 +40,7 @@ struct GroupPlan {
     std::string name;
     Location location;  // of the group in the scene file, for messages
     size_t index = 0;   // in scene.groups
-    int count = 0, vertexCount = 0;
+    int count = 0, vertexCount = 0, springCount = 0;
     TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
@@ -86,6 +86,7 @@ struct Plan {
     std::string fieldSource;    // generated/fields.glsl
     std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters, colliderParameters;
+    size_t fieldCount = 0, colliderCount = 0;
     bool longFields = false;  // noise or grids: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;
     int sampleRows = 0;

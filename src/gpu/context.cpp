@@ -101,6 +101,7 @@ static void readComputeLimits(ContextInfo& info) {
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &bytes);
     info.maxStorageBlockBytes = bytes;
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &info.maxWorkGroupsX);
+    info.maxComputeUniformComponents = getInteger(GL_MAX_COMPUTE_UNIFORM_COMPONENTS);
     info.maxSharedBytes = getInteger(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
     info.textureBufferAlignment = getInteger(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT);
     info.storageBufferAlignment = getInteger(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);

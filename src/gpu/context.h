@@ -44,13 +44,12 @@ struct ContextInfo {
     bool computeShaders = false;  // 4.3+: by version, never by extension
     // Of compute shaders and what they read; all 0 below 4.3.
     int64_t maxStorageBlockBytes = 0;
-    int maxWorkGroupsX = 0, maxSharedBytes = 0;
+    int maxWorkGroupsX = 0, maxSharedBytes = 0, maxComputeUniformComponents = 0;
     int textureBufferAlignment = 0, storageBufferAlignment = 0;  // of the offsets of ranges, in bytes
-    // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. The one feature that goes
-    // by an extension, because no version of OpenGL has it; still false below 4.3.
+    // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. This and
+    // groupVote go by an extension, because no version that is common has them; still false below 4.3.
     bool subgroups = false;
-    // anyInvocationARB: OpenGL 4.6, or GL_ARB_shader_group_vote on Mesa's rasteriser, which needs it and
-    // stops at 4.5.
+    // anyInvocationARB (GL_ARB_shader_group_vote).
     bool groupVote = false;
 
     bool atLeast(int wantedMajor, int wantedMinor) const {

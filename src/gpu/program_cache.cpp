@@ -112,6 +112,8 @@ bool ProgramCache::load(const std::string& key, GLuint program) {
     if (!active_) return false;
     if (fill(key, program)) {
         ++hits_;
+        std::error_code code;  // what is used stays longest
+        fs::last_write_time(file(key), fs::file_time_type::clock::now(), code);
         return true;
     }
     ++misses_;

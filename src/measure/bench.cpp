@@ -16,9 +16,11 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-constexpr int framesOfFall = 10;            // between two restarts
-constexpr double sampleSeconds = 2e-3;      // a sample lasts at least this long
-constexpr double shortFrameSeconds = 0.02;  // below this caches matter
+// Of a visit: after a restart one frame that is not timed, so that caches are as in a run of one case, then
+// these. Slow frames do without and are timed one by one: five frames of a fall differ by little, and any two
+// samples of a case by nothing.
+constexpr int framesTimed = 4;
+constexpr double slowFrameSeconds = 0.1;
 
 class Entrant {
   public:
@@ -37,28 +39,18 @@ class Entrant {
         runner_->restart();
         runner_->frame();
         runner_->finish();
-        frames_ = 1;
         const Clock::time_point start = Clock::now();
-        const double frame = timed(1);
-        result.framesPerSample = framesPerSample(frame, framesOfFall);
-        leadIn_ = frame < shortFrameSeconds;
-        seconds = frame;
-        if (!leadIn_) return;
+        slow_ = timed(1) > slowFrameSeconds;
+        result.framesPerSample = slow_ ? 1 : framesTimed;
         visit();
-        seconds = since(start) - frame;
+        seconds = since(start) * (slow_ ? 0.5 : double(framesTimed + 1) / (framesTimed + 2));
         samples_.clear();
     }
 
     void visit() {
-        if (frames_ + result.framesPerSample > framesOfFall) {
-            runner_->restart();
-            runner_->finish();
-            frames_ = 0;
-        }
-        if (leadIn_) {
-            runner_->frame();
-            runner_->finish();
-        }
+        runner_->restart();
+        if (!slow_) runner_->frame();
+        runner_->finish();
         samples_.push_back(timed(result.framesPerSample));
     }
 
@@ -82,14 +74,12 @@ class Entrant {
         const double out = since(start) / frames;
         busBytes_ += context_.traffic().total(gpu::Traffic::Kind::state) - before;
         timedFrames_ += frames;
-        frames_ += frames;
         return out;
     }
 
     std::unique_ptr<BenchRunner> runner_;
     gpu::Context& context_;
-    int frames_ = 0;      // timed, since the start
-    bool leadIn_ = true;  // a visit begins with a frame that is not timed
+    bool slow_ = false;
     int64_t timedFrames_ = 0;
     uint64_t busBytes_ = 0;
     std::vector<double> samples_;  // s a frame
@@ -112,10 +102,6 @@ VisitPlan planVisits(const std::vector<double>& cost, const BenchSchedule& sched
         out.seconds += one * out.samples.back();
     }
     return out;
-}
-
-int framesPerSample(double frameSeconds, int most) {
-    return int(std::clamp(std::ceil(sampleSeconds / std::max(frameSeconds, 1e-9)), 1.0, double(most)));
 }
 
 std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,

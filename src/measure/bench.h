@@ -1,12 +1,14 @@
 // The measurement: all cases of a group in turn, round after round, so that a machine whose speed drifts
 // drifts for all alike.
 //
-// A visit of a case: back to the start when it has run ten frames since; for short frames one that is not
-// timed, so that caches are as in a run of its own; then as many frames between two waits as make a sample of
-// 2 ms, ten at most. So every case sees the same ten frames of the fall. Slow cases sit out rounds, evenly.
+// A visit of a case: back to the start; a frame that is not timed, so that caches are as in a run of its own;
+// then four frames between two waits, one sample. Frames above 0.1 s go without the first and are sampled one
+// by one. So all samples of a case are the same frames of the fall, and those of different cases lie within
+// the same five. Slow cases sit out rounds, evenly.
 //
-// All samples of a case do the same work, so that they differ only by what disturbs them: the shortest says
-// what the work costs, and what is derived (ratios, bandwidth) goes by it; the median says what to expect.
+// Samples of a case differ only by what disturbs them: the shortest says what the work costs, and what is
+// derived (ratios, bandwidth) goes by it; the median says what to expect. A case with few samples has had
+// fewer chances of a short one: their number is in the report.
 #pragma once
 
 #include <functional>
@@ -46,9 +48,6 @@ struct VisitPlan {
 };
 // `cost`: seconds of one visit, for each case.
 VisitPlan planVisits(const std::vector<double>& cost, const BenchSchedule& schedule);
-
-// How many frames make a sample: 2 ms of them, at most `most`.
-int framesPerSample(double frameSeconds, int most);
 
 // What is being done, and the estimated seconds that this group still takes.
 using BenchProgress = std::function<void(const std::string& what, double secondsLeft)>;

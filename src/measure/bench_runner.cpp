@@ -215,7 +215,7 @@ size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
         const BufferLayout layout{group.vertexCount};
         const Needs& needs = group.needs;
         const size_t state = 2 * size_t(layout.stateElements());
-        const size_t records = needs.records ? 2 : 1;
+        const size_t records = 1;  // read; written only when an anchor moves
         const size_t normals = drawn && needs.normals ? size_t(layout.positionElements()) : 0;
         const size_t constants = needs.scale || needs.phase ? 1 : 0;
         elements += size_t(group.count) * (state + records + normals + constants);

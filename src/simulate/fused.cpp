@@ -28,7 +28,7 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
     out.software = info.software;
     out.maxTextureSize = info.maxTextureSize;
     out.maxSharedBytes = info.maxSharedBytes;
-    out.maxWorkGroups = info.maxWorkGroupsX;
+    out.maxUniformComponents = info.maxComputeUniformComponents;
     return out;
 }
 
@@ -42,7 +42,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
         kernel.normals = options.drawn;
         kernel.groupVote = info.groupVote;
-        kernel.pairedStores = info.software;
+        kernel.software = info.software;
         const size_t perWorkgroup =
             kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
         state.emplace_back(context, group, options.drawn, options.inPlace,
@@ -113,6 +113,8 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     const auto timer = timers.time("fused");
+    gpu::barrier(
+        {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written
     for (size_t g = 0; g < state.size(); ++g) {
         const Program& program = kernels_[g].step;
         program.use();
@@ -126,6 +128,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
 
 void Fused::computeNormals(gpu::PassTimers& timers) {
     const auto timer = timers.time("normals");
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
     for (size_t g = 0; g < state.size(); ++g) {
         const Program& program = kernels_[g].normals;
         if (!program) continue;

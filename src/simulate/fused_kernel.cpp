@@ -24,7 +24,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     const bool perLane = options.lanes == Lanes::molecule;
     define(true, "FUSED");
     define(!perLane, "SHARED_MOLECULE");
-    define(options.pairedStores && perLane, "PAIRED_STORES");
+    define(options.software && perLane, "PAIRED_STORES");
+    define(options.software && perLane, "UNIFORMS_IN_REGISTERS");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(options.normals && needs.normals, "NORMALS");
     define(options.onlyNormals, "ONLY_NORMALS");
@@ -64,11 +65,20 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     return out;
 }
 
-VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, Lanes lanes) {
+// Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
+// registers. Noise is too long for more than a few vertices, and on a CPU rasteriser, which compiles slowly,
+// for more than one.
+VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
-    if (lanes == Lanes::vertex) return {group.vertexCount, Form::ownVertices, Form::ownVertices};
-    const bool brief = !plan.longFields || group.vertexCount == 1;
-    return {group.vertexCount, Form::writeOut, brief ? Form::writeOut : Form::keep};
+    if (options.lanes == Lanes::vertex)
+        return {group.vertexCount, Form::ownVertices, Form::ownVertices, Form::ownVertices};
+    const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
+    constexpr size_t longest = 48;  // calls of a field or a collider
+    const size_t vertices = size_t(group.vertexCount);
+    const size_t noiseAt = options.software ? 1 : 8;
+    return {group.vertexCount, Form::writeOut,
+            form((plan.longFields && vertices > noiseAt) || vertices * plan.fieldCount > longest),
+            form(vertices * plan.colliderCount > longest)};
 }
 
 }  // namespace
@@ -89,15 +99,15 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/fields.glsl", plan.fieldSource},
                      {"generated/colliders.glsl", plan.collideSource}};
     out.label = concat("fused step of ", group.name);
-    out.rewrite = [loops = loopsOf(plan, group, options.lanes)](gpu::ShaderSource& source) {
+    out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         gpu::resolveConditions(source);
         expand(source, loops);
     };
     return out;
 }
 
-std::string kernelText(const std::string& shaderRoot, const Plan& plan, size_t group,
-                       const KernelOptions& options) {
+std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,
+                         const KernelOptions& options) {
     const gpu::ProgramOptions program = kernelProgram(plan, group, options);
     gpu::ShaderSource source =
         gpu::resolveShader(shaderRoot, program.compute, program.defines, program.generated, gpu::header430());

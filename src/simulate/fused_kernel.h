@@ -14,7 +14,7 @@ struct KernelOptions {
     bool normals = false;           // written, where the shape has a surface
     bool onlyNormals = false;       // of the state as it is; nothing moves
     bool groupVote = false;         // ContextInfo::groupVote
-    bool pairedStores = false;      // two floats a store: for CPU rasterisers, which store one by one
+    bool software = false;          // what suits a CPU rasteriser
 };
 
 // Lanes of a workgroup.
@@ -23,7 +23,7 @@ int workgroupLanes(const GroupPlan& group, Lanes lanes);
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);
 
 // What the driver gets, to be read by people. Error: a shader file is missing.
-std::string kernelText(const std::string& shaderRoot, const Plan& plan, size_t group,
-                       const KernelOptions& options);
+std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,
+                         const KernelOptions& options);
 
 }  // namespace shoal

@@ -1,5 +1,7 @@
 #include "simulate/simulation.h"
 
+#include <cassert>
+
 namespace shoal {
 
 Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
@@ -12,6 +14,9 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
       inPlace_(options.inPlace),
       timers_(context, options.timing),
       path_(makePath(shaderRoot, options)) {
+    if (choice_.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
+        warnings_.push_back(
+            {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
     parameters.gravity = plan_.gravity;
     parameters.substeps = plan_.substeps;
     parameters.frameTime = 1 / plan_.frameRate;
@@ -25,14 +30,23 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
                      options.cache);
     FusedOptions fused{options.drawn, options.inPlace, options.lanes, options.cache};
-    if (options.inPlace || options.path != Path::automatic)
+    if (options.path != Path::automatic)
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
+    // What works: two sides, else one, else the other path.
     try {
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const gpu::OutOfMemory& error) {
+        if (options.inPlace) throw;  // the other path takes more
         warnings_.push_back({{}, concat(error.message(), "; going on with one side of the state")});
         fused.inPlace = inPlace_ = true;
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
+    } catch (const Error& error) {
+        choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
+        choice_.why = "the fused path failed";
+        warnings_.push_back(
+            {error.location(), concat(error.message(), "; going on with the ping-pong path")});
+        return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
+                     options.cache);
     }
 }
 
@@ -52,6 +66,7 @@ void Simulation::computeNormals() {
 }
 
 void Simulation::frame() {
+    assert(parameters.substeps >= 1);
     const Frame frame{time_, parameters.frameTime / parameters.substeps, frames_, parameters};
     timers_.beginFrame();
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);

@@ -50,7 +50,7 @@ std::vector<Line> linesOf(const gpu::ShaderSource& source) {
 char loopVariable(const std::string& line) {
     const size_t start = line.find_first_not_of(' ');
     if (start == std::string::npos) return 0;
-    for (const char name : {'i', 'j'}) {
+    for (const char name : {'i', 'j', 'k'}) {
         const std::string n(1, name);
         if (line.compare(start, std::string::npos,
                          "for (int " + n + " = 0; " + n + " < VERTICES; ++" + n + ") {") == 0)
@@ -83,7 +83,9 @@ class Expander {
     void go() {
         for (size_t k = 0; k < lines_.size(); ++k) {
             const char variable = loopVariable(lines_[k].text);
-            const Form form = variable == 'i' ? loops_.shortBodies : loops_.longBodies;
+            const Form form = variable == 'i'   ? loops_.shortBodies
+                              : variable == 'j' ? loops_.fields
+                                                : loops_.contacts;
             if (variable == 0 || form == Form::keep) {
                 add(lines_[k].text, lines_[k].origin);
             } else if (form == Form::writeOut) {

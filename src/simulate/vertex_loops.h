@@ -2,7 +2,8 @@
 // sees them. In the files they are plain GLSL:
 //
 //     for (int i = 0; i < VERTICES; ++i) {        the body is short
-//     for (int j = 0; j < VERTICES; ++j) {        the body is long, such as the fields
+//     for (int j = 0; j < VERTICES; ++j) {        the fields at a vertex: the body may be long
+//     for (int k = 0; k < VERTICES; ++k) {        the contacts of a vertex: likewise
 //
 // For a lane a molecule, the body is repeated with 0, 1, … in place of the variable, so that every index is a
 // constant and the arrays are registers; drivers unroll only what they think worth it. For a workgroup a
@@ -17,7 +18,8 @@ struct VertexLoops {
     enum class Form { keep, writeOut, ownVertices };
     int vertexCount = 0;
     Form shortBodies = Form::writeOut;  // over i
-    Form longBodies = Form::keep;       // over j
+    Form fields = Form::keep;           // over j
+    Form contacts = Form::keep;         // over k
 };
 
 // Lines keep their origin, so that a driver's message still names our file and line.

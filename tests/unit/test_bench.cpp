@@ -137,14 +137,6 @@ TEST_CASE("slow cases sit out rounds, evenly, and never too often", "[bench]") {
     }
 }
 
-TEST_CASE("a sample lasts long enough to be timed", "[bench]") {
-    CHECK(framesPerSample(1, 10) == 1);
-    CHECK(framesPerSample(2.1e-3, 10) == 1);
-    CHECK(framesPerSample(0.5e-3, 10) == 4);
-    CHECK(framesPerSample(1e-6, 10) == 10);
-    CHECK(framesPerSample(0, 10) == 10);
-}
-
 TEST_CASE("ratios compare a case with its own group", "[bench]") {
     std::vector<BenchResult> all = someResults();
     const Ratios fused = ratiosOf(all[0], all);

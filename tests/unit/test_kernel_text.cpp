@@ -76,7 +76,7 @@ Scene fullScene() {
 }
 
 std::string kernelOf(const Scene& scene, const KernelOptions& options = {}) {
-    return kernelText(SHOAL_SOURCE_DIR "/shaders", compile(scene), 0, options);
+    return kernelShader(SHOAL_SOURCE_DIR "/shaders", compile(scene), 0, options);
 }
 
 std::set<std::string> definesOf(const Scene& scene) {

@@ -282,7 +282,7 @@ TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
                 for (int bits = 0; bits < 8; ++bits) {
                     KernelOptions options{.lanes = lanes};
                     options.groupVote = (bits & 1) != 0;
-                    options.pairedStores = (bits & 2) != 0;
+                    options.software = (bits & 2) != 0;
                     options.normals = (bits & 4) != 0;
                     validator.addKernel(plan, options);
                     options.onlyNormals = options.normals;
