@@ -51,7 +51,10 @@ void addPins(std::vector<FeatureScene>& out) {
         Scene byRate = held;
         groupOf(byRate).count = 257;
         groupOf(byRate).release = Release{{}, 1.0, 0};
-        out.push_back({concat("pins let go by rate, ", name(solver)), std::move(byRate)});
+        out.push_back({concat("pins let go by rate, ", name(solver)), byRate});
+
+        groupOf(byRate).molecule.springs.clear();  // nothing pulls: only the rate lets go
+        out.push_back({concat("pins without springs let go, ", name(solver)), std::move(byRate)});
     }
 }
 
