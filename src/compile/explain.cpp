@@ -32,9 +32,9 @@ static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
 // What the fused kernel of a group holds.
 static std::string kernelParts(const GroupPlan& group) {
     const Needs& needs = group.needs;
-    std::string parts;
+    std::string parts = "motion";
     const auto with = [&](bool need, const char* what) {
-        if (need) parts += (parts.empty() ? "" : ", ") + std::string(what);
+        if (need) parts += concat(", ", what);
     };
     with(needs.records && !needs.release, "anchors follow");
     with(needs.release, "anchors follow and pins may be released");

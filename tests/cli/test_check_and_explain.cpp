@@ -170,14 +170,21 @@ TEST_CASE("a scene has the passes that it needs", "[cli]") {
 TEST_CASE("explain says what was left out, and why", "[cli]") {
     const Scratch scratch;
     const std::string wind = R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )";
-    const Outcome outcome = runShoal({"explain", writeScene(scratch, vertices, "", wind)});
-    CHECK(outcome.code == 0);
+    const std::string scene = writeScene(scratch, vertices, "", wind);
+    const Outcome passes = runShoal({"explain", scene, "--path", "ping-pong"});
+    CHECK(passes.code == 0);
     for (const char* part : {"no springs: no restore", "no colliders: no collide",
                              "no drag: no field is read", "no triangles: no normals", "no records"})
-        CHECK_THAT(outcome.out, Catch::Contains(part));
-    CHECK_THAT(outcome.out, !Catch::Contains("every substep        the"));
+        CHECK_THAT(passes.out, Catch::Contains(part));
+    CHECK_THAT(passes.out, !Catch::Contains("every substep        the"));
     // a field that nothing feels is worth a word
-    CHECK_THAT(outcome.out, !Catch::Contains("dragged by the fields"));
+    CHECK_THAT(passes.out, !Catch::Contains("dragged by the fields"));
+
+    const Outcome fused = runShoal({"explain", scene, "--path", "fused"});
+    CHECK(fused.code == 0);
+    for (const char* part : {"fused    once a frame         motion", "no springs, no colliders",
+                             "no drag: no field is read", "no triangles: no normals", "anchors stay"})
+        CHECK_THAT(fused.out, Catch::Contains(part));
 }
 
 TEST_CASE("explain takes the same overrides as run", "[cli]") {
