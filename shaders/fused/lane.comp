@@ -77,8 +77,9 @@ void writeNormals(int molecule)
 
 void main()
 {
+    // Lanes past the last molecule work on what the buffers are padded with: a return here would make the rasteriser
+    // mask everything that follows.
     int molecule = int(gl_GlobalInvocationID.x);
-    if (molecule >= moleculeCount) return;
     loadState(molecule);
 #ifndef ONLY_NORMALS
     loadUniforms();

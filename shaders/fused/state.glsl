@@ -17,7 +17,6 @@ uniform samplerBuffer oldState;
 uniform samplerBuffer oldRecords;
 uniform samplerBuffer constants;
 
-uniform int moleculeCount;  // of this dispatch
 uniform int givenFrame;
 uniform int givenSubsteps;
 uniform float givenSubstep;

@@ -21,6 +21,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs);
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {
     static constexpr int block = 16;  // molecules that lie together
+    static constexpr int lanes = 64;  // of a workgroup, a molecule each
     int vertexCount = 0;
 
     int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals
@@ -29,7 +30,8 @@ struct BufferLayout {
     static size_t index(size_t m, int e, int elements) {
         return m / block * block * size_t(elements) + size_t(e) * block + m % block;
     }
-    static size_t padded(size_t molecules) { return (molecules + block - 1) / block * block; }
+    // To whole workgroups: lanes past the last molecule step what lies there, and nobody reads it.
+    static size_t padded(size_t molecules) { return (molecules + lanes - 1) / lanes * lanes; }
 };
 
 }  // namespace shoal

@@ -80,13 +80,13 @@ static GroupBuffers::Range rangeOf(const GroupBuffers::Part& part, const Buffer&
     return {&buffer, size_t(part.first) * bytes, BufferLayout::padded(size_t(part.count)) * bytes};
 }
 
-// Parts are whole blocks, so that the molecules of a part are one range of every buffer.
+// Parts are whole workgroups, so that the molecules of a part are one range of every buffer.
 void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
     const gpu::ContextInfo& info = context.info();
     const auto alignment = size_t(std::max({1, info.textureBufferAlignment, info.storageBufferAlignment}));
     // molecules whose records end on a multiple of the alignment; a block of the state always does
     const size_t unit =
-        std::lcm(size_t(BufferLayout::block), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
+        std::lcm(size_t(BufferLayout::lanes), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
     const size_t elements = size_t(layout_.stateElements());
     size_t most =
         std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /

@@ -6,7 +6,7 @@
 //   constant  x scale, y phase, rad; only where instances differ
 //   normal    3 floats a vertex, unit; only where something is drawn
 //
-// A group that is larger than the device's blocks is split into parts, each a range of whole blocks of
+// A group that is larger than the device's blocks is split into parts, each a range of whole workgroups of
 // molecules.
 #pragma once
 
@@ -57,7 +57,7 @@ class GroupBuffers {
     void split(gpu::Context& context, size_t largestPart);
 
     BufferLayout layout_;
-    size_t molecules_ = 0;  // padded to whole blocks
+    size_t molecules_ = 0;  // padded to whole workgroups
     bool inPlace_ = false;
     int current_ = 0;
     std::array<gpu::Buffer, 2> state_;

@@ -105,7 +105,6 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     bind(program, index, part);
-    program.set("moleculeCount", part.count);
     const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].lanes);
     program.dispatch(kernels_[index].lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes
                                                               : part.count);

@@ -84,7 +84,8 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
 }  // namespace
 
 int workgroupLanes(const GroupPlan& group, Lanes lanes) {
-    return lanes == Lanes::molecule ? 64 : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
+    return lanes == Lanes::molecule ? BufferLayout::lanes
+                                    : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
 }
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOptions& options) {

@@ -213,7 +213,7 @@ TEST_CASE("no two 4-vectors of a buffer share a place, and none is left out", "[
         for (const size_t molecules : {1u, 31u, 32u, 33u, 1025u}) {
             const size_t padded = BufferLayout::padded(molecules);
             CHECK(padded >= molecules);
-            CHECK(padded < molecules + BufferLayout::block);
+            CHECK(padded < molecules + BufferLayout::lanes);
             CHECK(padded % BufferLayout::block == 0);
             std::vector<int> taken(padded * size_t(elements), 0);
             for (size_t m = 0; m < padded; ++m)
