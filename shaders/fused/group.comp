@@ -16,19 +16,11 @@ int floatIndex(int first, int number)
     return (first + (number / 4) * BLOCK) * 4 + number % 4;
 }
 
-vec3 loadVertex(int first, int number)
-{
-    vec4 low = texelFetch(oldState, first + (number / 4) * BLOCK);
-    vec4 high = texelFetch(oldState, first + ((number + 2) / 4) * BLOCK);
-    int shift = number % 4;
-    return shift == 0 ? low.xyz : shift == 1 ? low.yzw : shift == 2 ? vec3(low.zw, high.x) : vec3(low.w, high.xy);
-}
-
 void loadState(int first)
 {
     for (int i = 0; i < VERTICES; ++i) {
-        x[i] = loadVertex(first, 3 * i);
-        v[i] = loadVertex(first + POSITION_ELEMENTS * BLOCK, 3 * i);
+        x[i] = packedVertex(oldState, first, i);
+        v[i] = packedVertex(oldState, first + POSITION_ELEMENTS * BLOCK, i);
     }
 }
 

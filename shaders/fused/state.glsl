@@ -11,6 +11,8 @@
 // let go. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
 // Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
+#include "lib/packed.glsl"
+
 layout(local_size_x = LANES) in;
 
 uniform samplerBuffer oldState;
@@ -117,11 +119,6 @@ void meet()
     memoryBarrierShared();
     barrier();
 #endif
-}
-
-int firstElement(int molecule, int elements)
-{
-    return (molecule / BLOCK) * (BLOCK * elements) + molecule % BLOCK;
 }
 
 void loadRecord(int molecule)

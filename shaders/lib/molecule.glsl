@@ -8,20 +8,11 @@ uniform vec3 originLattice;
 uniform vec3 originRest;
 
 #ifdef STATE_BUFFERS
+#include "lib/packed.glsl"
+
 uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
 uniform samplerBuffer normals;  // alike
 uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once pins have let go
-
-// Three floats of a vertex, which may lie across two 4-vectors.
-vec3 packedVertex(samplerBuffer values, int molecule, int vertex, int elements)
-{
-    int first = (molecule / BLOCK) * (BLOCK * elements) + molecule % BLOCK;
-    int number = 3 * vertex;
-    vec4 low = texelFetch(values, first + (number / 4) * BLOCK);
-    vec4 high = texelFetch(values, first + ((number + 2) / 4) * BLOCK);
-    int shift = number % 4;
-    return shift == 0 ? low.xyz : shift == 1 ? low.yzw : shift == 2 ? vec3(low.zw, high.x) : vec3(low.w, high.xy);
-}
 
 vec3 moleculeAnchor(int molecule)
 {
@@ -30,12 +21,12 @@ vec3 moleculeAnchor(int molecule)
 
 vec3 vertexPosition(int molecule, int vertex)
 {
-    return packedVertex(states, molecule, vertex, STATE_ELEMENTS);
+    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), vertex);
 }
 
 vec3 vertexNormal(int molecule, int vertex)
 {
-    return packedVertex(normals, molecule, vertex, POSITION_ELEMENTS);
+    return packedVertex(normals, firstElement(molecule, POSITION_ELEMENTS), vertex);
 }
 
 uint moleculeSeed(int molecule)

@@ -1,4 +1,5 @@
 #include "app/bench_report.h"
+#include "app/report.h"
 
 namespace shoal::app {
 
@@ -89,15 +90,6 @@ JsonValue asJson(const StartTime& start) {
 }
 
 JsonValue asJson(const PassTable& table) {
-    JsonValue passes = JsonValue::makeArray();
-    for (const gpu::PassTime& pass : table.passes) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("pass", JsonValue::makeString(pass.name))
-            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
-            .add("minSeconds", JsonValue::makeNumber(pass.min))
-            .add("medianSeconds", JsonValue::makeNumber(pass.median));
-        passes.items.push_back(std::move(entry));
-    }
     JsonValue out = JsonValue::makeObject();
     out.add("molecule", JsonValue::makeString("quad"))
         .add("count", JsonValue::makeNumber(table.count))
@@ -105,7 +97,7 @@ JsonValue asJson(const PassTable& table) {
         .add("solver", JsonValue::makeString(shoal::name(table.solver)))
         .add("frameMinSeconds", JsonValue::makeNumber(table.frame.min))
         .add("frameMedianSeconds", JsonValue::makeNumber(table.frame.median))
-        .add("passes", std::move(passes));
+        .add("passes", app::asJson(table.passes));
     return out;
 }
 

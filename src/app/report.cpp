@@ -18,6 +18,19 @@ static JsonValue asJson(const gpu::Traffic& traffic) {
     return out;
 }
 
+JsonValue asJson(const std::vector<gpu::PassTime>& passes) {
+    JsonValue out = JsonValue::makeArray();
+    for (const gpu::PassTime& pass : passes) {
+        JsonValue entry = JsonValue::makeObject();
+        entry.add("pass", JsonValue::makeString(pass.name))
+            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
+            .add("minSeconds", JsonValue::makeNumber(pass.min))
+            .add("medianSeconds", JsonValue::makeNumber(pass.median));
+        out.items.push_back(std::move(entry));
+    }
+    return out;
+}
+
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
                  uint64_t hash) {
     const gpu::ContextInfo& info = simulation.context().info();
@@ -31,15 +44,6 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
         .add("frames", asJson(report.frames))
         .add("outside", asJson(report.outside));
 
-    JsonValue passes = JsonValue::makeArray();
-    for (const gpu::PassTime& pass : times) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("pass", JsonValue::makeString(pass.name))
-            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
-            .add("minSeconds", JsonValue::makeNumber(pass.min))
-            .add("medianSeconds", JsonValue::makeNumber(pass.median));
-        passes.items.push_back(std::move(entry));
-    }
     JsonValue written = JsonValue::makeArray();
     for (const std::string& file : report.written)
         written.items.push_back(JsonValue::makeString(file));
@@ -56,7 +60,7 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
         .add("stateBytes", JsonValue::makeNumber(double(simulation.stateBytes())))
         .add("busBytes", std::move(bytes))
         .add("hash", JsonValue::makeString(hashText));
-    if (!passes.items.empty()) out.add("passes", std::move(passes));
+    if (!times.empty()) out.add("passes", asJson(times));
     out.add("written", std::move(written));
     return out;
 }

@@ -20,6 +20,7 @@ struct RunReport {
     std::vector<std::string> written;  // pictures, videos, exports
 };
 
+JsonValue asJson(const std::vector<gpu::PassTime>& passes);  // an array
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
                  uint64_t hash);
 
