@@ -25,7 +25,7 @@ namespace shoal::app {
 namespace {
 
 struct Texts {
-    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto";
+    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver;
 };
 
 void addScene(CLI::App& command, Options& options) {
@@ -51,10 +51,12 @@ CLI::Validator wholeNumber() {
     return kindOf(isAll<int>, "a whole number");
 }
 
-void addOverrides(CLI::App& command, Options& options) {
+void addOverrides(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's")
         ->check(kindOf(isAll<double>, "a time in seconds"));
-    command.add_option("--solver", options.solver, "euler or leapfrog, instead of the scene's");
+    command.add_option(
+        "--solver", texts.solver,
+        "auto, euler, verlet, leapfrog, rk4, xpbd, bdf2-xpbd or bdf2-corotated, instead of the scene's");
     command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
         ->check(wholeNumber());
     command.add_option("--field-sampling", options.fieldSampling,
@@ -81,7 +83,7 @@ void addContext(CLI::App& command, Options& options, Texts& texts) {
 
 void addRun(CLI::App& command, Options& options, Texts& texts) {
     addScene(command, options);
-    addOverrides(command, options);
+    addOverrides(command, options, texts);
     addPath(command, options, texts);
     addContext(command, options, texts);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
@@ -109,6 +111,14 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
         ->check(kindOf(isAll<double>, "a time in seconds"));
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
     command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");
+}
+
+std::optional<SolverKind> solverNamed(const std::string& word) {
+    try {
+        return solverOf(word);
+    } catch (const Error& error) {
+        throw Error(concat("--solver: ", error.message()));
+    }
 }
 
 // All long option names of a command, for suggestions.
@@ -212,9 +222,6 @@ void checkRanges(const Options& options) {
         std::find(samplings.begin(), samplings.end(), *options.fieldSampling) == samplings.end())
         throw Error(concat("--field-sampling: unknown sampling \"", *options.fieldSampling, "\"",
                            suggestion(*options.fieldSampling, samplings)));
-    if (options.solver && *options.solver != "euler" && *options.solver != "leapfrog")
-        throw Error(concat("--solver: unknown solver \"", *options.solver, "\"",
-                           suggestion(*options.solver, {"euler", "leapfrog"})));
 }
 
 }  // namespace
@@ -234,7 +241,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     check->add_option("files", options.files, "Molecule or scene files")->required();
     check->add_flag("--json", options.json, "Report as JSON on standard output");
     addScene(*explain, options);
-    addOverrides(*explain, options);
+    addOverrides(*explain, options, texts);
     addPath(*explain, options, texts);
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
     explain->add_flag("--json", options.json, "Report as JSON on standard output");
@@ -258,6 +265,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);
+    if (!texts.solver.empty()) options.solver = solverNamed(texts.solver);
     options.lanes = lanes(texts.lanes);
     parseSize(texts.size, options);
     checkRanges(options);
@@ -266,8 +274,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
 
 void apply(const Options& options, Scene& scene) {
     if (options.dt) scene.frameRate = 1 / *options.dt;
-    if (options.solver)
-        scene.solver.kind = *options.solver == "euler" ? SolverKind::euler : SolverKind::leapfrog;
+    if (options.solver) scene.solver.kind = *options.solver;
     for (const FieldSampling sampling :
          {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame})
         if (options.fieldSampling && *options.fieldSampling == name(sampling))

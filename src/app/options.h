@@ -32,8 +32,9 @@ struct Options {
     int width = 1280, height = 720;
 
     // Instead of what the scene says.
-    std::optional<double> dt;  // s, of a frame
-    std::optional<std::string> solver, fieldSampling;
+    std::optional<double> dt;                         // s, of a frame
+    std::optional<std::optional<SolverKind>> solver;  // inner nothing: auto
+    std::optional<std::string> fieldSampling;
     std::optional<int> substeps, count;
     std::optional<uint64_t> seed;
 

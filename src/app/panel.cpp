@@ -147,7 +147,7 @@ void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSec
                      const gpu::Traffic& lastFrame) {
     heading("Cost");
     ImGui::Text("%.1f frames/s, %s, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
-                name(simulation.path().path), name(simulation.plan().solver));
+                name(simulation.path().path), name(simulation.plan().groups.front().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
     if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("pass");

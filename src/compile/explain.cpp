@@ -68,7 +68,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
     out << "frame    1/" << plan.frameRate << " s in " << plan.substeps << " substeps of "
-        << 1 / plan.frameRate / plan.substeps << " s, solver " << name(plan.solver) << "\n";
+        << 1 / plan.frameRate / plan.substeps << " s\n";
     out << "path     " << name(choice.path) << ": " << choice.why << "\n";
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         out << "fields   " << name(plan.fieldSampling) << "\n";
@@ -78,9 +78,14 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         const GroupPlan& group = plan.groups[g];
         out << "\ngroup \"" << group.name << "\": " << group.count << " molecules of " << group.vertexCount
             << " vertices\n";
-        if (group.needs.springs)
-            out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(plan.solver)
-                << " is stable up to " << group.stableStep << " s\n";
+        out << "  solver   " << name(group.solver) << ": " << group.solverWhy << "\n";
+        if (group.needs.springs) {
+            out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(group.solver);
+            if (solver(group.solver).implicit)
+                out << " is stable at any substep\n";
+            else
+                out << " is stable up to " << group.stableStep << " s\n";
+        }
         if (choice.path == Path::fused)
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
@@ -112,17 +117,18 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
         JsonValue entry = JsonValue::makeObject();
         entry.add("name", JsonValue::makeString(group.name))
             .add("molecules", JsonValue::makeNumber(group.count))
-            .add("vertices", JsonValue::makeNumber(group.vertexCount));
-        if (group.needs.springs)
-            entry.add("highestFrequency", JsonValue::makeNumber(group.highestFrequency))
-                .add("stableStep", JsonValue::makeNumber(group.stableStep));
+            .add("vertices", JsonValue::makeNumber(group.vertexCount))
+            .add("solver", JsonValue::makeString(name(group.solver)))
+            .add("solverWhy", JsonValue::makeString(group.solverWhy));
+        if (group.needs.springs) entry.add("highestFrequency", JsonValue::makeNumber(group.highestFrequency));
+        if (group.needs.springs && !solver(group.solver).implicit)
+            entry.add("stableStep", JsonValue::makeNumber(group.stableStep));
         entry.add("passes", std::move(passes));
         groups.items.push_back(std::move(entry));
     }
     JsonValue out = JsonValue::makeObject();
     out.add("scene", JsonValue::makeString(plan.sceneName))
         .add("path", JsonValue::makeString(name(choice.path)))
-        .add("solver", JsonValue::makeString(name(plan.solver)))
         .add("fieldSampling", JsonValue::makeString(name(plan.fieldSampling)))
         .add("frameRate", JsonValue::makeNumber(plan.frameRate))
         .add("substeps", JsonValue::makeNumber(plan.substeps))

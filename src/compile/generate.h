@@ -23,7 +23,8 @@ Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4
 // float clearance(vec3 anchor, vec3 position): negative where collideAll would respond.
 Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
-// The declaration of a uniform array, and for the fused step (FUSED) its copy in registers: loadFieldParameters().
+// The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:
+// loadFieldParameters().
 std::string parameterArray(const std::string& name, size_t count);
 
 // A name as part of a comment in the text: whatever could end or continue the line is replaced.

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/choose_solver.h"
 #include "compile/generate.h"
 #include "compile/pack.h"
-#include "molecule/analysis.h"
 
 namespace shoal {
 
@@ -32,7 +32,6 @@ Needs findNeeds(const Scene& scene, const Group& group) {
     needs.records = !needs.pins || needs.release;
     needs.collide = group.collide && !scene.colliders.empty();
     needs.normals = !molecule.triangles.empty();
-    needs.acceleration = needs.springs && scene.solver.kind == SolverKind::leapfrog;
     return needs;
 }
 
@@ -60,7 +59,6 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
     out.needs = findNeeds(scene, group);
-    out.solver = scene.solver.kind;
     out.drag = group.drag;
     if (group.release) out.release = *group.release;
     out.stiffness = group.stiffness;
@@ -90,35 +88,6 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
                                        before > 0 ? ", beside the groups before," : "", " are more than the ",
                                        most, " vertices that a scene may have: at most ",
                                        (most - before) / vertices, " such molecules fit"));
-}
-
-// Damped limits (NUMERICS: euler (wh)^2 + 4 zeta w h < 4; leapfrog wh < 2), from the molecule's analysis.
-void findStableStep(const Group& group, GroupPlan& out) {
-    out.stableStep = std::numeric_limits<double>::infinity();
-    if (!out.needs.springs) return;
-    Molecule scaled = group.molecule;
-    for (Spring& spring : scaled.springs) {
-        spring.stiffness *= out.stiffness;
-        spring.damping *= out.damping;
-    }
-    const Analysis analysis = analyse(scaled, out.needs.pins && !out.needs.release);
-    out.highestFrequency = analysis.highestFrequency;
-    out.stableStep = out.solver == SolverKind::euler ? analysis.stableStepEuler : analysis.stableStepLeapfrog;
-}
-
-void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
-    const double frame = 1 / scene.frameRate, step = frame / scene.solver.substeps;
-    if (step <= plan.stableStep) return;
-    const double needed = std::ceil(frame / plan.stableStep);
-    const std::string advice =
-        needed <= maxSubsteps
-            ? concat("use at least ", needed, " substeps")
-            : concat("more than the ", maxSubsteps,
-                     " substeps of a frame would do: make the springs softer or the masses larger");
-    throw Error(scene.solver.location.empty() ? group.location : scene.solver.location,
-                concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ",
-                       plan.stableStep, " s (highest frequency ", plan.highestFrequency, " rad/s); ",
-                       scene.solver.substeps, " substeps of a frame are ", step, " s: ", advice));
 }
 
 void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
@@ -166,10 +135,6 @@ const char* name(FieldSampling sampling) {
     return names[size_t(sampling)];
 }
 
-const char* name(SolverKind kind) {
-    return kind == SolverKind::euler ? "euler" : "leapfrog";
-}
-
 size_t Plan::tableBytes() const {
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
 }
@@ -180,7 +145,6 @@ Plan compile(const Scene& scene) {
     plan.frameRate = scene.frameRate;
     plan.substeps = scene.solver.substeps;
     plan.gravity = scene.gravity;
-    plan.solver = scene.solver.kind;
     plan.fieldSampling = scene.solver.fieldSampling;
     plan.warnings = scene.warnings;
 
@@ -192,8 +156,8 @@ Plan compile(const Scene& scene) {
                 {scene.groups[i].location,
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
-        findStableStep(scene.groups[i], group);
-        checkStep(scene, scene.groups[i], group);
+        chooseSolver(scene, scene.groups[i], group);
+        group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs);

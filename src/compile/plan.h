@@ -45,6 +45,7 @@ struct GroupPlan {
     int topologyBase = 0;
     Needs needs;
     SolverKind solver = SolverKind::leapfrog;
+    std::string solverWhy;  // for people
     Drag drag;
     Release release;
     double stiffness = 1, damping = 1;
@@ -71,7 +72,6 @@ struct Plan {
     double frameRate = 60;
     int substeps = 4;
     glm::dvec3 gravity{0};
-    SolverKind solver = SolverKind::leapfrog;
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     std::vector<GroupPlan> groups;
     std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat

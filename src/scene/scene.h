@@ -14,6 +14,7 @@
 #include "core/error.h"
 #include "molecule/molecule.h"
 #include "scene/mesh.h"
+#include "scene/solver.h"
 
 namespace shoal {
 
@@ -221,9 +222,6 @@ struct Group {
 
 // ---- The rest
 
-enum class SolverKind { euler, leapfrog };
-const char* name(SolverKind kind);
-
 constexpr int maxSubsteps = 1000;  // of a frame
 
 // Where and how often fields are read. What is read once a frame is read where the molecule will be in the
@@ -236,7 +234,7 @@ enum class FieldSampling {
 const char* name(FieldSampling sampling);
 
 struct SolverSettings {
-    SolverKind kind = SolverKind::leapfrog;
+    std::optional<SolverKind> kind;  // nothing: chosen for each group (compile/choose_solver.h)
     int substeps = 4;  // per frame
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     Location location;

@@ -12,9 +12,9 @@ void readSolver(JsonReader& scene, SolverSettings& solver) {
     auto r = scene.object("solver");
     if (!r) return;
     solver.location = r->here();
-    int kind = static_cast<int>(solver.kind);
-    r->choose("method", {"euler", "leapfrog"}, kind);
-    solver.kind = static_cast<SolverKind>(kind);
+    int word = 0;
+    r->choose("method", solverWords(), word);
+    solver.kind = solverOf(solverWords()[size_t(word)]);
     r->get("substeps", solver.substeps, Range::between(1, maxSubsteps));
     int sampling = static_cast<int>(solver.fieldSampling);
     r->choose("fieldSampling", {"vertexSubstep", "vertexFrame", "moleculeFrame"}, sampling);

@@ -1,0 +1,19 @@
+// Which solver a group takes, and whether its substep is one that the solver can take. Pure.
+#pragma once
+
+#include "compile/plan.h"
+
+namespace shoal {
+
+// Fills the group's solver, the reason for it, highestFrequency and stableStep. Where the scene names none:
+//
+//   leapfrog    without springs, or while the substep holds leapfrog stable for every shape that the molecule
+//               may take (the weighted graph Laplacian's bound, molecule/analysis.h) and is short against
+//               drag
+//   bdf2-xpbd   otherwise
+//
+// Error (located at the solver, else at the group): the substep is beyond what the named solver holds stable,
+// or zero, or drag is beyond what it takes; says how many substeps would do.
+void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out);
+
+}  // namespace shoal
