@@ -1,0 +1,369 @@
+// The sweep: probe every method, solve the reference, run the ladder of steps level by level until each
+// method has passed its smallest error, time what was run, in turn.
+#include "measure/accuracy.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include "measure/accuracy_times.h"
+#include "measure/pareto.h"
+#include "measure/pin_threads.h"
+
+namespace shoal::measure {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double firstTolerance = 1e-5;  // of the reference, until errors come nearer
+constexpr double shareOfError = 0.01;    // of the smallest error: the reference's
+
+// A frame of so many substeps takes about base + each * substeps.
+struct FrameCost {
+    double base = 0, each = 0;  // s
+    double of(const Step& step) const { return base + each * step.substeps; }
+};
+
+FrameCost costOf(MethodRunner& runner) {
+    constexpr Step few{4, 1}, more{32, 1};
+    const double a = runner.secondsOfFrame(few), b = runner.secondsOfFrame(more);
+    const double each = std::max(0.0, (b - a) / (more.substeps - few.substeps));
+    return {std::max(0.0, a - each * few.substeps), each};
+}
+
+// One method: its few molecules for the error, its many for the time.
+struct Curve {
+    Method method;
+    std::unique_ptr<MethodRunner> few, many;
+    FrameCost fewCost, manyCost;
+    std::string refused;  // at every step
+    std::vector<AccuracyPoint> points;
+    std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
+    double best = 1e30;                       // smallest error
+    int sinceBest = 0;
+    bool done = false;
+};
+
+class Sweep {
+  public:
+    Sweep(const Scene& scene, const AccuracyOptions& options, const AccuracyDevice& device,
+          const AccuracyProgress& progress)
+        : options_(options),
+          device_(device),
+          progress_(progress),
+          few_(withMolecules(scene, options.molecules)),
+          many_(withMolecules(scene, options.timedMolecules)),
+          ladder_(stepLadder(options.fine, options.mostSplits)) {
+        frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
+        out_.scene = scene.name;
+        out_.frameRate = scene.frameRate;
+        out_.duration = frames_ / scene.frameRate;
+    }
+
+    AccuracyReport run() {
+        for (Curve& curve : curves())
+            probe(curve);
+        if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
+            throw Error(concat("no method can run this scene: ", curves_.front().refused));
+        describe();
+        expected_ = elapsed() + reference_->secondsToSolve() + secondsOfErrors() + secondsOfTimes();
+        if (options_.seconds) expected_ = std::min(expected_, *options_.seconds);
+        progress_.estimate(expected_);
+        if (!reference_->solve(firstTolerance)) out_.chaotic = reference_->why();
+        for (const Step& step : ladder_)
+            for (Curve& curve : curves_)
+                level(curve, step);
+        for (const auto& [method, step] : options_.extra)
+            extra(method, step);
+        tighten();
+        time();
+        return finish();
+    }
+
+  private:
+    std::vector<Curve>& curves() {
+        std::vector<SolverKind> kinds = options_.solvers;
+        if (kinds.empty())
+            for (const Solver& one : solvers())
+                kinds.push_back(one.kind);
+        std::vector<FieldSampling> samplings = options_.samplings;
+        if (samplings.empty()) samplings = samplingsThatDiffer(few_);
+        for (const SolverKind kind : kinds) {
+            for (const FieldSampling sampling : samplings) {
+                Curve& curve = curves_.emplace_back();
+                curve.method = {kind, sampling};
+            }
+        }
+        return curves_;
+    }
+
+    // Compiles the method and looks at what a frame costs.
+    void probe(Curve& curve) {
+        curve.few = std::make_unique<MethodRunner>(few_, curve.method, device_);
+        curve.many = std::make_unique<MethodRunner>(many_, curve.method, device_);
+        std::optional<Step> first;
+        for (const Step& step : ladder_) {
+            curve.refused = curve.few->refusal(step);
+            if (!curve.refused.empty()) continue;
+            first = step;
+            break;
+        }
+        if (first) {
+            try {
+                curve.few->set(*first);
+                curve.many->set(*first);
+            } catch (const Error& error) {
+                curve.refused = error.what();
+            }
+        }
+        if (!curve.refused.empty()) {
+            refuse(curve, ladder_.front(), curve.refused);
+            curve.done = true;
+            return;
+        }
+        pinRasteriserThreads();
+        curve.few->restart();
+        if (!reference_)
+            reference_ = std::make_unique<ExactEnds>(few_, curve.few->simulation().plan(),
+                                                     curve.few->snapshots(), out_.duration, device_.cores);
+        curve.fewCost = costOf(*curve.few);
+        curve.manyCost = costOf(*curve.many);
+        out_.path = curve.few->simulation().path().path;
+    }
+
+    void describe() {
+        for (const Curve& curve : curves_) {
+            if (!curve.refused.empty()) continue;
+            for (const GroupPlan& plan : curve.few->simulation().plan().groups) {
+                const Group& group = few_.groups[plan.index];
+                out_.groups.push_back({plan.name, group.molecule.name, plan.vertexCount, plan.springCount,
+                                       plan.count, many_.groups[plan.index].count, plan.size,
+                                       plan.highestFrequency});
+            }
+            return;
+        }
+    }
+
+    double secondsOf(const Curve& curve, const Step& step) const {
+        return curve.fewCost.of(step) * frames_ * step.split;
+    }
+    double secondsOfErrors() const {
+        double out = 0;
+        for (const Curve& curve : curves_)
+            for (const Step& step : ladder_)
+                if (!curve.done && step.split == 1) out += secondsOf(curve, step);
+        return out;
+    }
+    double secondsOfTimes() {
+        std::vector<Contender> all;
+        for (Curve& curve : curves_)
+            for (const Step& step : ladder_)
+                if (!curve.done && step.split == 1)
+                    all.push_back({curve.many.get(), step, curve.manyCost.of(step)});
+        return leastSeconds(all);
+    }
+
+    AccuracyPoint& add(Curve& curve, const Step& step) {
+        AccuracyPoint& point = curve.points.emplace_back();
+        curve.ends.emplace_back();
+        point.method = curve.method;
+        point.step = step;
+        point.stepsPerSecond = out_.frameRate * step.perFrame();
+        return point;
+    }
+    void refuse(Curve& curve, const Step& step, const std::string& why) {
+        AccuracyPoint& point = add(curve, step);
+        point.outcome = Outcome::refused;
+        point.why = why;
+    }
+
+    void level(Curve& curve, const Step& step) {
+        if (curve.done) return;
+        // beyond the most substeps of a frame only who needs them
+        if (step.split > 1 && (curve.best <= options_.enough || !out_.chaotic.empty())) {
+            curve.done = true;
+            return;
+        }
+        const std::string refusal = curve.few->refusal(step);
+        if (!refusal.empty()) return refuse(curve, step, refusal);
+        const double seconds = secondsOf(curve, step);
+        if (options_.seconds && elapsed() + seconds > shareOfErrors * *options_.seconds) {
+            AccuracyPoint& point = add(curve, step);
+            point.why = concat("this and what is finer would take ", seconds, " s and more");
+            curve.done = true;
+            return;
+        }
+        measure(curve, step);
+        tell(seconds);
+    }
+
+    void measure(Curve& curve, const Step& step) {
+        AccuracyPoint& point = add(curve, step);
+        curve.few->set(step);
+        if (!out_.chaotic.empty()) {
+            point.outcome = Outcome::measured;
+            return;
+        }
+        curve.few->run(frames_);
+        std::vector<Snapshot> ends = curve.few->snapshots();
+        if (!ExactEnds::finite(ends)) {
+            point.outcome = Outcome::notFinite;
+            point.why = "positions or velocities are no numbers any more";
+            return;
+        }
+        point.outcome = Outcome::measured;
+        point.error = reference_->errorOf(ends);
+        curve.ends.back() = std::move(ends);
+        follow(curve, point.error->total);
+    }
+
+    // A method has passed its smallest error when three finer steps did not better it.
+    static void follow(Curve& curve, double error) {
+        if (error < 0.95 * curve.best) {
+            curve.best = error;
+            curve.sinceBest = 0;
+        } else if (++curve.sinceBest >= 3 && curve.best < 0.1) {
+            curve.done = true;
+        }
+    }
+
+    void extra(const Method& method, const Step& step) {
+        for (Curve& curve : curves_) {
+            if (curve.method != method || !curve.refused.empty()) continue;
+            const bool there = std::any_of(curve.points.begin(), curve.points.end(),
+                                           [&](const AccuracyPoint& p) { return p.step == step; });
+            if (!there && curve.few->refusal(step).empty()) measure(curve, step);
+        }
+    }
+
+    // The reference must be much nearer than the nearest method.
+    void tighten() {
+        if (!out_.chaotic.empty()) return;
+        double smallest = 1e30;
+        for (const Curve& curve : curves_)
+            smallest = std::min(smallest, curve.best);
+        if (!reference_->solve(shareOfError * smallest))
+            out_.notes.push_back(concat("errors below ", reference_->error() / shareOfError,
+                                        " are uncertain: ", reference_->why()));
+        out_.referenceError = reference_->error();
+        for (Curve& curve : curves_) {
+            for (size_t i = 0; i < curve.points.size(); ++i) {
+                if (curve.ends[i].empty()) continue;
+                curve.points[i].error = reference_->errorOf(curve.ends[i]);
+                curve.points[i].drift = reference_->driftOf(curve.ends[i]);
+            }
+        }
+    }
+
+    void time() {
+        std::vector<Contender> contenders;
+        std::vector<AccuracyPoint*> points;
+        for (Curve& curve : curves_) {
+            for (AccuracyPoint& point : curve.points) {
+                if (point.outcome != Outcome::measured) continue;
+                contenders.push_back({curve.many.get(), point.step, curve.manyCost.of(point.step)});
+                points.push_back(&point);
+            }
+        }
+        std::optional<double> left;
+        if (options_.seconds) left = std::max(0.2, *options_.seconds - elapsed());
+        const double before = done_;
+        const std::vector<Spread> times = timeInTurn(contenders, left, [&](double seconds) {
+            done_ = before + seconds;
+            progress_.tell(shareDone());
+        });
+        int without = 0;
+        for (size_t i = 0; i < points.size(); ++i) {
+            without += times[i].samples == 0;
+            const double vertices = double(contenders[i].runner->vertices());
+            const double factor = out_.frameRate * points[i]->step.split / vertices;
+            points[i]->time = {times[i].min * factor, times[i].median * factor, times[i].samples};
+            points[i]->stateBytes = contenders[i].runner->simulation().stateBytes();
+        }
+        if (without > 0)
+            out_.notes.push_back(concat(without, " of ", points.size(),
+                                        " points were not timed, the dearest ones: --seconds is too short"));
+    }
+
+    AccuracyReport finish() {
+        for (Curve& curve : curves_) {
+            std::stable_sort(curve.points.begin(), curve.points.end(),
+                             [](const AccuracyPoint& a, const AccuracyPoint& b) {
+                                 return a.stepsPerSecond < b.stepsPerSecond;
+                             });
+            out_.points.insert(out_.points.end(), curve.points.begin(), curve.points.end());
+        }
+        markFront(out_.points);
+        device_.context->checkErrors("measure");
+        out_.seconds = elapsed();
+        return std::move(out_);
+    }
+
+    double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    double shareDone() const { return std::min(1.0, done_ / std::max(expected_, 1e-9)); }
+    void tell(double seconds) {
+        done_ += seconds;
+        progress_.tell(shareDone());
+    }
+
+    static constexpr double shareOfErrors = 0.6;  // of the time that is given
+
+    const AccuracyOptions& options_;
+    const AccuracyDevice& device_;
+    const AccuracyProgress& progress_;
+    Scene few_, many_;
+    std::vector<Step> ladder_;
+    int frames_ = 60;
+    std::vector<Curve> curves_;
+    std::unique_ptr<ExactEnds> reference_;
+    AccuracyReport out_;
+    double expected_ = 0, done_ = 0;  // s
+    Clock::time_point start_ = Clock::now();
+};
+
+}  // namespace
+
+const char* name(Outcome outcome) {
+    static constexpr const char* names[] = {"measured", "refused", "not finite", "left out"};
+    return names[size_t(outcome)];
+}
+
+std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
+    const bool dragged = std::any_of(scene.groups.begin(), scene.groups.end(),
+                                     [](const Group& group) { return group.drag.any(); });
+    const bool varies = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
+        return field.box || !std::holds_alternative<UniformField>(field.shape);
+    });
+    if (!dragged || !varies) return {FieldSampling::vertexSubstep};
+    return {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame};
+}
+
+std::vector<Step> stepLadder(bool fine, int mostSplits) {
+    std::vector<Step> out;
+    const double factor = fine ? std::sqrt(2.0) : 2.0;
+    for (double steps = 1; steps < 1.001 * maxSubsteps * mostSplits; steps *= factor) {
+        Step step;
+        while (steps / step.split > maxSubsteps && step.split < mostSplits)
+            step.split *= 2;
+        if (steps / step.split > maxSubsteps) break;
+        step.substeps = int(std::lround(steps / step.split));
+        if (out.empty() || out.back() != step) out.push_back(step);
+    }
+    return out;
+}
+
+AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,
+                               const AccuracyDevice& device, const AccuracyProgress& progress) {
+    if (scene.groups.empty())
+        throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to measure");
+    AccuracyReport out = Sweep(scene, options, device, progress).run();
+    for (const Group& group : scene.groups)
+        if (group.release)
+            out.notes.push_back(concat("\"", group.name.empty() ? group.molecule.name : group.name,
+                                       "\": pins are held throughout, though the scene lets them go"));
+    return out;
+}
+
+}  // namespace shoal::measure

@@ -1,0 +1,94 @@
+// What an error costs: a scene is run by every method, at every step and field sampling, on the real path in
+// float, and held against the double-precision reference.
+//
+// The error is measured on a few molecules of each group, where the reference tells; the time on as many as
+// the scene has, because few do not fill a device. Both start from the same state, to the bit of a float.
+// Pins that may let go are held throughout.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/accuracy_reference.h"
+#include "measure/method_runner.h"
+#include "measure/statistics.h"
+
+namespace shoal::measure {
+
+enum class Outcome {
+    measured,
+    refused,    // by the solver, the path or the driver: AccuracyPoint::why
+    notFinite,  // it blew up
+    leftOut,    // for want of time
+};
+const char* name(Outcome outcome);  // "measured", "refused", "not finite", "left out"
+
+// One method at one step.
+struct AccuracyPoint {
+    Method method;
+    Step step;
+    double stepsPerSecond = 0;  // of simulated time
+    Outcome outcome = Outcome::leftOut;
+    std::string why;                  // of a refusal, or what was left out
+    std::optional<ErrorParts> error;  // nothing in a chaotic scene
+    std::optional<Drift> drift;
+    Spread time;            // s per vertex and simulated second; no samples: not timed
+    size_t stateBytes = 0;  // on the device, of all timed molecules
+    bool front = false;     // no other point is both faster and nearer
+};
+
+struct AccuracyOptions {
+    double duration = 1;                        // s of simulated time, rounded to whole frames
+    int molecules = 8;                          // of each group, whose error is measured
+    int timedMolecules = 16384;                 // of each group, at most
+    bool fine = false;                          // steps by sqrt 2 instead of 2
+    std::vector<SolverKind> solvers = {};       // empty: all
+    std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
+    std::optional<double> seconds = {};         // of measuring, about; nothing: as long as it takes
+    // Frames are made shorter than the scene's, down to this share, while a method's smallest error is above
+    // `enough` at the most substeps that a frame may have.
+    int mostSplits = 16;
+    double enough = 1e-3;
+    std::vector<std::pair<Method, Step>> extra = {};  // beside the ladder, such as what a calibration chose
+};
+
+// What was measured of a group.
+struct AccuracyGroup {
+    std::string name, molecule;
+    int vertices = 0, springs = 0;
+    int measured = 0, timed = 0;  // molecules
+    double size = 0;              // m
+    double highestFrequency = 0;  // rad/s
+};
+
+struct AccuracyReport {
+    std::string scene;
+    double frameRate = 60;  // Hz
+    double duration = 1;    // s, as rounded
+    Path path = Path::fused;
+    std::vector<AccuracyGroup> groups;
+    std::vector<AccuracyPoint> points;  // curve by curve, by growing steps per second
+    std::string chaotic;                // why there are no errors; empty: there are
+    double referenceError = 0;          // relative, a bound
+    std::vector<std::string> notes;     // for people
+    double seconds = 0;                 // that the measurement took
+};
+
+struct AccuracyProgress {
+    std::function<void(double seconds)> estimate = [](double) {};  // once, before the long part
+    std::function<void(double share)> tell = [](double) {};        // of the whole that is done
+};
+
+// Error: the scene has no groups; nothing of what is asked for can run it.
+AccuracyReport measureAccuracy(const Scene& scene, const AccuracyOptions& options,
+                               const AccuracyDevice& device, const AccuracyProgress& progress = {});
+
+// Fields differ between samplings unless none is read or all are the same everywhere and always.
+std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene);
+
+// Steps by growing number: 1, 2, 4, … substeps (fine: by sqrt 2) and, beyond maxSubsteps, shorter frames.
+std::vector<Step> stepLadder(bool fine, int mostSplits);
+
+}  // namespace shoal::measure

@@ -1,0 +1,209 @@
+#include "measure/accuracy_reference.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace shoal::measure {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+reference::State stateOf(const Snapshot& snapshot, int m) {
+    const auto first = ptrdiff_t(m) * snapshot.vertexCount, last = first + snapshot.vertexCount;
+    return {snapshot.time,
+            {snapshot.positions.begin() + first, snapshot.positions.begin() + last},
+            {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
+}
+
+reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
+    const Group& group = scene.groups[plan.index];
+    reference::Problem out;
+    out.molecule = &group.molecule;
+    out.scale = plan.constants.scales[size_t(m)];
+    out.stiffness = group.stiffness;
+    out.damping = group.damping;
+    out.phase = plan.constants.phases[size_t(m)];
+    out.held = group.held;
+    out.gravity = scene.gravity;
+    out.drag = group.drag;
+    out.fields = scene.fields;
+    return out;
+}
+
+// The first number of steps that reference::solve tries.
+double firstSteps(const reference::Problem& problem, double duration) {
+    return std::max(8.0, std::ceil(2 * duration * reference::fastestRate(problem)));
+}
+
+double measureStep(const reference::Problem& problem, const reference::State& start, double duration) {
+    const double h = duration / firstSteps(problem, duration);
+    constexpr int64_t steps = 16;
+    const Clock::time_point begin = Clock::now();
+    reference::integrate(problem, start, h * steps, steps);
+    return std::chrono::duration<double>(Clock::now() - begin).count() / steps;
+}
+
+// How often the step may be halved within a time.
+int halvings(double seconds, double secondsOfFirst) {
+    return std::clamp(int(std::log2(std::max(1.0, seconds / std::max(secondsOfFirst, 1e-9)))), 3, 12);
+}
+
+// Work for each index below `count`, on so many threads.
+template <typename Work>
+void inParallel(int count, int threads, const Work& work) {
+    std::atomic<int> next = 0;
+    const auto some = [&] {
+        for (int i = next++; i < count; i = next++)
+            work(i);
+    };
+    std::vector<std::thread> all;
+    for (int i = 1; i < std::min(threads, count); ++i)
+        all.emplace_back(some);
+    some();
+    for (std::thread& thread : all)
+        thread.join();
+}
+
+double totalMass(const Molecule& molecule) {
+    double out = 0;
+    for (const Vertex& vertex : molecule.vertices)
+        out += vertex.mass;
+    return out;
+}
+
+glm::dvec3 centreOfMass(const Molecule& molecule, const reference::State& state) {
+    glm::dvec3 out(0);
+    for (size_t i = 0; i < state.position.size(); ++i)
+        out += molecule.vertices[i].mass * state.position[i];
+    return out / totalMass(molecule);
+}
+
+glm::dvec3 ownAngularMomentum(const reference::Problem& problem, const reference::State& state) {
+    return reference::angularMomentum(problem, state) -
+           glm::cross(centreOfMass(*problem.molecule, state), reference::momentum(problem, state));
+}
+
+double ratio(double part, double scale) {
+    return scale > 0 ? part / scale : part;
+}
+
+}  // namespace
+
+ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts,
+                     double duration, int cores)
+    : duration_(duration), cores_(std::max(1, cores)) {
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        names_.push_back(plan.groups[g].name);
+        for (int m = 0; m < starts[g].count; ++m) {
+            One one;
+            one.group = g;
+            one.index = m;
+            one.problem = problemOf(scene, plan.groups[g], m);
+            one.size = one.problem.scale * one.problem.molecule->size();
+            one.start = one.end = stateOf(starts[g], m);
+            molecules_.push_back(std::move(one));
+        }
+    }
+    for (const One& one : molecules_)
+        if (one.index == 0)
+            secondsPerStep_ = std::max(secondsPerStep_, measureStep(one.problem, one.start, duration_));
+}
+
+double ExactEnds::secondsToSolve() const {
+    double steps = 0;
+    for (const One& one : molecules_)
+        steps += firstSteps(one.problem, duration_);
+    return steps * 7 * secondsPerStep_ / cores_;  // halved twice
+}
+
+bool ExactEnds::solve(double tolerance, double secondsAMolecule) {
+    tolerance = std::max(tolerance, floor);
+    if (tolerance >= tolerance_) return true;
+    std::vector<reference::Solution> solutions(molecules_.size());
+    inParallel(int(molecules_.size()), cores_, [&](int i) {
+        const One& one = molecules_[size_t(i)];
+        const int most = halvings(secondsAMolecule, firstSteps(one.problem, duration_) * secondsPerStep_);
+        solutions[size_t(i)] = reference::solve(one.problem, one.start, duration_, tolerance, most);
+    });
+    for (size_t i = 0; i < solutions.size(); ++i) {
+        if (solutions[i].converged) continue;
+        const One& one = molecules_[i];
+        why_ = concat("the reference of molecule ", one.index, " of \"", names_[one.group],
+                      "\" still changes by ", solutions[i].error, " of its size when its step is halved to ",
+                      solutions[i].step, " s");
+        return false;
+    }
+    error_ = 0;
+    for (size_t i = 0; i < solutions.size(); ++i) {
+        error_ = std::max(error_, solutions[i].error);
+        molecules_[i].end = std::move(solutions[i].state);
+    }
+    tolerance_ = tolerance;
+    return true;
+}
+
+bool ExactEnds::finite(const std::vector<Snapshot>& ends) {
+    const auto good = [](const glm::dvec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
+    return std::all_of(ends.begin(), ends.end(), [&](const Snapshot& end) {
+        return std::all_of(end.positions.begin(), end.positions.end(), good) &&
+               std::all_of(end.velocities.begin(), end.velocities.end(), good);
+    });
+}
+
+ErrorParts ExactEnds::errorOf(const std::vector<Snapshot>& ends) const {
+    ErrorParts out;
+    const double count = double(molecules_.size());
+    for (const One& one : molecules_) {
+        const reference::Deviation d =
+            reference::deviation(stateOf(ends[one.group], one.index), one.end, one.size);
+        out.total += d.total * d.total / count;
+        out.centroid += d.centroid * d.centroid / count;
+        out.shape += d.shape * d.shape / count;
+        if (d.total < out.worst) continue;
+        out.worst = d.total;
+        out.worstGroup = one.group;
+        out.worstMolecule = one.index;
+    }
+    out.total = std::sqrt(out.total);
+    out.centroid = std::sqrt(out.centroid);
+    out.shape = std::sqrt(out.shape);
+    return out;
+}
+
+Drift ExactEnds::driftOf(const One& one, const reference::State& end) const {
+    const reference::Problem& p = one.problem;
+    const double mass = totalMass(*p.molecule);
+    const auto moving = [&](const reference::State& state) {
+        return reference::kineticEnergy(p, state) + reference::springEnergy(p, state);
+    };
+    const double energyScale =
+        std::max({moving(one.start), moving(one.end), mass * glm::length(p.gravity) * one.size});
+    const double momentumScale = std::sqrt(2 * mass * energyScale);
+    return {ratio(std::abs(reference::energy(p, end) - reference::energy(p, one.end)), energyScale),
+            ratio(glm::length(reference::momentum(p, end) - reference::momentum(p, one.end)), momentumScale),
+            ratio(glm::length(ownAngularMomentum(p, end) - ownAngularMomentum(p, one.end)),
+                  momentumScale * one.size)};
+}
+
+Drift ExactEnds::driftOf(const std::vector<Snapshot>& ends) const {
+    Drift out;
+    const double count = double(molecules_.size());
+    for (const One& one : molecules_) {
+        // at the reference's own time, of which the muscles' rest lengths hang
+        reference::State end = stateOf(ends[one.group], one.index);
+        end.time = one.end.time;
+        const Drift d = driftOf(one, end);
+        out.energy += d.energy * d.energy / count;
+        out.momentum += d.momentum * d.momentum / count;
+        out.angularMomentum += d.angularMomentum * d.angularMomentum / count;
+    }
+    return {std::sqrt(out.energy), std::sqrt(out.momentum), std::sqrt(out.angularMomentum)};
+}
+
+}  // namespace shoal::measure

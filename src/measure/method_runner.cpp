@@ -1,0 +1,102 @@
+#include "measure/method_runner.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "gpu/gl.h"
+
+namespace shoal::measure {
+
+using Clock = std::chrono::steady_clock;
+
+std::string name(const Method& method) {
+    return concat(name(method.solver), ", ", name(method.sampling));
+}
+
+Scene withMolecules(Scene scene, int most) {
+    for (Group& group : scene.groups) {
+        group.count = std::min(group.count, most);
+        group.release.reset();
+    }
+    return scene;
+}
+
+MethodRunner::MethodRunner(Scene scene, Method method, const AccuracyDevice& device)
+    : scene_(std::move(scene)), method_(method), device_(device) {
+    scene_.solver.kind = method.solver;
+    scene_.solver.fieldSampling = method.sampling;
+}
+
+Scene MethodRunner::at(Step step) const {
+    Scene out = scene_;
+    out.solver.substeps = step.substeps;
+    out.frameRate *= step.split;
+    return out;
+}
+
+std::string MethodRunner::refusal(Step step) const {
+    try {
+        compile(withMolecules(at(step), 1));  // whether it is refused does not hang on their number
+        return {};
+    } catch (const Error& error) {
+        return error.message();
+    }
+}
+
+void MethodRunner::set(Step step) {
+    if (!simulation_) {
+        SimulationOptions options;
+        options.drawn = false;
+        options.path = device_.path;
+        options.lanes = device_.lanes;
+        options.inPlace = device_.inPlace;
+        options.cache = device_.cache;
+        simulation_ =
+            std::make_unique<Simulation>(*device_.context, device_.shaderRoot, compile(at(step)), options);
+    }
+    step_ = step;
+    simulation_->parameters.substeps = step.substeps;
+    simulation_->parameters.frameTime = 1 / (scene_.frameRate * step.split);
+}
+
+void MethodRunner::finish() const {
+    glFinish();
+}
+
+void MethodRunner::run(int frames) {
+    restart();
+    for (int i = 0; i < frames * step_.split; ++i)
+        frame();
+    finish();
+}
+
+double MethodRunner::secondsOfFrame(Step step) {
+    set(step);
+    restart();
+    double least = 1e30;
+    for (int i = 0; i < 3; ++i) {
+        finish();
+        const Clock::time_point start = Clock::now();
+        frame();
+        finish();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (i > 0) least = std::min(least, seconds);
+    }
+    return least;
+}
+
+std::vector<Snapshot> MethodRunner::snapshots() const {
+    std::vector<Snapshot> out;
+    for (size_t g = 0; g < scene_.groups.size(); ++g)
+        out.push_back(simulation_->snapshot(g));
+    return out;
+}
+
+int64_t MethodRunner::vertices() const {
+    int64_t out = 0;
+    for (const Group& group : scene_.groups)
+        out += int64_t(group.count) * int64_t(group.molecule.vertices.size());
+    return out;
+}
+
+}  // namespace shoal::measure

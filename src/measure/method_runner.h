@@ -1,0 +1,76 @@
+// One solver and field sampling on the device, at any step: kernels do not hang on the step, so that one
+// simulation serves them all.
+#pragma once
+
+#include <compare>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/program_cache.h"
+#include "scene/scene.h"
+#include "simulate/simulation.h"
+
+namespace shoal::measure {
+
+struct Method {
+    SolverKind solver = SolverKind::leapfrog;
+    FieldSampling sampling = FieldSampling::vertexSubstep;
+    auto operator<=>(const Method&) const = default;
+};
+std::string name(const Method& method);  // "leapfrog, vertexFrame"
+
+// A frame of the scene is run as `split` shorter ones of `substeps` each.
+struct Step {
+    int substeps = 1, split = 1;
+    int perFrame() const { return substeps * split; }  // of the scene's frames
+    auto operator<=>(const Step&) const = default;
+};
+
+struct AccuracyDevice {
+    gpu::Context* context = nullptr;
+    std::string shaderRoot;
+    gpu::ProgramCache* cache = nullptr;
+    int cores = 1;  // threads of the reference
+    Path path = Path::automatic;
+    Lanes lanes = Lanes::automatic;
+    bool inPlace = false;
+};
+
+// The scene with at most so many molecules of each group, pins that never let go.
+Scene withMolecules(Scene scene, int most);
+
+class MethodRunner {
+  public:
+    MethodRunner(Scene scene, Method method, const AccuracyDevice& device);
+
+    // Why the method cannot take this step; empty: it can.
+    std::string refusal(Step step) const;
+    // Takes a step that is not refused; the first one makes the simulation.
+    // Error: the path, the driver or the device's memory refuses the method.
+    void set(Step step);
+
+    void restart() { simulation_->restart(); }
+    void frame() { simulation_->frame(); }  // 1 / (frameRate * split) seconds
+    void finish() const;                    // waits until the frames are done
+    // A whole run from the start: `frames` of the scene's own.
+    void run(int frames);
+    // Seconds that one frame at this step takes: the shorter of two after one that is not timed.
+    double secondsOfFrame(Step step);
+
+    std::vector<Snapshot> snapshots() const;  // one a group
+    const Simulation& simulation() const { return *simulation_; }
+    int64_t vertices() const;  // of all groups
+
+  private:
+    Scene at(Step step) const;
+
+    Scene scene_;
+    Method method_;
+    AccuracyDevice device_;
+    Step step_;
+    std::unique_ptr<Simulation> simulation_;
+};
+
+}  // namespace shoal::measure
