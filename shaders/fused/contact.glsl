@@ -50,4 +50,7 @@ void resolveContacts()
 #endif
         x[i] = touchPosition[i];
     }
+#ifdef HISTORY
+    forgetHistory();
+#endif
 }

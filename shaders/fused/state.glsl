@@ -33,6 +33,11 @@ uniform float givenDampingFactor;
 uniform float givenReleaseForce;
 uniform float givenReleaseChance;
 uniform vec3 givenDriftOfStep;
+uniform vec2 givenDragRate;
+uniform float givenStageEta;
+uniform vec2 givenStageDecay;
+uniform vec2 givenStagePhi;
+uniform int givenRestarts;
 
 // The same where the step reads them. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser: it fetches a uniform lane by
 // lane, in every turn of a loop again, and a plain copy is a uniform to it; an operation that changes nothing makes a
@@ -51,6 +56,11 @@ float dampingFactor;
 float releaseForce;  // N: above this pull on a pin, all pins of the molecule let go
 float releaseChance;  // in this frame
 vec3 driftOfStep;  // physics/collide.glsl: step, kickDrift, lag
+vec2 dragRate;  // gamma, 1/s, across and along the surface
+float stageEta;  // s, of an implicit stage
+vec2 stageDecay;  // gamma eta / (1 + gamma eta) across and along the surface
+vec2 stagePhi;  // eta / (1 + gamma eta)
+int restarts;  // not 0: what is known of the last substep does not count
 
 #ifdef UNIFORMS_IN_REGISTERS
 int inRegister(int value) { return min(value, 2147483647); }
@@ -82,6 +92,11 @@ void loadUniforms()
     releaseForce = inRegister(givenReleaseForce);
     releaseChance = inRegister(givenReleaseChance);
     driftOfStep = inRegister(givenDriftOfStep);
+    dragRate = inRegister(givenDragRate);
+    stageEta = inRegister(givenStageEta);
+    stageDecay = inRegister(givenStageDecay);
+    stagePhi = inRegister(givenStagePhi);
+    restarts = inRegister(givenRestarts);
 }
 
 #ifdef SHARED_MOLECULE

@@ -74,3 +74,30 @@ vec3 dragged(vec3 velocity, vec3 u, vec3 n)
     return dragAndGravity(velocity, u, gravity, decay.y, phi.y);
 #endif
 }
+
+// The same inside an implicit stage, where the velocity that drags is the one that results.
+vec3 stageDragged(vec3 velocity, vec3 u, vec3 n)
+{
+#ifndef FIELDS
+    u = vec3(0.0);
+#endif
+#ifdef DIRECTIONAL_DRAG
+    return directionalDragAndGravity(velocity, u, gravity, n, stageDecay, stagePhi);
+#else
+    return dragAndGravity(velocity, u, gravity, stageDecay.y, stagePhi.y);
+#endif
+}
+
+// As an acceleration now.
+vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 n)
+{
+#ifndef FIELDS
+    u = vec3(0.0);
+#endif
+    vec3 slip = u - velocity;
+    vec3 a = gravity + slip * dragRate.y;
+#ifdef DIRECTIONAL_DRAG
+    a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
+#endif
+    return a;
+}

@@ -9,12 +9,18 @@
 
 namespace shoal {
 
+constexpr float noHistory = 1e30f;
+
 // What changes. Vertices: index = molecule * vertexCount + vertex. The others: one entry a molecule.
 struct GroupState {
     std::vector<glm::vec3> positions;   // m, relative to the molecule's anchor
     std::vector<glm::vec3> velocities;  // m/s
     std::vector<glm::vec3> anchors;     // m, on the lattice of 1/16 m
     std::vector<uint8_t> released;      // 1: the pins have let go
+    // Of the last substep, for solvers with history (scene/solver.h); empty for the others. A molecule whose
+    // first displacement is (noHistory, ...) starts anew.
+    std::vector<glm::vec3> displacements;    // m
+    std::vector<glm::vec3> velocityChanges;  // m/s
 
     bool operator==(const GroupState&) const = default;
 };

@@ -65,7 +65,16 @@ std::string restLength(const Molecule& molecule, const Spring& spring, const Nee
                   needs.phase ? " + phase)" : ")");
 }
 
-std::string springText(const Molecule& molecule, const Needs& needs) {
+// `bounded`: to a distance constraint (shaders/solver/verlet.glsl).
+std::string stiffness(const Molecule& molecule, const Spring& spring, bool bounded) {
+    const std::string plain = concat(literal(spring.stiffness), " * stiffnessFactor");
+    if (!bounded) return plain;
+    const double weight =
+        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
+    return concat("min(", plain, ", ", literal(1 / weight), " / (substep * substep))");
+}
+
+std::string springText(const Molecule& molecule, const Needs& needs, bool bounded) {
     std::string out =
         "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
         "void springForces(float time)\n{\n"
@@ -74,9 +83,27 @@ std::string springText(const Molecule& molecule, const Needs& needs) {
         const std::string relative =
             spring.damping > 0 ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
         out += concat("    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ", relative,
-                      ", ", literal(spring.stiffness), " * stiffnessFactor, ", literal(spring.damping),
+                      ", ", stiffness(molecule, spring, bounded), ", ", literal(spring.damping),
                       " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    ",
                       at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+    }
+    return out + "}\n";
+}
+
+// One Gauss-Seidel sweep over the springs, in their order or against it.
+std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward) {
+    std::string out =
+        concat("\nvoid relax", forward ? "Forward" : "Backward", "(float time, float inverseEta)\n{\n");
+    const size_t count = molecule.springs.size();
+    for (size_t i = 0; i < count; ++i) {
+        const size_t index = forward ? i : count - 1 - i;
+        const Spring& spring = molecule.springs[index];
+        const std::string damping =
+            spring.damping > 0 ? concat(literal(spring.damping), " * dampingFactor * inverseEta") : "0.0";
+        if (forward) out += concat("    lambda[", index, "] = 0.0;\n");
+        out += concat("    relax(RELAXED(", spring.a, ", ", spring.b, "), lambda[", index, "], ",
+                      literal(spring.stiffness), " * stiffnessFactor, ", damping, ", ",
+                      restLength(molecule, spring, needs), ");\n");
     }
     return out + "}\n";
 }
@@ -150,16 +177,23 @@ std::string storeText(const char* array, const char* buffer, const char* wrap, i
     return out;
 }
 
-std::string packingText(const Molecule& molecule, const Needs& needs) {
-    const BufferLayout layout{int(molecule.vertices.size())};
+std::string packingText(const Molecule& molecule, const Needs& needs, bool history) {
+    const BufferLayout layout{int(molecule.vertices.size()), history};
     const int elements = layout.positionElements(), floats = 3 * layout.vertexCount;
     std::string out =
         "void loadState(int molecule)\n{\n"
         "    int first = firstElement(molecule, STATE_ELEMENTS);\n    vec4 e;\n";
     out += loadText("x", 0, elements, floats) + loadText("v", elements, elements, floats);
+    if (history)
+        out +=
+            loadText("dx", 2 * elements, elements, floats) + loadText("dv", 3 * elements, elements, floats);
     out += "}\n\nvoid storeState(int molecule)\n{\n    int first = firstElement(molecule, STATE_ELEMENTS);\n";
     out += storeText("x", "newState", "stored", 0, elements, floats);
-    out += storeText("v", "newState", "stored", elements, elements, floats) + "}\n";
+    out += storeText("v", "newState", "stored", elements, elements, floats);
+    if (history)
+        out += storeText("dx", "newState", "stored", 2 * elements, elements, floats) +
+               storeText("dv", "newState", "stored", 3 * elements, elements, floats);
+    out += "}\n";
     if (!needs.normals) return out;
     out +=
         "\n#ifdef NORMALS\nvoid storeNormals(int molecule)\n{\n"
@@ -169,13 +203,15 @@ std::string packingText(const Molecule& molecule, const Needs& needs) {
 
 }  // namespace
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs) {
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
     KernelText text;
     text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"physics/spring.glsl\"\n\n";
-    if (needs.springs) text.forces += springText(molecule, needs);
+    if (needs.springs) text.forces += springText(molecule, needs, solver.kind == SolverKind::verlet);
     if (needs.normals) text.forces += normalText(molecule);
-    text.packing = packingText(molecule, needs);
+    if (solver.implicit && needs.springs)
+        text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);
+    text.packing = packingText(molecule, needs, solver.history);
     return text;
 }
 

@@ -7,25 +7,28 @@
 
 #include "compile/needs.h"
 #include "molecule/molecule.h"
+#include "scene/solver.h"
 
 namespace shoal {
 
 struct KernelText {
     std::string molecule;  // generated/molecule.glsl: masses, pins; for a lane and for a workgroup
     std::string forces;    // generated/forces.glsl: springForces, surfaceNormals; for a lane
+    std::string sweeps;    // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
     std::string packing;   // generated/packing.glsl: loadState, storeState, storeNormals; for a lane
 };
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs);
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
 
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {
     static constexpr int block = 16;  // molecules that lie together
     static constexpr int lanes = 64;  // of a workgroup, a molecule each
     int vertexCount = 0;
+    bool history = false;  // the changes of the last substep lie behind positions and velocities
 
     int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals
-    int stateElements() const { return 2 * positionElements(); }
+    int stateElements() const { return (history ? 4 : 2) * positionElements(); }
     // Of the 4-vector e of molecule m, with `elements` a molecule.
     static size_t index(size_t m, int e, int elements) {
         return m / block * block * size_t(elements) + size_t(e) * block + m % block;

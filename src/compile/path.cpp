@@ -39,6 +39,12 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
                            name(plan.fieldSampling), " needs the fused path"));
+    for (const GroupPlan& group : plan.groups)
+        if (solver(group.solver).implicit)
+            throw Error(group.location,
+                        concat(name(group.solver), ", which \"", group.name,
+                               "\" takes, needs the fused path (OpenGL 4.3); the explicit solvers "
+                               "run on the ping-pong path as well"));
     checkTextures(plan, limits);
 }
 
@@ -55,6 +61,7 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     const int most =
         std::max(FusedLimits::workgroup(limits), limits.software ? FusedLimits::softwareLane : 0);
     for (const GroupPlan& group : plan.groups) {
+        if (solver(group.solver).implicit) chooseLanes(group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
@@ -97,7 +104,14 @@ Lanes lanes(const std::string& word) {
 }
 
 Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
-    const int most = limits.software ? FusedLimits::softwareLane : FusedLimits::gpuLane;
+    const bool implicit = solver(group.solver).implicit;
+    const int most = limits.software || implicit ? FusedLimits::softwareLane : FusedLimits::gpuLane;
+    if (implicit && (wanted == Lanes::vertex || group.vertexCount > most))
+        throw Error(
+            group.location,
+            concat(name(group.solver), " keeps a molecule in one lane, which holds at most ", most,
+                   " vertices; a molecule of \"", group.name, "\" has ", group.vertexCount,
+                   wanted == Lanes::vertex ? ": leave out --lanes vertex" : ": use an explicit solver"));
     if (wanted == Lanes::automatic)
         return group.vertexCount <= most && group.springCount <= FusedLimits::laneSprings ? Lanes::molecule
                                                                                           : Lanes::vertex;
@@ -136,7 +150,7 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
     }
     size_t elements = 0;
     for (const GroupPlan& group : plan.groups) {
-        const BufferLayout layout{group.vertexCount};
+        const BufferLayout layout = group.layout();
         const size_t state = size_t(layout.stateElements()) * (inPlace ? 1 : 2);
         const size_t normals = drawn && group.needs.normals ? size_t(layout.positionElements()) : 0;
         const size_t constants = group.needs.scale || group.needs.phase ? 1 : 0;

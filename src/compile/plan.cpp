@@ -160,7 +160,7 @@ Plan compile(const Scene& scene) {
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);
-        group.kernel = kernelText(scene.groups[i].molecule, group.needs);
+        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }

@@ -55,6 +55,8 @@ struct GroupPlan {
     GroupState start;
     GroupConstants constants;
     KernelText kernel;  // of the fused path
+
+    BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
 };
 
 enum class PassKind { records, normals, restore, advect, collide };

@@ -212,7 +212,7 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
 size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
     size_t elements = 0;
     for (const GroupPlan& group : plan.groups) {
-        const BufferLayout layout{group.vertexCount};
+        const BufferLayout layout = group.layout();
         const Needs& needs = group.needs;
         const size_t state = 2 * size_t(layout.stateElements());
         const size_t records = 1;  // read; written only when an anchor moves

@@ -21,7 +21,7 @@ MoleculeDrawer::Drawn MoleculeDrawer::make(const Group& group, const GroupPlan& 
     Drawn out;
     out.count = plan.count;
     out.vertexCount = plan.vertexCount;
-    out.layout = {plan.vertexCount};
+    out.layout = plan.layout();
     out.rows = glm::ivec4(plan.texture.firstRow, plan.texture.slabRows, plan.texture.firstRecordRow, 0);
     out.color = glm::vec3(group.color.value_or(material.color));
     out.secondColor =

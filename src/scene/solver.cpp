@@ -11,22 +11,22 @@ namespace {
 constexpr double any = std::numeric_limits<double>::infinity();
 
 constexpr Solver table[] = {
-    {SolverKind::euler, "euler", 1, false, any, "Latta 2004, (3) and (8)", "(wh)^2 + 4 zeta wh < 4",
+    {SolverKind::euler, "euler", 1, false, false, any, "Latta 2004, (3) and (8)", "(wh)^2 + 4 zeta wh < 4",
      "nothing", "1", "the papers' baseline"},
-    {SolverKind::verlet, "verlet", 1, false, any, "Latta 2004, (9)", "(wh)^2 + 4 zeta wh < 4", "nothing", "1",
-     "the papers' other one; floats spoil its velocity"},
-    {SolverKind::leapfrog, "leapfrog", 2, false, any, "Verlet 1967 in velocity form",
+    {SolverKind::verlet, "verlet", 1, false, false, any, "Latta 2004, (9)", "(wh)^2 + 4 zeta wh < 4",
+     "nothing", "1", "the papers' other one; floats spoil its velocity"},
+    {SolverKind::leapfrog, "leapfrog", 2, false, false, any, "Verlet 1967 in velocity form",
      "(wh)^2 + 8 zeta wh < 4", "an acceleration a vertex", "1, and 1 a frame",
      "the default while w h is small"},
-    {SolverKind::rk4, "rk4", 4, false, 2.7, "Kutta 1901", "wh < 2.8", "four vectors a vertex", "4",
+    {SolverKind::rk4, "rk4", 4, false, false, 2.7, "Kutta 1901", "wh < 2.8", "four vectors a vertex", "4",
      "small errors in smooth scenes"},
-    {SolverKind::xpbd, "xpbd", 1, true, any, "Macklin 2019", "always", "two vectors a vertex", "1 sweep",
-     "cheap and damped"},
-    {SolverKind::bdf2Xpbd, "bdf2-xpbd", 2, true, any, "BDF2 with XPBD sweeps inside", "always",
-     "four vectors a vertex", "2 sweeps, and 2 a frame", "the default where springs are stiff"},
-    {SolverKind::bdf2Corotated, "bdf2-corotated", 2, true, any,
+    {SolverKind::xpbd, "xpbd", 1, true, false, any, "Macklin 2019", "always", "two vectors a vertex",
+     "1 sweep", "cheap and damped"},
+    {SolverKind::bdf2Xpbd, "bdf2-xpbd", 2, true, true, any, "BDF2 with XPBD sweeps inside", "always",
+     "the last change of x and v", "2 sweeps", "the default where springs are stiff"},
+    {SolverKind::bdf2Corotated, "bdf2-corotated", 2, true, true, any,
      "BDF2 with corotated quasi-Newton steps inside", "always (guarded)",
-     "six vectors a vertex; two matrices a molecule type", "2 products with a matrix, 2 sweeps",
+     "the last change of x and v; a matrix a type", "2 products with a matrix, 2 sweeps",
      "the stiffest springs at small strain"},
 };
 

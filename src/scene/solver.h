@@ -16,6 +16,7 @@ struct Solver {
     const char* name;    // in files and on the command line; also of its shader
     int order;           // of its error in h, in smooth motion
     bool implicit;       // no limit on w h; the fused path only
+    bool history;        // keeps the change of the last substep beside the state
     double mostDragged;  // largest drag rate times h that it takes; infinite where it takes any
     const char* source;  // where it is from
     const char* stable;  // for people: up to which step

@@ -38,6 +38,18 @@ std::vector<glm::vec3> unpack(const BufferLayout& layout, const std::vector<glm:
     return values;
 }
 
+// A state that another solver or path has left behind has none.
+void packHistory(const BufferLayout& layout, const GroupState& state, std::vector<glm::vec4>& out) {
+    const int part = layout.positionElements(), elements = layout.stateElements();
+    if (!state.displacements.empty()) {
+        pack(layout, state.displacements, 2 * part, elements, out);
+        pack(layout, state.velocityChanges, 3 * part, elements, out);
+        return;
+    }
+    for (size_t m = 0; m < state.anchors.size(); ++m)
+        out[BufferLayout::index(m, 2 * part, elements)].x = noHistory;
+}
+
 std::vector<glm::vec4> download(const Buffer& buffer) {
     std::vector<glm::vec4> out(buffer.bytes() / sizeof(glm::vec4));
     buffer.download(Traffic::Kind::state, 0, out.data(), buffer.bytes());
@@ -53,7 +65,7 @@ Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements
 
 GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
                            size_t largestPart)
-    : layout_{group.vertexCount},
+    : layout_(group.layout()),
       molecules_(BufferLayout::padded(size_t(group.count))),
       inPlace_(inPlace),
       seeds_(group.constants.seeds) {
@@ -127,6 +139,7 @@ void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {
     std::vector<glm::vec4> packed(molecules_ * size_t(elements));
     pack(layout_, state.positions, 0, elements, packed);
     pack(layout_, state.velocities, layout_.positionElements(), elements, packed);
+    if (layout_.history) packHistory(layout_, state, packed);
     state_[size_t(current_)].update(Traffic::Kind::state, 0, packed.data(),
                                     packed.size() * sizeof(glm::vec4));
     std::vector<glm::vec4> records(molecules_, glm::vec4(0, 0, 0, 1));
@@ -144,6 +157,10 @@ GroupState GroupBuffers::read(const GroupPlan& group) const {
     GroupState state;
     state.positions = unpack(layout_, packed, 0, elements, count);
     state.velocities = unpack(layout_, packed, layout_.positionElements(), elements, count);
+    if (layout_.history) {
+        state.displacements = unpack(layout_, packed, 2 * layout_.positionElements(), elements, count);
+        state.velocityChanges = unpack(layout_, packed, 3 * layout_.positionElements(), elements, count);
+    }
     const std::vector<glm::vec4> records = download(records_);
     for (size_t m = 0; m < count; ++m) {
         state.anchors.emplace_back(records[m]);

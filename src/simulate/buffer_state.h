@@ -1,10 +1,10 @@
 // The fused path's state: buffers of 4-vectors, a set for each group, packed as shaders/fused/state.glsl
 // says.
 //
-//   state     positions, then velocities, 3 floats a vertex without gaps    (two sides in turn; in place:
-//   one) record    xyz anchor, m; w: 1 + seed, negative once pins have let go    (a lane writes only its own)
-//   constant  x scale, y phase, rad; only where instances differ
-//   normal    3 floats a vertex, unit; only where something is drawn
+//   state     positions, then velocities (then the last changes of both), 3 floats a vertex    (two sides in
+//   turn; in place: one) record    xyz anchor, m; w: 1 + seed, negative once pins have let go    (a lane
+//   writes only its own) constant  x scale, y phase, rad; only where instances differ normal    3 floats a
+//   vertex, unit; only where something is drawn
 //
 // A group that is larger than the device's blocks is split into parts, each a range of whole workgroups of
 // molecules.

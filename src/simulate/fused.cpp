@@ -84,6 +84,12 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenReleaseForce", release.force);
     program.set("givenReleaseChance", release.chance);
     program.set("givenDriftOfStep", driftOf(group.solver, frame.h));
+    program.set("givenDragRate", glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag));
+    const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
+    program.set("givenStageEta", stage.eta);
+    program.set("givenStageDecay", stage.drag.decay);
+    program.set("givenStagePhi", stage.drag.phi);
+    program.set("givenRestarts", int(frame.restarts));
 }
 
 void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {

@@ -13,7 +13,7 @@ namespace {
 
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
-    const BufferLayout layout{group.vertexCount};
+    const BufferLayout layout = group.layout();
     std::vector<std::string> out = {
         concat("LANES ", workgroupLanes(group, options.lanes)), concat("BLOCK ", BufferLayout::block),
         concat("VERTICES ", group.vertexCount), concat("POSITION_ELEMENTS ", layout.positionElements()),
@@ -40,6 +40,9 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.collide, "COLLIDE");
+    define(solver(group.solver).history, "HISTORY");
+    if (solver(group.solver).history) out.push_back("NO_HISTORY 1e30");
+    if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     define(needs.collide && needs.springs && group.solver == SolverKind::leapfrog, "COMING_KICK");
     return out;
 }
@@ -58,6 +61,11 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
+    if (solver(group.solver).implicit) {
+        include(true, "fused/stage.glsl");
+        include(group.needs.springs, "generated/sweeps.glsl");
+    }
+    include(solver(group.solver).history, "fused/bdf2.glsl");
     include(true, concat("solver/", name(group.solver), ".glsl"));
     include(group.needs.collide, "generated/colliders.glsl");
     include(group.needs.collide, "fused/contact.glsl");
@@ -96,6 +104,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     out.generated = {{"generated/fused.comp", rootText(group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},
                      {"generated/forces.glsl", group.kernel.forces},
+                     {"generated/sweeps.glsl", group.kernel.sweeps},
                      {"generated/packing.glsl", group.kernel.packing},
                      {"generated/fields.glsl", plan.fieldSource},
                      {"generated/colliders.glsl", plan.collideSource}};

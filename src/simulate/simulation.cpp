@@ -17,9 +17,7 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
     if (choice_.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
         warnings_.push_back(
             {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
-    parameters.gravity = plan_.gravity;
-    parameters.substeps = plan_.substeps;
-    parameters.frameTime = 1 / plan_.frameRate;
+    parameters = parametersOf(plan_);
     restart();
 }
 
@@ -53,7 +51,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
 void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         writeGroup(g, plan_.groups[g].start);
-    time_ = 0;
+    time_ = lastStep_ = 0;
     frames_ = 0;
     computeNormals();
 }
@@ -67,7 +65,9 @@ void Simulation::computeNormals() {
 
 void Simulation::frame() {
     assert(parameters.substeps >= 1);
-    const Frame frame{time_, parameters.frameTime / parameters.substeps, frames_, parameters};
+    const double step = parameters.frameTime / parameters.substeps;
+    const Frame frame{time_, step, frames_, parameters, step != lastStep_};
+    lastStep_ = step;
     timers_.beginFrame();
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
     if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);

@@ -34,6 +34,7 @@ struct SavedState {
     double time = 0;  // s
     int frames = 0;
     std::vector<GroupState> groups;
+    double step = 0;  // s, of the last substep; 0: none. A solver with history goes on only with the same
 };
 
 struct SimulationOptions {
@@ -93,6 +94,7 @@ class Simulation {
     std::variant<std::monostate, PingPong, Fused> path_;
     double time_ = 0;  // s
     int frames_ = 0;
+    double lastStep_ = 0;  // s, a substep of the last frame; 0: none yet
 };
 
 }  // namespace shoal

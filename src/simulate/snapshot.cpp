@@ -20,7 +20,7 @@ void Simulation::writeGroup(size_t index, const GroupState& state) {
 }
 
 SavedState Simulation::save() const {
-    SavedState out{time_, frames_, {}};
+    SavedState out{time_, frames_, {}, lastStep_};
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         out.groups.push_back(readGroup(g));
     return out;
@@ -34,6 +34,7 @@ void Simulation::load(const SavedState& saved) {
     }
     time_ = saved.time;
     frames_ = saved.frames;
+    lastStep_ = saved.step;
     computeNormals();
 }
 
@@ -71,6 +72,8 @@ uint64_t Simulation::hash() const {
         const GroupState state = readGroup(g);
         addAll(state.positions);
         addAll(state.velocities);
+        addAll(state.displacements);
+        addAll(state.velocityChanges);
         addAll(state.anchors);
         for (const uint8_t released : state.released)
             add(released);

@@ -12,6 +12,14 @@ DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& para
     return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along))};
 }
 
+StageCoefficients stageCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
+    const double eta = 2 * h / 3;
+    const auto phi = [eta](double gamma) { return eta / (1 + gamma * eta); };
+    const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
+    return {float(eta),
+            {glm::vec2(across * phi(across), along * phi(along)), glm::vec2(phi(across), phi(along))}};
+}
+
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
     // whatever the sum of times was rounded to
     const bool may = frame.time + 0.5 * frame.h >= group.release.after;
@@ -21,8 +29,9 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
 }
 
 glm::vec3 driftOf(SolverKind solver, double h) {
-    const bool euler = solver == SolverKind::euler;
-    return glm::vec3(h, euler ? h : h / 2, euler ? h / 2 : 0);
+    // the others of order 1 drift by the velocity that the step ends with
+    const bool first = shoal::solver(solver).order == 1;
+    return glm::vec3(h, first ? h : h / 2, first ? h / 2 : 0);
 }
 
 }  // namespace shoal

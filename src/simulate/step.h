@@ -13,6 +13,7 @@ struct Frame {
     double h = 0;     // s, a substep
     int number = 0;   // from 0
     Parameters parameters;
+    bool restarts = false;  // the substep differs from the last one's: solvers with history start anew
 };
 
 // Exact drag over h across (x) and along (y) the surface: decay = 1 - exp(-gamma h), phi = decay / gamma (h
@@ -21,6 +22,14 @@ struct DragCoefficients {
     glm::vec2 decay{0}, phi{0};
 };
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
+
+// The same inside a stage of BDF2 (shaders/fused/bdf2.glsl), eta = 2h/3: decay = gamma eta / (1 + gamma eta),
+// phi = eta / (1 + gamma eta).
+struct StageCoefficients {
+    float eta = 0;  // s
+    DragCoefficients drag;
+};
+StageCoefficients stageCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
 
 // When pins let go in a frame.
 struct ReleaseLimits {

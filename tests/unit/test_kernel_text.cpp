@@ -104,7 +104,7 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
     Needs needs;
     needs.springs = needs.springDamping = needs.actuation = needs.scale = needs.phase = true;
     const Molecule molecule = awkward();
-    const KernelText text = kernelText(molecule, needs);
+    const KernelText text = kernelText(molecule, needs, solver(SolverKind::leapfrog));
     const std::string number = "([-+.e0-9]+)", muscle = R"(actuatedLength\()" + number + R"( \* scale, )" +
                                                         number + ", " + number + R"( \* time \+ )" + number +
                                                         R"( \+ phase\))";
@@ -146,7 +146,7 @@ TEST_CASE("packing moves every float once, for 1 to 40 vertices", "[kernel]") {
     for (int vertices = 1; vertices <= 40; ++vertices) {
         Molecule molecule;
         molecule.vertices.resize(size_t(vertices));
-        const std::string text = kernelText(molecule, needs).packing;
+        const std::string text = kernelText(molecule, needs, solver(SolverKind::leapfrog)).packing;
         const BufferLayout layout{vertices};
         const int elements = layout.positionElements(), floats = 3 * vertices;
         INFO(vertices << " vertices\n" << text);

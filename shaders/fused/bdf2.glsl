@@ -1,0 +1,70 @@
+// BDF2, whatever solves its stage: order 2, L-stable. Needs fused/stage.glsl.
+//
+//   z = dx / 3,  w = v + dv / 3,  eta = 2h/3;  a stage gives q;  v' = (q - z) / eta;  dv = v' - v;  dx = q;  x += q
+//
+// dx and dv are the changes of the last substep. They are part of the state, so that a frame goes on where the last
+// one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
+// that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
+//
+// Where there is no history - at the start, after a contact, or when the substep has changed - it is that of a free
+// flight: dv from drag and gravity over h, dx = h v - h/2 dv. The springs are not in it: stiff ones would be noise.
+
+vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
+vec3 dv[VERTICES];  // m/s, its change of velocity
+bool restart;
+
+const float third = 1.0 / 3.0;
+
+void beginHistory()
+{
+    restart = restarts != 0 || dx[0].x > 0.5 * NO_HISTORY;
+#ifdef DIRECTIONAL_DRAG
+    acrossLess = 1.0 - stagePhi.x / stagePhi.y;
+#endif
+}
+
+// For a contact: the step after it starts anew.
+void forgetHistory()
+{
+    restart = true;
+}
+
+void endHistory()
+{
+    if (restart) dx[0].x = NO_HISTORY;
+}
+
+// The stage without springs.
+void predict(int step)
+{
+    releasePins(step);
+    for (int i = 0; i < VERTICES; ++i) {
+        vec3 ahead = restart ? v[i] * substep : dx[i] * third + (v[i] + dv[i] * third) * stageEta;
+        probe[i] = x[i] + (isHeld(pinned[i]) ? vec3(0.0) : ahead);
+    }
+#ifdef DIRECTIONAL_DRAG
+    surfaceNormals();
+#endif
+    sampleSubstep(frameTime + float(step + 1) * substep);
+    for (int i = 0; i < VERTICES; ++i) {
+        bool held = isHeld(pinned[i]);
+        vec3 flight = dragged(v[i], fluid[i], normal[i]) - v[i];
+        dv[i] = restart ? flight : dv[i];
+        dx[i] = restart ? (v[i] - flight * 0.5) * substep : dx[i];
+        z[i] = held ? vec3(0.0) : dx[i] * third;
+        q[i] = held ? vec3(0.0) : z[i] + stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]) * stageEta;
+        weight[i] = held ? 0.0 : inverseMass[i] * (stageEta * stagePhi.y);
+    }
+    restart = false;
+}
+
+void accept()
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        vec3 velocity = (q[i] - z[i]) / stageEta;
+        dv[i] = velocity - v[i];
+        dx[i] = q[i];
+        v[i] = velocity;
+        x[i] += q[i];
+    }
+}

@@ -1,0 +1,62 @@
+// What the implicit solvers share: a stage finds the displacements q of the substep that solve
+//
+//   m (q - z) / eta = m w + eta (f(x + q, (q - z) / eta) + m g + m gamma (u - (q - z) / eta))
+//
+// with z, w from the method (history), f the springs, and drag and gravity inside. Starting from the solution without
+// springs, sweeps over the springs relax one after the other (XPBD). Everything is a displacement from x, never a
+// position: a float near the anchor rounds to 6e-8 m, and divided by eta that would be the velocity's error.
+//
+// Needs fused/step.glsl. generated/sweeps.glsl calls relax() for every spring.
+#include "physics/relaxation.glsl"
+
+vec3 q[VERTICES];       // m, displacement of the substep
+vec3 z[VERTICES];       // m, its part that is known before the stage
+float weight[VERTICES];  // s^2/kg, 1 / (m beta) along the surface, 0 where held
+float lambda[SPRING_COUNT];  // N
+
+#ifdef DIRECTIONAL_DRAG
+float acrossLess;  // 1 - (weight across the surface) / (weight along it)
+#endif
+
+// The step that an impulse along n makes on a vertex.
+vec3 weighted(float along, vec3 n, vec3 surfaceNormal)
+{
+#ifdef DIRECTIONAL_DRAG
+    return along * (n - surfaceNormal * (acrossLess * dot(surfaceNormal, n)));
+#else
+    return along * n;
+#endif
+}
+
+#define RELAXED(a, b) q[a], q[b], x[a] - x[b], z[a] - z[b], weight[a], weight[b], normal[a], normal[b]
+
+void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, float alongB, vec3 normalA,
+           vec3 normalB, inout float pushed, float stiffness, float dampingRate, float restLength)
+{
+    vec3 moved = qa - qb;
+    vec3 d = apart + moved;
+    float squared = dot(d, d);
+    float inverse = 1.0 / sqrt(max(squared, 1e-24));
+    vec3 n = d * inverse;
+    vec3 stepA = weighted(alongA, n, normalA);
+    vec3 stepB = weighted(alongB, n, normalB);
+    float change = relaxation(squared * inverse - restLength, dot(n, moved - known), pushed, dot(n, stepA + stepB),
+                              stiffness, dampingRate);
+    pushed += change;
+    qa += stepA * change;
+    qb -= stepB * change;
+}
+
+// Whether pins let go, from the springs' forces at the start of the frame.
+void releasePins(int step)
+{
+#ifdef RELEASE
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    springForces(frameTime + float(step) * substep);
+#endif
+    letGo(step);
+#endif
+}

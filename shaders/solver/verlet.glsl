@@ -1,0 +1,45 @@
+// verlet: Verlet's position form (Latta 2004, 9), order 1 because its first step back is v h.
+//   x' = x + (x - x_before) + h^2 a, with drag and gravity exact over h and the springs' part of h^2 a bounded: a spring
+//   is a distance constraint (Latta 3.4.3, Jakobsen 2001) that moves its ends by the share k h^2 (1/m_i + 1/m_j) of the
+//   way to its rest length, at most all of it (physics/spring.glsl, through VERLET in the springs' text).
+//   v = (x' - x) / h: what is left of it after positions are rounded.
+
+void beginSolver()
+{
+}
+
+// A substep up to contact.
+void advance(int step)
+{
+    float time = frameTime + float(step) * substep;
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    springForces(time);
+#endif
+    letGo(step);
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
+    }
+#endif
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i];
+    }
+#ifdef DIRECTIONAL_DRAG
+    surfaceNormals();
+#endif
+    sampleSubstep(time);
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) {
+            vec3 before = x[i];
+            x[i] += dragged(v[i], fluid[i], normal[i]) * substep;
+            v[i] = (x[i] - before) / substep;
+        }
+    }
+}
+
+void finishSolver()
+{
+}

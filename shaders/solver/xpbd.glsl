@@ -1,0 +1,41 @@
+// xpbd: small steps, one sweep over the springs each, order 1 (Macklin et al. 2019, "Small steps in physics
+// simulation").
+//   v += drag and gravity at x, t;  q = h v;  one sweep moves q;  v = q / h;  x += q;  contact
+
+void beginSolver()
+{
+#ifdef DIRECTIONAL_DRAG
+    acrossLess = 1.0 - phi.x / phi.y;
+#endif
+}
+
+// A substep up to contact.
+void advance(int step)
+{
+    float time = frameTime + float(step) * substep;
+    releasePins(step);
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i];
+    }
+#ifdef DIRECTIONAL_DRAG
+    surfaceNormals();
+#endif
+    sampleSubstep(time);
+    for (int i = 0; i < VERTICES; ++i) {
+        bool held = isHeld(pinned[i]);
+        z[i] = vec3(0.0);
+        q[i] = held ? vec3(0.0) : dragged(v[i], fluid[i], normal[i]) * substep;
+        weight[i] = held ? 0.0 : inverseMass[i] * (substep * phi.y);
+    }
+#ifdef SPRINGS
+    relaxForward(time + substep, 1.0 / substep);
+#endif
+    for (int i = 0; i < VERTICES; ++i) {
+        v[i] = q[i] / substep;
+        x[i] += q[i];
+    }
+}
+
+void finishSolver()
+{
+}
