@@ -1,7 +1,6 @@
 // `shoal bench`: speed against what the hardware allows, and the error that it buys.
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <numeric>
@@ -12,6 +11,7 @@
 #include "app/bullet_yardstick.h"
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/machine.h"
 #include "app/progress.h"
 #include "measure/pin_threads.h"
 #include "render/renderer.h"
@@ -29,15 +29,6 @@ double secondsSince(Clock::time_point start) {
 }
 
 constexpr int pictureWidth = 640, pictureHeight = 360;
-
-std::string processorName() {
-    std::ifstream file("/proc/cpuinfo");
-    for (std::string line; std::getline(file, line);) {
-        const size_t colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
-    }
-    return "unknown processor";
-}
 
 Draw makeDraw(gpu::Context& context, const Scene& scene, const Plan& plan) {
     RenderOptions options;
@@ -127,11 +118,6 @@ class WholeRun {
     Clock::time_point start_ = Clock::now();
 };
 
-std::string duration(double seconds) {
-    if (seconds < 90) return concat(std::max(1, int(seconds + 0.5)), " s");
-    return concat(int(seconds / 60 + 0.5), " minutes");
-}
-
 BenchReport describe(const Options& options, const gpu::Context& context) {
     BenchReport out;
     out.processor = processorName();
@@ -167,7 +153,7 @@ std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& rep
 void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const BenchDevice& device,
                 BenchReport& report) {
     WholeRun run(expectedSeconds(wanted, report));
-    std::cerr << "This takes about " << duration(run.expected()) << ".\n";
+    std::cerr << "This takes about " << roughly(run.expected()) << ".\n";
     const auto share = [&](double done) { run.tellShare(done); };
     BenchSchedule schedule;
     schedule.seconds = report.secondsAGroup;

@@ -11,6 +11,7 @@ int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);
 int benchCommand(const Options& options);
+int measureCommand(const Options& options);
 
 // A scene and its plan with the options applied; warnings go to standard error.
 struct Loaded {

@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
             case Options::Command::bench:
                 code = benchCommand(*options);
                 break;
+            case Options::Command::measure:
+                code = measureCommand(*options);
+                break;
             }
         }
         std::cout.flush();

@@ -26,6 +26,7 @@ namespace {
 
 struct Texts {
     std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver;
+    std::vector<std::string> solvers, samplings;
 };
 
 void addScene(CLI::App& command, Options& options) {
@@ -99,6 +100,12 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
         ->delimiter(',')
         ->check(wholeNumber());
+    command.add_option("--save", options.save, "File for the state at the end, to resume from");
+    command.add_option("--save-frames", options.saveFrames, "Frames to save (default: the last)")
+        ->delimiter(',')
+        ->check(wholeNumber());
+    command.add_option("--resume", options.resume,
+                       "Go on from the state in this file; --frames are further ones");
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     command.add_option("--screenshot", options.screenshot,
                        "Window: save its picture after --frames and close");
@@ -113,12 +120,69 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");
 }
 
-std::optional<SolverKind> solverNamed(const std::string& word) {
+void addError(CLI::App& command, Options& options) {
+    command
+        .add_option("--error", options.error,
+                    "Cheapest solver, substeps and field sampling whose measured error is below this")
+        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
+}
+
+void addMeasure(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("scene", options.files, "Scene file (.scene.json)")->expected(1);
+    addError(command, options);
+    command.add_option("--solvers", texts.solvers, "Only these, such as euler,leapfrog")->delimiter(',');
+    command.add_option("--samplings", texts.samplings, "Only these, such as vertexFrame")->delimiter(',');
+    command.add_option("--duration", options.duration, "Simulated seconds after which the error is taken")
+        ->check(kindOf(isAll<double>, "a time in seconds"))
+        ->capture_default_str();
+    command.add_option("--molecules", options.molecules, "Molecules of each group whose error is measured")
+        ->check(wholeNumber())
+        ->capture_default_str();
+    command.add_option("--seconds", options.seconds, "About how long to measure; leaves out what is dearest")
+        ->check(kindOf(isAll<double>, "a time in seconds"));
+    command.add_flag("--fine", options.fine, "Steps by the square root of 2 instead of 2");
+    command.add_option("--csv", options.csv, "Every point as a row of this file");
+    command.add_option("--plot", options.plot, "Error against time (.svg or .png)");
+    command.add_option("--report", options.report,
+                       "Measures the report's own scenes into this folder, and goes on where it was ended");
+    command.add_option("--count", options.count, "Molecules in each group that is placed at random")
+        ->check(wholeNumber());
+    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
+        ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
+    addPath(command, options, texts);
+    addContext(command, options, texts);
+}
+
+std::optional<SolverKind> solverNamed(const char* option, const std::string& word) {
     try {
         return solverOf(word);
     } catch (const Error& error) {
-        throw Error(concat("--solver: ", error.message()));
+        throw Error(concat(option, ": ", error.message()));
     }
+}
+
+void readLists(const Texts& texts, Options& options) {
+    for (const std::string& word : texts.solvers) {
+        const std::optional<SolverKind> kind = solverNamed("--solvers", word);
+        if (!kind) throw Error("--solvers: expected the names of solvers; auto is the choice among them");
+        options.solvers.push_back(*kind);
+    }
+    for (const std::string& word : texts.samplings)
+        options.samplings.push_back(samplingNamed("--samplings", word));
+}
+
+void checkMeasure(const Options& options) {
+    if (options.error && !(*options.error > 0 && *options.error <= 1))
+        throw Error(concat("--error: expected a relative error above 0, at most 1, found ", *options.error));
+    if (options.command != Options::Command::measure) return;
+    if (options.files.empty() == options.report.empty())
+        throw Error("measure: expected a scene file, or --report and a folder");
+    if (!options.report.empty() && (!options.csv.empty() || !options.plot.empty() || options.json))
+        throw Error("--report writes files of its own: leave out --json, --csv and --plot");
+    if (!(options.duration > 0 && options.duration <= 100))
+        throw Error(concat("--duration: expected a time above 0, at most 100 s, found ", options.duration));
+    if (options.molecules < 1 || options.molecules > 1024)
+        throw Error(concat("--molecules: expected 1 to 1024, found ", options.molecules));
 }
 
 // All long option names of a command, for suggestions.
@@ -191,6 +255,9 @@ void checkRanges(const Options& options) {
         atLeast("--export-frames", frame, 0);
     if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
         throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
+    for (const int frame : options.saveFrames)
+        atLeast("--save-frames", frame, 0);
+    if (!options.saveFrames.empty() && options.save.empty()) throw Error("--save-frames needs --save");
     if (!options.exportFrames.empty() && options.exports.empty())
         throw Error("--export-frames needs --export");
     if (options.captureEvery != 1 && options.capture.empty()) throw Error("--capture-every needs --capture");
@@ -217,14 +284,20 @@ void checkRanges(const Options& options) {
     if (options.shader && (options.path == Path::pingPong || options.json))
         throw Error(
             "--shader prints the fused path's kernels as text: leave out --path ping-pong and --json");
-    const std::vector<std::string> samplings = {"vertexSubstep", "vertexFrame", "moleculeFrame"};
-    if (options.fieldSampling &&
-        std::find(samplings.begin(), samplings.end(), *options.fieldSampling) == samplings.end())
-        throw Error(concat("--field-sampling: unknown sampling \"", *options.fieldSampling, "\"",
-                           suggestion(*options.fieldSampling, samplings)));
+    if (options.fieldSampling) samplingNamed("--field-sampling", *options.fieldSampling);
 }
 
 }  // namespace
+
+FieldSampling samplingNamed(const char* option, const std::string& word) {
+    std::vector<std::string> words;
+    for (const FieldSampling one :
+         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+        if (word == name(one)) return one;
+        words.emplace_back(name(one));
+    }
+    throw Error(concat(option, ": unknown sampling \"", word, "\"", suggestion(word, words)));
+}
 
 std::optional<Options> parseOptions(int argc, char** argv) {
     Options options;
@@ -237,6 +310,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App* explain = app.add_subcommand("explain", "Print what a scene compiles to, and why");
     CLI::App* info = app.add_subcommand("info", "Print the OpenGL contexts that can be had");
     CLI::App* bench = app.add_subcommand("bench", "Measure speed, against the limit and the error");
+    CLI::App* measure = app.add_subcommand("measure", "Measure a scene's error against what it costs");
     addRun(*run, options, texts);
     check->add_option("files", options.files, "Molecule or scene files")->required();
     check->add_flag("--json", options.json, "Report as JSON on standard output");
@@ -247,6 +321,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     explain->add_flag("--json", options.json, "Report as JSON on standard output");
     addContext(*info, options, texts);
     addBench(*bench, options, texts);
+    addMeasure(*measure, options, texts);
 
     try {
         app.parse(argc, argv);
@@ -262,23 +337,24 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : check->parsed()   ? Options::Command::check
                       : explain->parsed() ? Options::Command::explain
                       : bench->parsed()   ? Options::Command::bench
+                      : measure->parsed() ? Options::Command::measure
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);
-    if (!texts.solver.empty()) options.solver = solverNamed(texts.solver);
+    if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);
     options.lanes = lanes(texts.lanes);
+    readLists(texts, options);
     parseSize(texts.size, options);
     checkRanges(options);
+    checkMeasure(options);
     return options;
 }
 
 void apply(const Options& options, Scene& scene) {
     if (options.dt) scene.frameRate = 1 / *options.dt;
     if (options.solver) scene.solver.kind = *options.solver;
-    for (const FieldSampling sampling :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame})
-        if (options.fieldSampling && *options.fieldSampling == name(sampling))
-            scene.solver.fieldSampling = sampling;
+    if (options.fieldSampling)
+        scene.solver.fieldSampling = samplingNamed("--field-sampling", *options.fieldSampling);
     if (options.substeps) scene.solver.substeps = *options.substeps;
     if (options.seed) scene.seed = *options.seed;
     if (!options.count) return;

@@ -16,7 +16,7 @@ namespace shoal::app {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info, bench };
+    enum class Command { run, check, explain, info, bench, measure };
     Command command = Command::run;
     std::vector<std::string> files;
 
@@ -42,18 +42,35 @@ struct Options {
     int captureEvery = 1;  // frames
     std::string exports;   // folder, or a name that ends in .csv or .ply
     std::vector<int> exportFrames;
-    std::string screenshot;  // window: a picture of it after `frames`, then close
+    std::string save;             // a checkpoint
+    std::vector<int> saveFrames;  // empty: the last
+    std::string resume;           // a checkpoint to go on from
+    std::string screenshot;       // window: a picture of it after `frames`, then close
 
     // bench
     bool quick = false;
     std::optional<double> seconds;  // of measuring, each group of cases
     std::string only;               // cases with this in their name
     std::string plot;               // .svg or .png
+
+    // run, explain, measure: the largest relative error that is wanted; chooses the method
+    std::optional<double> error;
+    // measure (`seconds` and `plot` as above)
+    std::vector<SolverKind> solvers;       // empty: all
+    std::vector<FieldSampling> samplings;  // empty: all that differ
+    double duration = 1;                   // s of simulated time
+    int molecules = 8;                     // of each group, whose error is measured
+    bool fine = false;                     // steps by sqrt 2
+    std::string csv;                       // a file
+    std::string report;                    // folder: the report scenes instead of a file
 };
 
 // Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns
 // nothing then.
 std::optional<Options> parseOptions(int argc, char** argv);
+
+// Error: unknown, with the nearest; `option` is what it was given to.
+FieldSampling samplingNamed(const char* option, const std::string& word);
 
 // Puts the options' values in place of the scene's. Error: such a value is out of range.
 void apply(const Options& options, Scene& scene);

@@ -20,19 +20,6 @@ using Clock = std::chrono::steady_clock;
 constexpr double firstTolerance = 1e-5;  // of the reference, until errors come nearer
 constexpr double shareOfError = 0.01;    // of the smallest error: the reference's
 
-// A frame of so many substeps takes about base + each * substeps.
-struct FrameCost {
-    double base = 0, each = 0;  // s
-    double of(const Step& step) const { return base + each * step.substeps; }
-};
-
-FrameCost costOf(MethodRunner& runner) {
-    constexpr Step few{4, 1}, more{32, 1};
-    const double a = runner.secondsOfFrame(few), b = runner.secondsOfFrame(more);
-    const double each = std::max(0.0, (b - a) / (more.substeps - few.substeps));
-    return {std::max(0.0, a - each * few.substeps), each};
-}
-
 // One method: its few molecules for the error, its many for the time.
 struct Curve {
     Method method;
@@ -126,10 +113,11 @@ class Sweep {
         pinRasteriserThreads();
         curve.few->restart();
         if (!reference_)
-            reference_ = std::make_unique<ExactEnds>(few_, curve.few->simulation().plan(),
-                                                     curve.few->snapshots(), out_.duration, device_.cores);
-        curve.fewCost = costOf(*curve.few);
-        curve.manyCost = costOf(*curve.many);
+            reference_ =
+                std::make_unique<ExactEnds>(few_, curve.few->simulation().plan(), curve.few->snapshots(),
+                                            out_.duration, device_.cores, options_.molecules);
+        curve.fewCost = frameCost(*curve.few);
+        curve.manyCost = frameCost(*curve.many);
         out_.path = curve.few->simulation().path().path;
     }
 

@@ -94,11 +94,11 @@ double ratio(double part, double scale) {
 }  // namespace
 
 ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts,
-                     double duration, int cores)
+                     double duration, int cores, int molecules)
     : duration_(duration), cores_(std::max(1, cores)) {
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         names_.push_back(plan.groups[g].name);
-        for (int m = 0; m < starts[g].count; ++m) {
+        for (int m = 0; m < std::min(molecules, starts[g].count); ++m) {
             One one;
             one.group = g;
             one.index = m;

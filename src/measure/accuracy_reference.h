@@ -33,9 +33,10 @@ class ExactEnds {
   public:
     static constexpr double floor = 1e-7;  // no tolerance is tighter
 
-    // `starts`: a snapshot of each group of the plan before its first frame. Borrows the scene.
+    // `starts`: a snapshot of each group of the plan before its first frame. Borrows the scene. At most so
+    // many molecules of each group, the first ones.
     ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts, double duration,
-              int cores);
+              int cores, int molecules);
     ExactEnds(const ExactEnds&) = delete;
     ExactEnds& operator=(const ExactEnds&) = delete;
 

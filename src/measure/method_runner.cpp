@@ -99,4 +99,11 @@ int64_t MethodRunner::vertices() const {
     return out;
 }
 
+FrameCost frameCost(MethodRunner& runner) {
+    constexpr Step few{4, 1}, more{32, 1};
+    const double a = runner.secondsOfFrame(few), b = runner.secondsOfFrame(more);
+    const double each = std::max(0.0, (b - a) / (more.substeps - few.substeps));
+    return {std::max(0.0, a - each * few.substeps), each};
+}
+
 }  // namespace shoal::measure

@@ -73,4 +73,11 @@ class MethodRunner {
     std::unique_ptr<Simulation> simulation_;
 };
 
+// A frame of so many substeps takes about base + each * substeps.
+struct FrameCost {
+    double base = 0, each = 0;  // s
+    double of(const Step& step) const { return base + each * step.substeps; }
+};
+FrameCost frameCost(MethodRunner& runner);
+
 }  // namespace shoal::measure

@@ -1,0 +1,113 @@
+#include "app/gnuplot.h"
+
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <sstream>
+
+#include "core/error.h"
+
+namespace shoal::app {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string findGnuplot() {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string candidate = (folder.empty() ? "." : folder) + "/gnuplot";
+        if (access(candidate.c_str(), X_OK) == 0 && !fs::is_directory(candidate)) return candidate;
+    }
+    return {};
+}
+
+// Removed unless it becomes the picture.
+struct Partial {
+    fs::path path;
+    ~Partial() {
+        std::error_code ignored;
+        fs::remove(path, ignored);
+    }
+};
+
+int memoryFile(const char* what) {
+    const int out = memfd_create(what, MFD_CLOEXEC);
+    if (out < 0) throw Error(concat("cannot hold ", what, " in memory: ", std::strerror(errno)));
+    return out;
+}
+
+std::string contents(int file) {
+    std::string out(4096, '\0');
+    const ssize_t size = pread(file, out.data(), out.size(), 0);
+    out.resize(size_t(std::max<ssize_t>(0, size)));
+    return out;
+}
+
+// Its exit code; what it says goes to `log`.
+int runGnuplot(const std::string& program, const std::string& script, std::string& log) {
+    const int input = memoryFile("gnuplot's script"), output = memoryFile("gnuplot's messages");
+    for (size_t done = 0; done < script.size();) {
+        const ssize_t part = write(input, script.data() + done, script.size() - done);
+        if (part <= 0) throw Error("cannot write gnuplot's script");
+        done += size_t(part);
+    }
+    lseek(input, 0, SEEK_SET);
+    const pid_t process = fork();
+    if (process == 0) {
+        // Only calls that are safe between fork and exec.
+        dup2(input, STDIN_FILENO);
+        dup2(output, STDOUT_FILENO);
+        dup2(output, STDERR_FILENO);
+        execl(program.c_str(), "gnuplot", "-", static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    int status = -1;
+    while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    log = contents(output);
+    close(input);
+    close(output);
+    return process > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace
+
+std::string quoted(std::string text) {
+    for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
+        text.insert(at, "'");
+    return "'" + text + "'";
+}
+
+void needGnuplot() {
+    if (findGnuplot().empty())
+        throw Error(
+            "--plot needs the gnuplot command, which is not installed (on Debian and Ubuntu: apt install "
+            "gnuplot-nox)");
+}
+
+void drawWithGnuplot(const std::string& file, const std::function<std::string(const std::string&)>& script) {
+    const fs::path target = fs::absolute(file);
+    std::error_code error;
+    fs::create_directories(target.parent_path(), error);
+    if (error)
+        throw Error(concat(target.parent_path().string(), ": cannot make this folder: ", error.message()));
+    const Partial partial{target.parent_path() / concat(".", target.stem().string(), ".", getpid(),
+                                                        ".partial", target.extension().string())};
+    std::string log;
+    const int code = runGnuplot(findGnuplot(), script(partial.path.string()), log);
+    const bool written = fs::exists(partial.path, error) && fs::file_size(partial.path, error) > 0;
+    if (code != 0 || !written)
+        throw Error(concat(file, ": gnuplot did not draw it", log.empty() ? "" : ": ", log));
+    fs::rename(partial.path, target, error);
+    if (error) throw Error(concat(file, ": cannot be written: ", error.message()));
+}
+
+}  // namespace shoal::app

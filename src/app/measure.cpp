@@ -1,0 +1,148 @@
+// `shoal measure`: what an error costs on a scene, for every method, step and field sampling.
+#include <algorithm>
+#include <iostream>
+#include <thread>
+
+#include "app/commands.h"
+#include "app/data_paths.h"
+#include "app/gnuplot.h"
+#include "app/machine.h"
+#include "app/measure.h"
+#include "app/measure_plot.h"
+#include "app/progress.h"
+#include "core/file.h"
+#include "scene/scene_file.h"
+
+namespace shoal::app {
+
+using namespace measure;
+
+namespace {
+
+// Tells how long it will take, then shows how far it is.
+class Bar {
+  public:
+    AccuracyProgress progress() {
+        AccuracyProgress out;
+        out.estimate = [this](double seconds) {
+            std::cerr << "This takes at most about " << roughly(seconds) << ".\n";
+            bar_ = std::make_unique<Progress>("per cent", 100);
+        };
+        out.tell = [this](double share) { show(int(100 * share)); };
+        return out;
+    }
+    void end() { show(100); }
+
+  private:
+    void show(int percent) {
+        for (; bar_ && shown_ < std::min(percent, 100); ++shown_)
+            bar_->step();
+    }
+    std::unique_ptr<Progress> bar_;
+    int shown_ = 0;
+};
+
+AccuracyOptions accuracyOptions(const Options& options) {
+    AccuracyOptions out;
+    out.duration = options.duration;
+    out.molecules = options.molecules;
+    out.fine = options.fine;
+    out.solvers = options.solvers;
+    out.samplings = options.samplings;
+    out.seconds = options.seconds;
+    out.enough = options.error.value_or(out.enough);
+    return out;
+}
+
+void choose(const Scene& scene, const Options& options, const AccuracyDevice& device, MeasureReport& report) {
+    CalibrationOptions wanted = calibrationOptions(options);
+    wanted.error = report.target;
+    wanted.solvers = options.solvers;
+    wanted.samplings = options.samplings;
+    try {
+        report.chosen = calibrate(scene, wanted, device);
+    } catch (const Error& error) {
+        report.notChosen = error.message();
+    }
+}
+
+AccuracyPanel panelOf(const MeasureReport& report) {
+    AccuracyPanel out;
+    out.title = concat(report.accuracy.scene, ": error after ", report.accuracy.duration, " s");
+    out.subtitle = report.processor + ", " + report.context.renderer;
+    out.points = report.accuracy.points;
+    out.chosen = chosenPoint(report);
+    out.target = report.target;
+    return out;
+}
+
+void tell(const MeasureReport& report, const Options& options) {
+    if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
+    if (!options.plot.empty()) plotAccuracy(options.plot, panelOf(report));
+    std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
+    if (options.json) return;
+    if (!options.csv.empty()) std::cout << "\ntable: " << options.csv << "\n";
+    if (!options.plot.empty()) std::cout << "\nplot: " << options.plot << "\n";
+}
+
+}  // namespace
+
+CalibrationOptions calibrationOptions(const Options& options) {
+    CalibrationOptions out;
+    if (options.error) out.error = *options.error;
+    if (options.solver && *options.solver) out.solvers = {**options.solver};
+    if (options.fieldSampling) out.samplings = {samplingNamed("--field-sampling", *options.fieldSampling)};
+    out.substeps = options.substeps;
+    out.duration = options.duration;
+    out.version = SHOAL_VERSION;
+    out.folder = gpu::ProgramCache::defaultFolder();
+    return out;
+}
+
+AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
+    AccuracyDevice out;
+    out.context = &context;
+    out.shaderRoot = shaderRoot();
+    out.cache = &cache;
+    out.cores = int(std::max(1u, std::thread::hardware_concurrency()));
+    out.path = options.path;
+    out.lanes = options.lanes;
+    out.inPlace = options.inPlace;
+    return out;
+}
+
+MeasureReport measureScene(const Scene& scene, const Options& options, const AccuracyDevice& device) {
+    MeasureReport report;
+    report.processor = processorName();
+    report.cores = device.cores;
+    report.context = device.context->info();
+    report.target = options.error.value_or(1e-3);
+    choose(scene, options, device, report);
+    AccuracyOptions wanted = accuracyOptions(options);
+    if (report.chosen) wanted.extra = {{report.chosen->method, {report.chosen->substeps, 1}}};
+    Bar bar;
+    report.accuracy = measureAccuracy(scene, wanted, device, bar.progress());
+    bar.end();
+    return report;
+}
+
+int measureCommand(const Options& options) {
+    if (!options.plot.empty()) needGnuplot();
+    if (!options.report.empty()) return measureReport(options);
+    Scene scene = readScene(options.files.front());
+    apply(options, scene);
+    for (const Warning& warning : scene.warnings)
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    gpu::ContextOptions wanted;
+    wanted.kind = options.context;
+    wanted.visible = false;
+    gpu::Context context(wanted);
+    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context, cache));
+    for (const Warning& warning : cache.takeWarnings())
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tell(report, options);
+    return 0;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,21 @@
+// What the commands share that measure a scene.
+#pragma once
+
+#include "app/measure_report.h"
+#include "app/options.h"
+#include "gpu/program_cache.h"
+
+namespace shoal::app {
+
+// What --error, --solver, --substeps and --field-sampling ask for.
+measure::CalibrationOptions calibrationOptions(const Options& options);
+measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context,
+                                       gpu::ProgramCache& cache);
+
+// Chooses and sweeps, with progress on standard error.
+MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);
+
+// `shoal measure --report`.
+int measureReport(const Options& options);
+
+}  // namespace shoal::app

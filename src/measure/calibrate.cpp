@@ -1,0 +1,296 @@
+#include "measure/calibrate.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "measure/accuracy.h"
+#include "measure/calibration_store.h"
+#include "measure/pin_threads.h"
+
+namespace shoal::measure {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// A sampling other than the exact one is tried for solvers within this factor of the best: reading fields
+// less often does not save more.
+constexpr double worthSampling = 10;
+constexpr double closeEnough = 1.12;  // of the fewest substeps that do
+constexpr int fewOnGpu = 4096, fewOnCpu = 32;
+// Enough to fill the device, few enough to be quick.
+constexpr int manyOnGpu = 16384, manyOnCpu = 2048;
+
+class Search {
+  public:
+    Search(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device)
+        : options_(options), device_(device) {
+        const bool software = device.context->info().software;
+        // what a lane does costs a GPU nothing more in its neighbours
+        few_ = withMolecules(scene, software ? std::max(fewOnCpu, options.molecules) : fewOnGpu);
+        many_ = withMolecules(scene, software ? manyOnCpu : manyOnGpu);
+        frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
+    }
+
+    Calibration run() {
+        std::vector<SolverKind> kinds = options_.solvers;
+        if (kinds.empty())
+            for (const Solver& one : solvers())
+                kinds.push_back(one.kind);
+        std::vector<FieldSampling> samplings = options_.samplings;
+        if (samplings.empty()) samplings = samplingsThatDiffer(few_);
+        for (const SolverKind kind : kinds)
+            probe({kind, samplings.front()});
+        searchAll();
+        const double best = bestCost();
+        const size_t firsts = runs_.size();
+        for (size_t i = 0; i < firsts; ++i) {
+            const Candidate one = runs_[i].candidate;
+            if (!one.reached || one.cost > worthSampling * best) continue;
+            for (size_t s = 1; s < samplings.size(); ++s)
+                probe({one.method.solver, samplings[s]});
+        }
+        searchAll();
+        return conclude();
+    }
+
+  private:
+    struct Run {
+        Candidate candidate;
+        std::unique_ptr<MethodRunner> few, many;
+        FrameCost frame;
+        bool searched = false;
+    };
+
+    void probe(const Method& method) {
+        Run& run = runs_.emplace_back();
+        run.candidate.method = method;
+        run.few = std::make_unique<MethodRunner>(few_, method, device_);
+        const int first = leastSubsteps(run);
+        if (first == 0) {
+            run.searched = true;
+            return;
+        }
+        try {
+            run.few->set({first, 1});
+            run.many = std::make_unique<MethodRunner>(many_, method, device_);
+            pinRasteriserThreads();
+            run.many->set({first, 1});
+            run.frame = frameCost(*run.many);
+        } catch (const Error& error) {
+            run.candidate.why = concat("refused: ", error.what());
+            run.searched = true;
+            return;
+        }
+        if (!reference_) solveReference(*run.few);
+    }
+
+    // 0 and candidate.why: none is accepted.
+    int leastSubsteps(Run& run) const {
+        for (const int substeps : ladder()) {
+            run.candidate.why = run.few->refusal({substeps, 1});
+            if (run.candidate.why.empty()) return substeps;
+        }
+        run.candidate.why = concat("refused: ", run.candidate.why);
+        return 0;
+    }
+
+    std::vector<int> ladder() const {
+        if (options_.substeps) return {*options_.substeps};
+        return {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, maxSubsteps};
+    }
+
+    void solveReference(MethodRunner& runner) {
+        runner.restart();
+        reference_ = std::make_unique<ExactEnds>(few_, runner.simulation().plan(), runner.snapshots(),
+                                                 frames_ / few_.frameRate, device_.cores, options_.molecules);
+        if (!reference_->solve(0.01 * options_.error))
+            throw Error(
+                Location{few_.file, 0, 0, {}},
+                concat("--error: the motion is chaotic, so that no error can be given: ", reference_->why()));
+    }
+
+    // Cheapest substeps first, so that the dear ones meet a good bound.
+    void searchAll() {
+        std::vector<size_t> order;
+        for (size_t i = 0; i < runs_.size(); ++i)
+            if (!runs_[i].searched) order.push_back(i);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](size_t a, size_t b) { return runs_[a].frame.each < runs_[b].frame.each; });
+        // of second order and more first: they get there soonest
+        std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
+            const auto high = [&](size_t i) { return solver(runs_[i].candidate.method.solver).order > 1; };
+            return high(a) > high(b);
+        });
+        for (const size_t i : order)
+            search(runs_[i]);
+    }
+
+    void search(Run& run) {
+        run.searched = true;
+        int failed = 0, good = 0;
+        double least = std::numeric_limits<double>::infinity();
+        int passed = 0;  // steps without a smaller error
+        for (const int substeps : ladder()) {
+            if (!run.few->refusal({substeps, 1}).empty()) {
+                failed = substeps;
+                continue;
+            }
+            if (!canWin(run, substeps)) return;
+            const double error = measure(run, substeps);
+            if (error < options_.error) {
+                good = substeps;
+                break;
+            }
+            failed = substeps;
+            passed = error < 0.95 * least ? 0 : passed + 1;
+            least = std::min(least, error);
+            if (passed >= 3 && least < 0.1) break;
+        }
+        if (good == 0) {
+            run.candidate.why = std::isfinite(least)
+                                    ? concat("does not get there: at best ", *run.candidate.error)
+                                    : "blows up at every step";
+            return;
+        }
+        refine(run, failed, good);
+        run.candidate.reached = true;
+        run.candidate.cost = costAt(run, run.candidate.substeps);
+        run.candidate.why = "gets there";
+    }
+
+    // Between substeps that fail (or none) and substeps that do.
+    void refine(Run& run, int failed, int good) {
+        double error = *run.candidate.error;
+        while (failed > 0 && good - failed > 1 && good > closeEnough * failed) {
+            const int middle =
+                std::clamp(int(std::lround(std::sqrt(double(failed) * good))), failed + 1, good - 1);
+            const double found = run.few->refusal({middle, 1}).empty()
+                                     ? measure(run, middle)
+                                     : std::numeric_limits<double>::infinity();
+            if (found < options_.error) {
+                good = middle;
+                error = found;
+            } else {
+                failed = middle;
+            }
+        }
+        run.candidate.substeps = good;
+        run.candidate.error = error;
+    }
+
+    // Keeps the substeps with the smallest error.
+    double measure(Run& run, int substeps) {
+        run.few->set({substeps, 1});
+        run.few->run(frames_);
+        const std::vector<Snapshot> ends = run.few->snapshots();
+        const double error = ExactEnds::finite(ends) ? reference_->errorOf(ends).total
+                                                     : std::numeric_limits<double>::infinity();
+        Candidate& candidate = run.candidate;
+        if (std::isfinite(error) && (!candidate.error || error < *candidate.error)) {
+            candidate.error = error;
+            candidate.substeps = substeps;
+        }
+        return error;
+    }
+
+    bool canWin(Run& run, int substeps) {
+        const double expected = perVertex(run, run.frame.of({substeps, 1})), best = bestCost();
+        if (expected < best) return true;
+        run.candidate.why =
+            concat("cannot win: already ", substeps, " substeps cost ", expected / best, " times the best");
+        return false;
+    }
+
+    double perVertex(const Run& run, double secondsOfFrame) const {
+        return secondsOfFrame * few_.frameRate / double(run.many->vertices());
+    }
+    double costAt(Run& run, int substeps) const {
+        return perVertex(run, run.many->secondsOfFrame({substeps, 1}));
+    }
+    double bestCost() const {
+        double out = std::numeric_limits<double>::infinity();
+        for (const Run& run : runs_)
+            if (run.candidate.reached) out = std::min(out, run.candidate.cost);
+        return out;
+    }
+
+    Calibration conclude() {
+        const Run* best = nullptr;
+        const Run* nearest = nullptr;
+        for (const Run& run : runs_) {
+            const Candidate& one = run.candidate;
+            if (one.reached && (best == nullptr || one.cost < best->candidate.cost)) best = &run;
+            if (one.error && (nearest == nullptr || *one.error < *nearest->candidate.error)) nearest = &run;
+        }
+        if (best == nullptr) refuse(nearest == nullptr ? nullptr : &nearest->candidate);
+        Calibration out;
+        out.target = options_.error;
+        out.method = best->candidate.method;
+        out.substeps = best->candidate.substeps;
+        out.error = *best->candidate.error;
+        out.cost = best->candidate.cost;
+        int others = 0;
+        for (const Run& run : runs_) {
+            out.candidates.push_back(run.candidate);
+            others += run.candidate.reached && &run != best;
+        }
+        out.why = others > 0 ? concat("the cheapest of ", others + 1, " that get there")
+                             : "the only one that gets there, or the first that nothing else can beat";
+        device_.context->checkErrors("calibrate");
+        return out;
+    }
+
+    [[noreturn]] void refuse(const Candidate* nearest) const {
+        const Location place{few_.file, 0, 0, {}};
+        if (nearest == nullptr)
+            throw Error(place, concat("--error ", options_.error, ": no method can run this scene: ",
+                                      runs_.empty() ? "none is left" : runs_.front().candidate.why));
+        throw Error(place, concat("--error ", options_.error, " is out of reach: the nearest is ",
+                                  name(nearest->method.solver), " with ", nearest->substeps,
+                                  " substeps of a frame, fields by ", name(nearest->method.sampling),
+                                  ", which has an error of ", *nearest->error));
+    }
+
+    const CalibrationOptions& options_;
+    const AccuracyDevice& device_;
+    Scene few_, many_;
+    int frames_ = 60;
+    std::unique_ptr<ExactEnds> reference_;
+    std::vector<Run> runs_;
+};
+
+// Of what is simulated, whatever the scene says of solvers.
+Plan plainPlan(const Scene& scene) {
+    Scene plain = withMolecules(scene, manyOnGpu);
+    plain.solver.kind = SolverKind::bdf2Xpbd;
+    plain.solver.substeps = 1;
+    plain.solver.fieldSampling = FieldSampling::vertexSubstep;
+    return compile(plain);
+}
+
+}  // namespace
+
+Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device) {
+    if (!(options.error > 0 && options.error <= 1))
+        throw Error(concat("--error: expected a relative error above 0, at most 1, found ", options.error));
+    if (scene.groups.empty())
+        throw Error(Location{scene.file, 0, 0, {}}, "the scene has no molecules to calibrate");
+    const Clock::time_point start = Clock::now();
+    const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
+    if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
+    Calibration out = Search(scene, options, device).run();
+    out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    keepCalibration(options.folder, key, out);
+    return out;
+}
+
+void apply(const Calibration& calibration, Scene& scene) {
+    scene.solver.kind = calibration.method.solver;
+    scene.solver.fieldSampling = calibration.method.sampling;
+    scene.solver.substeps = calibration.substeps;
+}
+
+}  // namespace shoal::measure

@@ -1,0 +1,57 @@
+// The cheapest method, step and field sampling whose error on a scene is below a given one, found by
+// measuring: a few molecules against the reference, candidates in the order of what their substeps cost,
+// each bisected to the fewest substeps that do, and given up where it cannot beat the best any more.
+//
+// What was found is kept as a file under a hash of everything that it hangs on: the scene as compiled (with
+// its molecules), the error, what the search was narrowed to, the shaders, the driver, the version.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "measure/method_runner.h"
+
+namespace shoal::measure {
+
+struct CalibrationOptions {
+    double error = 1e-3;  // relative: see accuracy_reference.h
+    // What the search is narrowed to; empty: everything.
+    std::vector<SolverKind> solvers = {};
+    std::vector<FieldSampling> samplings = {};
+    std::optional<int> substeps = {};
+    double duration = 1;      // s of simulated time
+    int molecules = 4;        // of each group
+    std::string version;      // of the program
+    std::string folder = {};  // where results are kept; empty: nowhere
+};
+
+// How far one method got.
+struct Candidate {
+    Method method;
+    int substeps = 0;             // of a frame; 0: none was run
+    std::optional<double> error;  // at these
+    double cost = 0;              // s per vertex and simulated second, at these; 0: not known
+    bool reached = false;         // the error is below the one wanted
+    std::string why;              // what became of it
+};
+
+struct Calibration {
+    double target = 0;
+    Method method;
+    int substeps = 0;
+    double error = 0;  // measured
+    double cost = 0;   // s per vertex and simulated second
+    std::string why;
+    std::vector<Candidate> candidates;
+    bool kept = false;   // was found before
+    double seconds = 0;  // that the search took
+};
+
+// Error: no method gets there: which is best, with which step, how near; or the scene is chaotic.
+Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device);
+
+// The scene with what was found.
+void apply(const Calibration& calibration, Scene& scene);
+
+}  // namespace shoal::measure
