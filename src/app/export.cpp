@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "app/checkpoints.h"
 #include "core/file.h"
 
 namespace shoal::app {
@@ -70,13 +71,9 @@ std::string ply(Simulation& simulation, const Scene& scene) {
 }  // namespace
 
 std::string exportName(const std::string& target, int frame, bool several) {
-    const fs::path path(target);
-    const std::string extension = path.extension().string(), kind = lowerExtension(path);
-    char number[16];
-    std::snprintf(number, sizeof number, "-%05d", frame);
-    if (kind != ".csv" && kind != ".ply") return (path / ("state" + std::string(number) + ".csv")).string();
-    if (!several) return target;
-    return (path.parent_path() / (path.stem().string() + number + extension)).string();
+    const std::string kind = lowerExtension(target);
+    if (kind == ".csv" || kind == ".ply") return numbered(target, frame, several);
+    return numbered((fs::path(target) / "state.csv").string(), frame, true);
 }
 
 void exportState(const std::string& file, Simulation& simulation, const Scene& scene) {

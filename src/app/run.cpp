@@ -5,8 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <limits>
 #include <memory>
 
+#include "app/checkpoints.h"
 #include "app/data_paths.h"
 #include "app/export.h"
 #include "app/progress.h"
@@ -46,20 +48,16 @@ std::string defaultFolder(const std::string& sceneFile) {
     return "pictures/" + stem.substr(0, stem.find('.'));
 }
 
-bool exportsFrame(const Options& options, int frame, int last) {
-    if (options.exports.empty()) return false;
-    if (options.exportFrames.empty()) return frame == last;
-    return std::find(options.exportFrames.begin(), options.exportFrames.end(), frame) !=
-           options.exportFrames.end();
+// Such a run writes pictures.
+bool asksForNothing(const Options& options) {
+    return options.capture.empty() && options.exports.empty() && options.save.empty() && !options.json &&
+           !options.timings;
 }
 
 SimulationOptions simulationOptions(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
     SimulationOptions out;
     if (options.timings) out.timing = gpu::PassTimers::suitedTo(context.info());
-    // a run that asks for nothing writes pictures
-    const bool nothing =
-        options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
-    out.drawn = nothing || !options.capture.empty() || !options.exports.empty();
+    out.drawn = asksForNothing(options) || !options.capture.empty() || !options.exports.empty();
     out.path = options.path;
     out.lanes = options.lanes;
     out.inPlace = options.inPlace;
@@ -79,13 +77,17 @@ class HeadlessRun {
           simulation_(context, shaderRoot(), loaded_.plan, simulationOptions(options, context, cache_)) {
         tellWarnings(simulation_, cache_);
         report_.scene = options.files.front();
-        const bool nothingAsked =
-            options.capture.empty() && options.exports.empty() && !options.json && !options.timings;
+        resume(options, simulation_);
+        first_ = simulation_.frames();
+        if (frames_ > std::numeric_limits<int>::max() - first_)
+            throw Error(concat("--frames: ", frames_, " after frame ", first_, " are too many to count"));
+        last_ = first_ + frames_;
+        checkSave(options);
+        const bool nothingAsked = asksForNothing(options);
         const std::string target = nothingAsked ? defaultFolder(options.files.front()) : options.capture;
         every_ = nothingAsked ? std::max(1, frames_ / 8) : options.captureEvery;
-        for (const int frame : options.exportFrames)
-            if (frame > frames_)
-                throw Error(concat("--export-frames: frame ", frame, " is beyond the last, ", frames_));
+        checkFrames("--export-frames", options.exportFrames, first_, last_);
+        checkFrames("--save-frames", options.saveFrames, first_, last_);
         if (target.empty()) return;
         RenderOptions size;
         size.width = options.width;
@@ -100,8 +102,8 @@ class HeadlessRun {
         report_.start = context_.traffic();
         Progress progress("frames", frames_);
         const auto start = std::chrono::steady_clock::now();
-        outside([&] { exportIfAsked(0); });
-        for (int frame = 1; frame <= frames_; ++frame) {
+        outside([&] { writeIfAsked(first_); });
+        for (int frame = first_ + 1; frame <= last_; ++frame) {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
@@ -112,7 +114,7 @@ class HeadlessRun {
                     pictures_->write(renderer_->capture(), frame);
                     note(pictures_->last().string());
                 }
-                exportIfAsked(frame);
+                writeIfAsked(frame);
             });
             progress.step();
         }
@@ -164,16 +166,24 @@ class HeadlessRun {
         if (!file.empty() && (report_.written.empty() || report_.written.back() != file))
             report_.written.push_back(file);
     }
-    void exportIfAsked(int frame) {
-        if (!exportsFrame(options_, frame, frames_)) return;
-        const std::string file = exportName(options_.exports, frame, options_.exportFrames.size() > 1);
-        exportState(file, simulation_, loaded_.scene);
-        note(file);
+    // What frames leave in files beside pictures.
+    void writeIfAsked(int frame) {
+        if (!options_.exports.empty() && asksFor(options_.exportFrames, frame, last_)) {
+            const std::string file = exportName(options_.exports, frame, options_.exportFrames.size() > 1);
+            exportState(file, simulation_, loaded_.scene);
+            note(file);
+        }
+        if (!options_.save.empty() && asksFor(options_.saveFrames, frame, last_)) {
+            const std::string file = numbered(options_.save, frame, options_.saveFrames.size() > 1);
+            saveState(file, simulation_);
+            note(file);
+        }
     }
 
     const Options& options_;
     gpu::Context& context_;
     int frames_, every_ = 1;
+    int first_ = 0, last_ = 0;  // where the run goes on, where it ends
     Loaded loaded_;
     gpu::ProgramCache cache_;
     Simulation simulation_;

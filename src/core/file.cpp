@@ -1,9 +1,7 @@
 #include "core/file.h"
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 
 #include <unistd.h>
 
@@ -13,42 +11,31 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
-
-// Removes the unfinished file unless it was renamed into place.
-struct TemporaryFile {
-    fs::path path;
-    bool keep = false;
-    ~TemporaryFile() {
-        std::error_code ignored;
-        if (!keep) fs::remove(path, ignored);
-    }
-};
-
-}  // namespace
-
-std::string readFile(const fs::path& path, size_t maxBytes) {
-    const Location location{path.string(), 0, 0, {}};
+FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
-    if (status.type() == fs::file_type::not_found) throw Error(location, "no such file");
-    if (status.type() == fs::file_type::directory) throw Error(location, "is a folder, expected a file");
-    FilePointer file(std::fopen(path.c_str(), "rb"));
-    if (!file) throw Error(location, concat("cannot be read: ", std::strerror(errno)));
+    if (status.type() == fs::file_type::not_found) throw Error(location_, "no such file");
+    if (status.type() == fs::file_type::directory) throw Error(location_, "is a folder, expected a file");
+    file_.reset(std::fopen(path.c_str(), "rb"));
+    if (!file_) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+}
 
+size_t FileReader::read(void* data, size_t bytes) {
+    const size_t count = std::fread(data, 1, bytes, file_.get());
+    if (std::ferror(file_.get())) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    return count;
+}
+
+std::string readFile(const fs::path& path, size_t maxBytes) {
+    FileReader file(path);
     std::string bytes;
     char chunk[1 << 16];
-    while (const size_t count = std::fread(chunk, 1, sizeof chunk, file.get())) {
+    while (const size_t count = file.read(chunk, sizeof chunk)) {
         bytes.append(chunk, count);
         if (bytes.size() > maxBytes)
-            throw Error(location, concat("is larger than ", maxBytes, " bytes, the most that is read"));
+            throw Error(file.location(),
+                        concat("is larger than ", maxBytes, " bytes, the most that is read"));
     }
-    if (std::ferror(file.get())) throw Error(location, concat("cannot be read: ", std::strerror(errno)));
     return bytes;
 }
 
@@ -59,28 +46,47 @@ std::string lowerExtension(const fs::path& path) {
     return extension;
 }
 
-void writeFile(const fs::path& path, std::string_view bytes) {
-    const Location location{path.string(), 0, 0, {}};
+FileWriter::FileWriter(const fs::path& path) : path_(path) {
     std::error_code code;
     if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
     if (code)
         throw Error(Location{path.parent_path().string(), 0, 0, {}},
                     "cannot make this folder: " + code.message());
-    if (fs::is_directory(path, code)) throw Error(location, "is a folder, expected a file to write");
+    if (fs::is_directory(path, code))
+        throw Error(Location{path.string(), 0, 0, {}}, "is a folder, expected a file to write");
+    temporary_ = path.string() + ".part-" + std::to_string(::getpid());
+    file_.reset(std::fopen(temporary_.c_str(), "wb"));
+    if (!file_)
+        throw Error(Location{path.string(), 0, 0, {}}, concat("cannot be written: ", std::strerror(errno)));
+}
 
-    TemporaryFile temporary{path.string() + ".part-" + std::to_string(::getpid())};
-    FilePointer file(std::fopen(temporary.path.c_str(), "wb"));
-    if (!file) throw Error(location, concat("cannot be written: ", std::strerror(errno)));
-    const bool written = std::fwrite(bytes.data(), 1, bytes.size(), file.get()) == bytes.size() &&
-                         std::fflush(file.get()) == 0;
-    const int cause = errno;
-    const bool closed = std::fclose(file.release()) == 0;
-    if (!written || !closed)
-        throw Error(location, concat("cannot be written: ", std::strerror(written ? errno : cause),
-                                     " (nothing was kept)"));
-    fs::rename(temporary.path, path, code);
-    if (code) throw Error(location, concat("cannot be written: ", code.message()));
-    temporary.keep = true;
+FileWriter::~FileWriter() {
+    std::error_code ignored;
+    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+}
+
+void FileWriter::fail(int cause) const {
+    throw Error(Location{path_.string(), 0, 0, {}},
+                concat("cannot be written: ", std::strerror(cause), " (nothing was kept)"));
+}
+
+void FileWriter::write(const void* data, size_t bytes) {
+    if (std::fwrite(data, 1, bytes, file_.get()) != bytes) fail(errno);
+}
+
+void FileWriter::finish() {
+    if (std::fflush(file_.get()) != 0) fail(errno);
+    if (std::fclose(file_.release()) != 0) fail(errno);
+    std::error_code code;
+    fs::rename(temporary_, path_, code);
+    if (code) throw Error(Location{path_.string(), 0, 0, {}}, concat("cannot be written: ", code.message()));
+    temporary_.clear();
+}
+
+void writeFile(const fs::path& path, std::string_view bytes) {
+    FileWriter file(path);
+    file.write(bytes.data(), bytes.size());
+    file.finish();
 }
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {

@@ -7,6 +7,8 @@
 
 namespace shoal {
 
+struct Plan;
+
 struct Parameters {
     glm::dvec3 gravity{0};                        // m/s^2
     double wind = 1;                              // factor on every field
@@ -14,5 +16,8 @@ struct Parameters {
     int substeps = 4;                             // per frame
     double frameTime = 1.0 / 60;                  // s
 };
+
+// As the scene has them: no slider moved.
+Parameters parametersOf(const Plan& plan);
 
 }  // namespace shoal

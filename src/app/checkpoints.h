@@ -1,0 +1,28 @@
+// --save, --save-frames and --resume, of runs without and with a window.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/options.h"
+#include "simulate/simulation.h"
+
+namespace shoal::app {
+
+// Where a frame's file goes: "out.csv" becomes "out-00060.csv" where several frames are asked for.
+std::string numbered(const std::string& target, int frame, bool several);
+
+// Whether `frame` is among `frames`, or the last where there are none.
+bool asksFor(const std::vector<int>& frames, int frame, int last);
+// Error: one of them lies beyond the last, or before the first, which is 0 unless the run was resumed.
+void checkFrames(const char* option, const std::vector<int>& frames, int first, int last);
+
+// Goes on from the file that --resume names; without it nothing happens. Error: readCheckpoint's.
+void resume(const Options& options, Simulation& simulation);
+
+// Error: it could not be written at the end of the run either. Makes its folder.
+void checkSave(const Options& options);
+// Writes the state as it is. Error: cannot be written.
+void saveState(const std::string& file, const Simulation& simulation);
+
+}  // namespace shoal::app

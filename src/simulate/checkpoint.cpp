@@ -1,0 +1,219 @@
+#include "simulate/checkpoint.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "core/file.h"
+#include "simulate/checkpoint_head.h"
+
+namespace shoal {
+
+using checkpoint::Checksum;
+using checkpoint::Head;
+
+namespace {
+
+// As PNG's: the ends show a file that was sent as text or cut at once.
+constexpr char magic[8] = {'\x8c', 'S', 'h', 'o', 'a', 'l', '\r', '\n'};
+constexpr uint32_t ownOrder = 0x01020304, otherOrder = 0x04030201;
+constexpr uint64_t longestHead = uint64_t(1) << 24;  // bytes
+constexpr int mostSubsteps = 1000000;                // that sliders can ask for: substepsNeeded
+
+// ---- Reading
+
+void readAll(FileReader& file, void* data, size_t bytes) {
+    if (file.read(data, bytes) != bytes) throw Error(file.location(), "is cut short: its end is missing");
+}
+
+template <typename T>
+T readOne(FileReader& file) {
+    T value;
+    readAll(file, &value, sizeof value);
+    return value;
+}
+
+Head readHead(FileReader& file) {
+    const Location& location = file.location();
+    char start[sizeof magic] = {};
+    if (file.read(start, sizeof start) != sizeof start || std::memcmp(start, magic, sizeof magic) != 0)
+        throw Error(location, "is not a checkpoint of Shoal");
+    const auto order = readOne<uint32_t>(file);
+    if (order == otherOrder) throw Error(location, "was written by a machine with another byte order");
+    if (order != ownOrder) throw Error(location, "is damaged: its byte order is none");
+    const auto version = readOne<uint32_t>(file);
+    if (version != checkpointVersion)
+        throw Error(location, concat("is a checkpoint of version ", version, ", this program reads version ",
+                                     checkpointVersion));
+    const auto length = readOne<uint64_t>(file);
+    if (length > longestHead) throw Error(location, "is damaged: its head has no sensible length");
+    std::string bytes(size_t(length), '\0');
+    readAll(file, bytes.data(), bytes.size());
+    Checksum sum;
+    sum.add(version);
+    sum.add(length);
+    sum.add(bytes.data(), bytes.size());
+    if (readOne<uint64_t>(file) != sum.sum())
+        throw Error(location, "is damaged: the checksum of its head is wrong");
+    return checkpoint::unpack(bytes, location);
+}
+
+// All arrays of a group in the file's order. A new member of GroupState has to find its place here.
+template <typename State, typename Visit>
+void forEachArray(State& state, Visit visit) {
+    auto& [positions, velocities, anchors, released, displacements, velocityChanges] = state;
+    visit(positions);
+    visit(velocities);
+    visit(anchors);
+    visit(released);
+    visit(displacements);
+    visit(velocityChanges);
+}
+
+// Room for what the file holds; `history`: of a solver that remembers its last substep.
+GroupState emptyState(const GroupPlan& group, bool history) {
+    const size_t molecules = size_t(group.count), vertices = molecules * size_t(group.vertexCount);
+    GroupState state;
+    state.positions.resize(vertices);
+    state.velocities.resize(vertices);
+    state.anchors.resize(molecules);
+    state.released.resize(molecules);
+    state.displacements.resize(history ? vertices : 0);
+    state.velocityChanges.resize(history ? vertices : 0);
+    return state;
+}
+
+std::vector<GroupState> readBody(FileReader& file, const Head& head, const Plan& plan) {
+    Checksum sum;
+    std::vector<GroupState> groups;
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        GroupState& state = groups.emplace_back(emptyState(plan.groups[g], head.groups[g].history != 0));
+        forEachArray(state, [&](auto& values) {
+            const size_t bytes = values.size() * sizeof values[0];
+            readAll(file, values.data(), bytes);
+            sum.add(values.data(), bytes);
+        });
+    }
+    if (readOne<uint64_t>(file) != sum.sum())
+        throw Error(file.location(), "is damaged: the checksum of its state is wrong");
+    char more = 0;
+    if (file.read(&more, 1) != 0) throw Error(file.location(), "is damaged: something follows its end");
+    return groups;
+}
+
+// ---- What a run can go on from
+
+bool sensible(const Parameters& p) {
+    for (const double value :
+         {p.gravity.x, p.gravity.y, p.gravity.z, p.wind, p.drag, p.stiffness, p.damping, p.frameTime})
+        if (!std::isfinite(value)) return false;
+    return p.frameTime > 0 && p.substeps >= 1 && p.substeps <= mostSubsteps;
+}
+
+bool finite(const glm::vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// Checksums that fit do not make sense of what was never right.
+void checkHead(const Head& head, const Location& location) {
+    if (!std::isfinite(head.time) || !std::isfinite(head.step) || head.frames < 0 ||
+        !sensible(head.parameters) || !sensible(head.own))
+        throw Error(location,
+                    "nothing can go on from it: its time, frame number or parameters make no sense");
+}
+
+void checkState(const GroupState& state, const GroupPlan& group, const Location& location) {
+    const auto refuse = [&](const std::string& what) {
+        throw Error(location, concat("nothing can go on from it: group \"", group.name, "\"", what));
+    };
+    const size_t vertices = size_t(group.vertexCount);
+    forEachArray(state, [&](const auto& values) {
+        if constexpr (std::is_same_v<decltype(values[0]), const glm::vec3&>) {
+            const bool perVertex = values.size() == state.positions.size();
+            const auto wrong = std::find_if_not(values.begin(), values.end(), finite);
+            if (wrong == values.end()) return;
+            const size_t i = size_t(wrong - values.begin());
+            refuse(concat(", molecule ", perVertex ? i / vertices : i,
+                          perVertex ? concat(", vertex ", i % vertices) : std::string(), " is not finite"));
+        }
+    });
+    if (std::any_of(state.released.begin(), state.released.end(), [](uint8_t flag) { return flag > 1; }))
+        refuse(" has pins that neither hold nor let go");
+}
+
+// What a slider had been moved to, unless the scene has changed its mind since.
+template <typename T>
+T follow(const T& stood, const T& was, const T& is) {
+    return stood != was && was == is ? stood : is;
+}
+
+Parameters parametersNow(const Head& head, const Plan& plan) {
+    const Parameters &stood = head.parameters, &was = head.own, is = parametersOf(plan);
+    Parameters out;
+    out.gravity = follow(stood.gravity, was.gravity, is.gravity);
+    out.wind = follow(stood.wind, was.wind, is.wind);
+    out.drag = follow(stood.drag, was.drag, is.drag);
+    out.stiffness = follow(stood.stiffness, was.stiffness, is.stiffness);
+    out.damping = follow(stood.damping, was.damping, is.damping);
+    out.frameTime = follow(stood.frameTime, was.frameTime, is.frameTime);
+    out.substeps = follow(stood.substeps, was.substeps, is.substeps);
+    // as the sliders do: the step stays stable
+    if (out.stiffness != 1 || out.damping != 1)
+        out.substeps = substepsNeeded(plan, out.frameTime, out.stiffness, out.damping, out.substeps);
+    return out;
+}
+
+}  // namespace
+
+void writeCheckpoint(const std::filesystem::path& path, const Plan& plan, const Checkpoint& saved) {
+    const SavedState& state = saved.state;
+    Head content{state.time,       state.step,         state.frames,
+                 saved.parameters, parametersOf(plan), checkpoint::groupsOf(plan)};
+    for (size_t g = 0; g < state.groups.size(); ++g)
+        content.groups[g].history = state.groups[g].displacements.empty() ? 0 : 1;
+    const std::string head = checkpoint::pack(content);
+    FileWriter file(path);
+    Checksum sum;
+    const auto write = [&](const void* data, size_t bytes) {
+        file.write(data, bytes);
+        sum.add(data, bytes);
+    };
+    const auto finishPart = [&] {
+        const uint64_t value = std::exchange(sum, {}).sum();
+        file.write(&value, sizeof value);
+    };
+    const auto length = uint64_t(head.size());
+    file.write(magic, sizeof magic);
+    file.write(&ownOrder, sizeof ownOrder);
+    write(&checkpointVersion, sizeof checkpointVersion);
+    write(&length, sizeof length);
+    write(head.data(), head.size());
+    finishPart();
+    for (const GroupState& group : state.groups)
+        forEachArray(group,
+                     [&](const auto& values) { write(values.data(), values.size() * sizeof values[0]); });
+    finishPart();
+    file.finish();
+}
+
+Checkpoint readCheckpoint(const std::filesystem::path& path, const Plan& plan) {
+    FileReader file(path);
+    const Location& location = file.location();
+    const Head head = readHead(file);
+    const std::string differs = checkpoint::difference(head.groups, checkpoint::groupsOf(plan));
+    if (!differs.empty()) throw Error(location, concat("is of another scene: ", differs));
+    checkHead(head, location);
+    Checkpoint out;
+    out.parameters = parametersNow(head, plan);
+    out.state.time = head.time;
+    out.state.frames = head.frames;
+    out.state.step = head.step;
+    out.state.groups = readBody(file, head, plan);
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        checkState(out.state.groups[g], plan.groups[g], location);
+    return out;
+}
+
+}  // namespace shoal

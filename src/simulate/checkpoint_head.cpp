@@ -1,0 +1,168 @@
+#include "simulate/checkpoint_head.h"
+
+#include <utility>
+
+namespace shoal::checkpoint {
+
+namespace {
+
+// Which vertices the springs join, and their rest lengths; from the plan's table (compile/plan.h).
+uint64_t shapeOf(const Plan& plan, const GroupPlan& group) {
+    Checksum sum;
+    for (int v = 0; v < group.vertexCount; ++v) {
+        const glm::vec4 spans = plan.topology[size_t(group.topologyBase + v)];
+        sum.add(spans.y);
+        for (size_t s = 0; s < size_t(spans.y); ++s) {
+            const glm::vec4 spring = plan.topology[size_t(spans.x) + 2 * s];
+            sum.add(spring.x);
+            sum.add(spring.w);
+        }
+    }
+    return sum.sum();
+}
+
+uint64_t instancesOf(const GroupPlan& group) {
+    Checksum sum;
+    const auto add = [&](const auto& values) { sum.add(values.data(), values.size() * sizeof values[0]); };
+    add(group.constants.seeds);
+    add(group.constants.scales);
+    add(group.constants.phases);
+    return sum.sum();
+}
+
+}  // namespace
+
+std::vector<GroupHead> groupsOf(const Plan& plan) {
+    std::vector<GroupHead> out;
+    for (const GroupPlan& group : plan.groups)
+        out.push_back({group.name, group.count, group.vertexCount, group.springCount, shapeOf(plan, group),
+                       instancesOf(group)});
+    return out;
+}
+
+std::string difference(const std::vector<GroupHead>& saved, const std::vector<GroupHead>& here) {
+    if (saved.size() != here.size())
+        return concat("it had ", saved.size(), saved.size() == 1 ? " group" : " groups", ", this one has ",
+                      here.size());
+    for (size_t g = 0; g < saved.size(); ++g) {
+        const GroupHead &was = saved[g], &is = here[g];
+        if (was.name != is.name)
+            return concat("its group ", g + 1, " was \"", was.name, "\", here it is \"", is.name, "\"");
+        const std::string group = concat("its group \"", was.name, "\" had ");
+        if (was.count != is.count) return concat(group, was.count, " molecules, here it has ", is.count);
+        if (was.vertexCount != is.vertexCount)
+            return concat(group, "molecules of ", was.vertexCount, " vertices, here they have ",
+                          is.vertexCount);
+        if (was.springCount != is.springCount)
+            return concat(group, "molecules of ", was.springCount, " springs, here they have ",
+                          is.springCount);
+        if (was.shape != is.shape)
+            return concat(group, "springs between other vertices or of other rest lengths");
+        if (was.instances != is.instances)
+            return concat(group, "other seeds, sizes or muscle phases: another --seed or other ranges");
+    }
+    return {};
+}
+
+namespace {
+
+class Packer {
+  public:
+    template <typename T>
+    void add(const T& value) {
+        static_assert(std::is_arithmetic_v<T>);
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+    void add(const std::string& text) {
+        add(uint32_t(text.size()));
+        bytes += text;
+    }
+    void add(const Parameters& p) {
+        for (const double value :
+             {p.gravity.x, p.gravity.y, p.gravity.z, p.wind, p.drag, p.stiffness, p.damping, p.frameTime})
+            add(value);
+        add(int32_t(p.substeps));
+    }
+    std::string bytes;
+};
+
+class Unpacker {
+  public:
+    Unpacker(const std::string& bytes, const Location& location) : bytes_(bytes), location_(location) {}
+    template <typename T>
+    void take(T& value) {
+        static_assert(std::is_arithmetic_v<T>);
+        std::memcpy(&value, piece(sizeof value), sizeof value);
+    }
+    void take(std::string& text) {
+        uint32_t length = 0;
+        take(length);
+        text.assign(piece(length), length);
+    }
+    void take(Parameters& p) {
+        for (double* value : {&p.gravity.x, &p.gravity.y, &p.gravity.z, &p.wind, &p.drag, &p.stiffness,
+                              &p.damping, &p.frameTime})
+            take(*value);
+        int32_t substeps = 0;
+        take(substeps);
+        p.substeps = substeps;
+    }
+    bool atEnd() const { return at_ == bytes_.size(); }
+
+  private:
+    const char* piece(size_t bytes) {
+        if (bytes > bytes_.size() - at_) throw Error(location_, "is damaged: its head does not fit together");
+        return bytes_.data() + std::exchange(at_, at_ + bytes);
+    }
+    const std::string& bytes_;
+    const Location& location_;
+    size_t at_ = 0;
+};
+
+}  // namespace
+
+std::string pack(const Head& head) {
+    Packer out;
+    out.add(head.time);
+    out.add(head.step);
+    out.add(head.frames);
+    out.add(uint32_t(head.groups.size()));
+    out.add(head.parameters);
+    out.add(head.own);
+    for (const GroupHead& group : head.groups) {
+        out.add(group.name);
+        out.add(group.count);
+        out.add(group.vertexCount);
+        out.add(group.springCount);
+        out.add(group.shape);
+        out.add(group.instances);
+        out.add(group.history);
+    }
+    return out.bytes;
+}
+
+Head unpack(const std::string& bytes, const Location& location) {
+    Unpacker in(bytes, location);
+    Head head;
+    uint32_t groups = 0;
+    in.take(head.time);
+    in.take(head.step);
+    in.take(head.frames);
+    in.take(groups);
+    in.take(head.parameters);
+    in.take(head.own);
+    for (uint32_t g = 0; g < groups; ++g) {
+        GroupHead& group = head.groups.emplace_back();
+        in.take(group.name);
+        in.take(group.count);
+        in.take(group.vertexCount);
+        in.take(group.springCount);
+        in.take(group.shape);
+        in.take(group.instances);
+        in.take(group.history);
+    }
+    if (!in.atEnd()) throw Error(location, "is damaged: its head does not fit together");
+    return head;
+}
+
+}  // namespace shoal::checkpoint
