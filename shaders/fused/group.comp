@@ -1,5 +1,6 @@
 // The fused step, one workgroup a molecule and a lane a vertex: for molecules that do not fit one lane's registers.
 // The vertices lie in shared memory; the springs around a vertex come from the topology table.
+#include "fused/watch.glsl"
 #include "physics/anchor.glsl"
 
 layout(std430, binding = 0) writeonly buffer NewState { float newState[]; };
@@ -93,6 +94,9 @@ void main()
     run();
     finishSolver();
     storeState(first);
+#ifdef WATCH
+    watch();
+#endif
 #ifdef RECORDS
     if (gl_LocalInvocationID.x == 0u && (moved || released != wasReleased)) newRecords[molecule] = recordNow();
 #endif

@@ -1,4 +1,5 @@
 // The fused step, one lane a molecule: reads it once, runs all substeps of the frame in registers, writes it once.
+#include "fused/watch.glsl"
 #include "physics/anchor.glsl"
 
 #ifdef PAIRED_STORES
@@ -100,6 +101,9 @@ void main()
     run();
     finishSolver();
     storeState(molecule);
+#ifdef WATCH
+    watch();
+#endif
 #ifdef RECORDS
     if (moved || released != wasReleased) newRecords[molecule] = recordNow();
 #endif

@@ -72,6 +72,10 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
     if (scene.solver.kind) {
         out.solver = *scene.solver.kind;
         out.solverWhy = "as the scene says";
+        if (out.solver == SolverKind::bdf2Corotated && !out.needs.springs) {
+            out.solver = SolverKind::bdf2Xpbd;
+            out.solverWhy = "bdf2-corotated without springs is the same";
+        }
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";

@@ -46,6 +46,7 @@ static std::string kernelParts(const GroupPlan& group) {
     with(needs.fields, "fields");
     with(needs.collide, "contact");
     with(needs.normals, "normals where drawn");
+    with(true, "watched");
     return parts;
 }
 

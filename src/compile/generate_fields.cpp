@@ -39,6 +39,12 @@ class Emitter {
   private:
     std::string emit(const UniformField& f) { return slot(f.velocity) + ".xyz"; }
 
+    std::string emit(const OscillatingField& f) {
+        const std::string v = slot(f.velocity, 2 * std::numbers::pi * f.frequency);
+        const std::string p = slot({f.phase, 0, 0});
+        return concat("oscillatingVelocity(time, ", v, ".xyz, ", v, ".w, ", p, ".x)");
+    }
+
     std::string emit(const GustField& f) {
         const glm::dvec3 along = glm::normalize(f.direction);
         // an axis across: horizontal unless the wind blows vertically
@@ -128,7 +134,7 @@ std::string inComment(const std::string& name) {
 }
 
 const char* kindName(const FieldShape& shape) {
-    static constexpr const char* names[] = {"uniform", "gust",        "shear",     "vortex",
+    static constexpr const char* names[] = {"uniform", "oscillating", "gust",      "shear", "vortex",
                                             "abc",     "taylorGreen", "curlNoise", "grid"};
     return names[shape.index()];
 }

@@ -1,44 +1,27 @@
 #include "compile/kernel.h"
 
 #include <algorithm>
-#include <charconv>
 #include <numbers>
 
+#include "compile/corotated.h"
+#include "compile/glsl_text.h"
 #include "core/error.h"
 
 namespace shoal {
 
 namespace {
 
-// The shortest text of a float that reads back as the same float, and as a float in GLSL.
-std::string literal(double value) {
-    char text[32];
-    const auto end = std::to_chars(text, text + sizeof text, float(value)).ptr;
-    std::string out(text, end);
-    if (out.find_first_of(".en") == std::string::npos) out += ".0";
-    return out;
-}
-
 std::string at(const char* array, int index) {
     return concat(array, "[", index, "]");
-}
-
-// const float inverseMass[VERTICES] = float[](...)
-template <typename Value>
-std::string constantArray(const char* type, const char* name, size_t count, Value value) {
-    std::string out = concat("const ", type, " ", name, "[VERTICES] = ", type, "[](");
-    for (size_t i = 0; i < count; ++i)
-        out += (i == 0 ? "" : ", ") + value(i);
-    return out + ");\n";
 }
 
 std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     const size_t count = molecule.vertices.size();
     std::string out = concat("// ", count, " vertices, ", molecule.springs.size(), " springs, ",
                              molecule.triangles.size(), " triangles\n");
-    out += constantArray("float", "inverseMass", count,
-                         [&](size_t v) { return literal(1 / molecule.vertices[v].mass); });
-    out += constantArray("bool", "pinned", count, [&](size_t v) {
+    out += glslArray("float", "inverseMass", count,
+                     [&](size_t v) { return glslLiteral(1 / molecule.vertices[v].mass); });
+    out += glslArray("bool", "pinned", count, [&](size_t v) {
         return std::string(needs.pins && molecule.vertices[v].pinned ? "true" : "false");
     });
     if (needs.release) {
@@ -52,26 +35,26 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
-    return out + concat("    return sum * ", literal(1 / double(count)), ";\n}\n");
+    return out + concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
 }
 
 std::string restLength(const Molecule& molecule, const Spring& spring, const Needs& needs) {
-    std::string length = literal(molecule.restLength(spring));
+    std::string length = glslLiteral(molecule.restLength(spring));
     if (needs.scale) length += " * scale";
     if (!spring.actuation || spring.actuation->amplitude == 0) return length;
     const Actuation& muscle = *spring.actuation;
-    return concat("actuatedLength(", length, ", ", literal(muscle.amplitude), ", ",
-                  literal(2 * std::numbers::pi * muscle.frequency), " * time + ", literal(muscle.phase),
-                  needs.phase ? " + phase)" : ")");
+    return concat("actuatedLength(", length, ", ", glslLiteral(muscle.amplitude), ", ",
+                  glslLiteral(2 * std::numbers::pi * muscle.frequency), " * time + ",
+                  glslLiteral(muscle.phase), needs.phase ? " + phase)" : ")");
 }
 
 // `bounded`: to a distance constraint (shaders/solver/verlet.glsl).
 std::string stiffness(const Molecule& molecule, const Spring& spring, bool bounded) {
-    const std::string plain = concat(literal(spring.stiffness), " * stiffnessFactor");
+    const std::string plain = concat(glslLiteral(spring.stiffness), " * stiffnessFactor");
     if (!bounded) return plain;
     const double weight =
         1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
-    return concat("min(", plain, ", ", literal(1 / weight), " / (substep * substep))");
+    return concat("min(", plain, ", ", glslLiteral(1 / weight), " / (substep * substep))");
 }
 
 std::string springText(const Molecule& molecule, const Needs& needs, bool bounded) {
@@ -83,7 +66,7 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool bounde
         const std::string relative =
             spring.damping > 0 ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
         out += concat("    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ", relative,
-                      ", ", stiffness(molecule, spring, bounded), ", ", literal(spring.damping),
+                      ", ", stiffness(molecule, spring, bounded), ", ", glslLiteral(spring.damping),
                       " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    ",
                       at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
     }
@@ -99,11 +82,29 @@ std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward
         const size_t index = forward ? i : count - 1 - i;
         const Spring& spring = molecule.springs[index];
         const std::string damping =
-            spring.damping > 0 ? concat(literal(spring.damping), " * dampingFactor * inverseEta") : "0.0";
+            spring.damping > 0 ? concat(glslLiteral(spring.damping), " * dampingFactor * inverseEta") : "0.0";
         if (forward) out += concat("    lambda[", index, "] = 0.0;\n");
         out += concat("    relax(RELAXED(", spring.a, ", ", spring.b, "), lambda[", index, "], ",
-                      literal(spring.stiffness), " * stiffnessFactor, ", damping, ", ",
+                      glslLiteral(spring.stiffness), " * stiffnessFactor, ", damping, ", ",
                       restLength(molecule, spring, needs), ");\n");
+    }
+    return out + "}\n";
+}
+
+// The springs' forces inside a stage.
+std::string stageText(const Molecule& molecule, const Needs& needs) {
+    std::string out =
+        "\n// Adds the springs' forces at x + q, with the stage's velocity.\n"
+        "void stageForces(float time, float inverseEta)\n{\n    vec3 f;\n";
+    for (const Spring& spring : molecule.springs) {
+        const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
+        const std::string relative =
+            spring.damping > 0 ? concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta")
+                               : "vec3(0.0)";
+        out += concat("    f = springForce((x", a, " - x", b, ") + (q", a, " - q", b, "), ", relative, ", ",
+                      stiffness(molecule, spring, false), ", ", glslLiteral(spring.damping),
+                      " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    force", a,
+                      " += f;\n    force", b, " -= f;\n");
     }
     return out + "}\n";
 }
@@ -211,6 +212,8 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     if (needs.normals) text.forces += normalText(molecule);
     if (solver.implicit && needs.springs)
         text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);
+    if (solver.kind == SolverKind::bdf2Corotated)
+        text.sweeps += stageText(molecule, needs) + corotatedText(molecule, needs.pins);
     text.packing = packingText(molecule, needs, solver.history);
     return text;
 }

@@ -115,6 +115,7 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
     if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::substep, "the molecule has springs");
     if (needs.normals) add(PassKind::normals, When::frameEnd, "drawn, or exported, with its normals");
+    add(PassKind::watch, When::frameEnd, "stops a run whose state is not finite or too fast");
 }
 
 int tableRows(std::vector<glm::vec4>& table) {
@@ -126,7 +127,7 @@ int tableRows(std::vector<glm::vec4>& table) {
 }  // namespace
 
 const char* name(PassKind kind) {
-    static constexpr const char* names[] = {"records", "normals", "restore", "advect", "collide"};
+    static constexpr const char* names[] = {"records", "normals", "restore", "advect", "collide", "watch"};
     return names[size_t(kind)];
 }
 
@@ -161,6 +162,7 @@ Plan compile(const Scene& scene) {
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
+        if (group.solver == SolverKind::bdf2Corotated) group.shape = scene.groups[i].molecule;
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }

@@ -55,11 +55,12 @@ struct GroupPlan {
     GroupState start;
     GroupConstants constants;
     KernelText kernel;  // of the fused path
+    Molecule shape;     // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
 };
 
-enum class PassKind { records, normals, restore, advect, collide };
+enum class PassKind { records, normals, restore, advect, collide, watch };
 const char* name(PassKind kind);
 
 struct PassPlan {

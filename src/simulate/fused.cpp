@@ -12,7 +12,7 @@ namespace unit {
 constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4;
 }
 namespace binding {
-constexpr int newState = 0, newRecords = 1, newNormals = 2;
+constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
 }
 
 void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
@@ -36,6 +36,8 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
              const FusedOptions& options)
     : plan_(&plan), tables_(&tables), drawn_(options.drawn) {
     const gpu::ContextInfo& info = context.info();
+    constexpr uint32_t fine = 0;
+    if (options.watch) alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
@@ -43,6 +45,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.normals = options.drawn;
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
+        kernel.watch = options.watch;
         const size_t perWorkgroup =
             kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
         state.emplace_back(context, group, options.drawn, options.inPlace,
@@ -54,6 +57,11 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         made.lanes = kernel.lanes;
         made.step = Program(context, shaderRoot, program);
         made.step.use();
+        if (group.solver == SolverKind::bdf2Corotated && group.needs.springs) {
+            const size_t bytes = size_t(corotatedBlockSize(group.vertexCount)) * sizeof(glm::vec4);
+            made.inverse = gpu::Buffer(context, gpu::Buffer::Use::uniform, nullptr, bytes, "inverse");
+            made.step.uniformBlock("Inverse", 0, made.inverse);
+        }
         if (group.needs.fields)
             made.step.set("givenFieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (group.needs.collide)
@@ -92,6 +100,24 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenRestarts", int(frame.restarts));
 }
 
+// Only a change of the step or of a slider makes a new one.
+void Fused::updateInverse(size_t index, const Frame& frame) {
+    Kernel& kernel = kernels_[index];
+    if (!kernel.inverse) return;
+    const GroupPlan& group = plan_->groups[index];
+    const Parameters& parameters = frame.parameters;
+    const CorotatedStage stage{
+        2 * frame.h / 3, std::max(group.drag.normal, group.drag.tangent) * parameters.drag,
+        group.stiffness * parameters.stiffness, group.damping * parameters.damping, group.needs.pins};
+    if (!(stage == kernel.stage)) {
+        kernel.stage = stage;
+        const std::vector<glm::vec4> inverse = corotatedInverse(group.shape, stage);
+        kernel.inverse.update(gpu::Traffic::Kind::parameters, 0, inverse.data(),
+                              inverse.size() * sizeof(glm::vec4));
+    }
+    kernel.inverse.bindUniform(0);
+}
+
 void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     const GroupPlan& group = plan_->groups[index];
     const GroupBuffers& buffers = state[index];
@@ -124,11 +150,24 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         const Program& program = kernels_[g].step;
         program.use();
         setUniforms(program, plan_->groups[g], frame);
+        if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
+        updateInverse(g, frame);
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);
         state[g].flip();
     }
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+}
+
+bool Fused::alarmed() const {
+    uint32_t raised = 0;
+    if (alarm_) alarm_.download(gpu::Traffic::Kind::control, 0, &raised, sizeof raised);
+    return raised != 0;
+}
+
+void Fused::disarm() {
+    constexpr uint32_t fine = 0;
+    if (alarm_) alarm_.update(gpu::Traffic::Kind::control, 0, &fine, sizeof fine);
 }
 
 void Fused::computeNormals(gpu::PassTimers& timers) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "compile/corotated.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
@@ -20,6 +21,7 @@ struct FusedOptions {
     bool inPlace = false;            // one side instead of two: half the memory
     Lanes lanes = Lanes::automatic;  // how molecules are spread
     gpu::ProgramCache* cache = nullptr;
+    bool watch = false;  // for states that run away (simulate/watchdog.h)
 };
 
 class Fused {
@@ -34,12 +36,18 @@ class Fused {
 
     std::vector<GroupBuffers> state;  // per group
     Lanes lanes(size_t group) const { return kernels_[group].lanes; }
+    // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
+    bool alarmed() const;
+    void disarm();
 
   private:
     struct Kernel {
         Lanes lanes = Lanes::molecule;
         gpu::Program step, normals;
+        gpu::Buffer inverse;  // bdf2-corotated: its matrix, of the stage below
+        CorotatedStage stage;
     };
+    void updateInverse(size_t index, const Frame& frame);
     void setUniforms(const gpu::Program& program, const GroupPlan& group, const Frame& frame) const;
     void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
@@ -48,6 +56,7 @@ class Fused {
     const Tables* tables_;
     bool drawn_;
     std::vector<Kernel> kernels_;
+    gpu::Buffer alarm_;  // one word; where watched
 };
 
 // Of a context, for compile/path.h.
