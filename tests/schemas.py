@@ -53,6 +53,8 @@ broken_scenes = [
     (["solver"], {"substeps": 0}),
     (["fields"], [{"type": "wind"}]),
     (["fields"], [{"type": "uniform"}]),
+    (["fields"], [{"type": "oscillating", "velocity": [1, 0, 0]}]),
+    (["fields"], [{"type": "oscillating", "velocity": [1, 0, 0], "frequency": -1}]),
     (["fields"], [{"type": "gust", "velocity": [1, 0, 0]}]),
     (["colliders"], [{"type": "box"}]),
     (["colliders"], [{"type": "plane", "restitution": 1.5}]),

@@ -3,6 +3,12 @@
 // Read as C++ through GLM by the tests. Needs physics/noise.glsl.
 #include "physics/noise.glsl"
 
+// angularFrequency in rad/s; start: the angle at time 0, rad.
+vec3 oscillatingVelocity(float time, vec3 velocity, float angularFrequency, float start)
+{
+    return velocity * sin(angularFrequency * time + start);
+}
+
 // along, across1, across2: an orthonormal frame; size = (length, width); frozen turbulence that travels.
 // n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of about 0.4.
 vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, float strength, float frontSpeed,

@@ -15,6 +15,10 @@ glm::dvec3 velocity(const UniformField& field, const glm::dvec3&, double) {
     return field.velocity;
 }
 
+glm::dvec3 velocity(const OscillatingField& field, const glm::dvec3&, double time) {
+    return field.velocity * std::sin(twoPi * field.frequency * time + field.phase);
+}
+
 glm::dvec3 velocity(const GustField& field, const glm::dvec3& x, double time) {
     const glm::dvec3 along = glm::normalize(field.direction);
     const glm::dvec3 across = gustAcross(along);

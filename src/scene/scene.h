@@ -28,6 +28,13 @@ struct UniformField {
     glm::dvec3 velocity{0};  // m/s
 };
 
+// The same everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
+struct OscillatingField {
+    glm::dvec3 velocity{0};  // m/s, at the peak
+    double frequency = 1;    // Hz, at least 0
+    double phase = 0;        // rad
+};
+
 // Direction constant, strength varied in space and time: fronts of size length x width travel along the
 // direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
 // octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
@@ -93,8 +100,8 @@ struct GridField {
     bool wrap = false;              // repeat outside the bounds, else clamp to the border
 };
 
-using FieldShape = std::variant<UniformField, GustField, ShearField, VortexField, AbcField, TaylorGreenField,
-                                CurlNoiseField, GridField>;
+using FieldShape = std::variant<UniformField, OscillatingField, GustField, ShearField, VortexField, AbcField,
+                                TaylorGreenField, CurlNoiseField, GridField>;
 
 struct Field {
     std::string name;

@@ -14,6 +14,14 @@ UniformField readUniform(JsonReader& r) {
     return field;
 }
 
+OscillatingField readOscillating(JsonReader& r) {
+    OscillatingField field;
+    r.need("velocity", field.velocity);
+    r.need("frequency", field.frequency, Range::atLeast(0));
+    r.get("phase", field.phase);
+    return field;
+}
+
 uint32_t getSeed(JsonReader& r) {
     uint64_t seed = 0;
     if (r.get("seed", seed) && seed > 0xFFFFFFFFu)
@@ -112,21 +120,25 @@ GridField readGrid(JsonReader& r) {
 FieldShape readShape(JsonReader& r) {
     int type = 0;
     r.require("type");
-    r.choose("type", {"uniform", "gust", "shear", "vortex", "abc", "taylorGreen", "curlNoise", "grid"}, type);
+    r.choose("type",
+             {"uniform", "oscillating", "gust", "shear", "vortex", "abc", "taylorGreen", "curlNoise", "grid"},
+             type);
     switch (type) {
     case 0:
         return readUniform(r);
     case 1:
-        return readGust(r);
+        return readOscillating(r);
     case 2:
-        return readShear(r);
+        return readGust(r);
     case 3:
-        return readVortex(r);
+        return readShear(r);
     case 4:
-        return readAbc(r);
+        return readVortex(r);
     case 5:
-        return readTaylorGreen(r);
+        return readAbc(r);
     case 6:
+        return readTaylorGreen(r);
+    case 7:
         return readCurlNoise(r);
     default:
         return readGrid(r);

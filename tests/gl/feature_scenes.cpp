@@ -220,7 +220,8 @@ std::vector<Field> everyField() {
                            field(abc),
                            field(cells),
                            field(eddies),
-                           field(grid)};
+                           field(grid),
+                           field(OscillatingField{{1, -0.4, 2}, 3, 0.6})};
     out[0].weight = 0.8;
     out[2].weight = 0.5;
     out[3].box = Box{{-1.5, -5, -1.5}, {1.5, 6, 1.5}};

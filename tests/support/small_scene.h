@@ -44,7 +44,7 @@ inline const char* const smallScene = R"({
     {"type": "abc", "a": 1, "b": 2, "c": 3, "wavelength": 4},
     {"type": "taylorGreen", "speed": 2, "wavelength": 3},
     {"type": "curlNoise", "speed": 0.5, "length": 1, "period": 3, "octaves": 4},
-    {"type": "grid", "file": "wind.fga", "axes": "zUp", "scale": 2, "outside": "wrap", "origin": [0, 1, 0]}
+    {"type": "grid", "file": "wind.fga", "axes": "zUp", "scale": 2, "outside": "wrap", "origin": [0, 1, 0]}, {"type": "oscillating", "velocity": [0.5, 0, 2], "frequency": 1.5, "phase": -0.25}
   ],
   "colliders": [
     {"type": "plane", "normal": [0, 3, 0], "restitution": 0.9, "friction": 0, "draw": false},

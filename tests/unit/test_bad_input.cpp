@@ -113,6 +113,8 @@ TEST_CASE("bad input: values of a scene", "[badInput]") {
         {"[[1, 2, 3], [4, 5, 6], [7, 8, 9]]", "[[1, 2, 3], [4, 5, 6]]", "three rows of three numbers", ""},
         {"\"direction\": [0, 0, 4]", "\"direction\": [0, 0, 0]", "expected a direction", "found zero"},
         {"\"octaves\": 4", "\"octaves\": 5", "from 1 to 4", "found 5"},
+        {"\"frequency\": 1.5, ", "", "missing", "$.fields[8]"},
+        {"\"frequency\": 1.5", "\"frequency\": -1", "expected a number", "$.fields[8].frequency"},
         {"\"seed\": 5", "\"seed\": 4294967296", "at most 4294967295", "$.fields[1].seed"},
         {"\"restitution\": 0.9", "\"restitution\": 1.1", "from 0 to 1", "$.colliders[0].restitution"},
         {"\"model\": \"hill\", \"resolution\"", "\"model\": \"hall\", \"resolution\"",

@@ -67,6 +67,12 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
               return shader::shearVelocity(x, vec3(shear.velocity), rows[0], rows[1], rows[2]);
           }) < 3e-6);  // numbers up to 8
 
+    // 3 m/s of a sine whose argument, up to 44, has lost 4e-6
+    const OscillatingField oscillating{{1, -2, 2}, 1.5, 0.5};
+    CHECK(worst(oscillating, [&](vec3, float time) {
+              return shader::oscillatingVelocity(time, {1, -2, 2}, 3 * std::numbers::pi_v<float>, 0.5f);
+          }) < 1.5e-5);
+
     VortexField vortex;
     vortex.axis = glm::normalize(dvec3(1, 2, 0.5));
     vortex.lift = 0.7;

@@ -25,6 +25,12 @@ static glm::dvec3 sample(int i) {
 TEST_CASE("closed-form fields", "[reference][field]") {
     same(fieldVelocity(UniformField{{1, 2, 3}}, {9, 9, 9}, 4), {1, 2, 3});
 
+    const OscillatingField oscillating{{1, 2, -4}, 0.5, pi / 6};  // a turn in 2 s
+    same(fieldVelocity(oscillating, {9, 9, 9}, 0), {0.5, 1, -2});
+    same(fieldVelocity(oscillating, {9, 9, 9}, 1 / 3.0), {1, 2, -4});
+    same(fieldVelocity(oscillating, {-9, 0, 9}, 1 / 3.0 + 7), {-1, -2, 4});
+    same(fieldVelocity(OscillatingField{{1, 2, 3}, 0, 0}, {9, 9, 9}, 5), {0, 0, 0});
+
     ShearField shear;
     shear.origin = {1, 1, 1};
     shear.velocity = {2, 0, 0};

@@ -43,7 +43,7 @@ TEST_CASE("a scene keeps what its file says", "[scene]") {
 TEST_CASE("a scene's fields", "[scene]") {
     const Scratch scratch;
     const Scene scene = readScene(writeSmallScene(scratch));
-    REQUIRE(scene.fields.size() == 8);
+    REQUIRE(scene.fields.size() == 9);
     CHECK(scene.fields[0].name == "wind");
     CHECK(scene.fields[0].weight == 0.5);
     REQUIRE(scene.fields[0].box);
@@ -64,6 +64,10 @@ TEST_CASE("a scene's fields", "[scene]") {
     CHECK(grid.wrap);
     CHECK(grid.low == glm::dvec3(-2, -1, -2));
     CHECK(grid.values.at(1) == glm::vec3(3, -0.5f, 0));
+    const OscillatingField& oscillating = shape<OscillatingField>(scene.fields[8]);
+    CHECK(oscillating.velocity == glm::dvec3(0.5, 0, 2));
+    CHECK(oscillating.frequency == 1.5);
+    CHECK(oscillating.phase == -0.25);
 }
 
 TEST_CASE("a scene's models and colliders", "[scene]") {

@@ -133,7 +133,8 @@ std::vector<Field> everyField() {
             field(vertical, true),       field(ShearField{}),
             field(VortexField{}),        field(AbcField{}),
             field(TaylorGreenField{}),   field(eddies),
-            field(std::move(clamped)),   field(std::move(wrapped), true)};
+            field(std::move(clamped)),   field(std::move(wrapped), true),
+            field(OscillatingField{})};
 }
 
 std::vector<Collider> everyCollider() {
