@@ -1,20 +1,18 @@
 #include "reference/problem.h"
 
 #include <cmath>
+#include <numbers>
 
-#include "reference/fields.h"
+#include "reference/equations.h"
 
 namespace shoal::reference {
 
 namespace {
 
-// Ends closer than this have no direction between them.
-constexpr double coincident = 1e-12;
-
 double restLength(const Problem& problem, const Spring& spring, double time) {
     double length = problem.scale * problem.molecule->restLength(spring);
     if (const auto& muscle = spring.actuation) {
-        const double turns = 2 * std::acos(-1.0) * muscle->frequency * time;
+        const double turns = 2 * std::numbers::pi * muscle->frequency * time;
         length *= 1 + muscle->amplitude * std::sin(turns + muscle->phase + problem.phase);
     }
     return length;
@@ -22,6 +20,13 @@ double restLength(const Problem& problem, const Spring& spring, double time) {
 
 glm::dvec3 freeVelocity(const Problem& problem, const Vectors& velocity, size_t vertex) {
     return problem.pinned(vertex) ? glm::dvec3(0) : velocity[vertex];
+}
+
+Vectors freeVelocities(const Problem& problem, const Vectors& velocity) {
+    Vectors out(velocity.size());
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = freeVelocity(problem, velocity, i);
+    return out;
 }
 
 }  // namespace
@@ -39,58 +44,35 @@ State restState(const Problem& problem, const Instance& instance, const glm::dve
 
 Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
                            double time) {
-    Vectors out(position.size(), glm::dvec3(0));
-    for (const Spring& spring : problem.molecule->springs) {
-        const size_t a = size_t(spring.a), b = size_t(spring.b);
-        const glm::dvec3 d = position[a] - position[b];
-        const double length = glm::length(d);
-        if (length < coincident) continue;
-        const glm::dvec3 n = d / length;
-        const glm::dvec3 approach = freeVelocity(problem, velocity, a) - freeVelocity(problem, velocity, b);
-        const double pull =
-            problem.stiffness * spring.stiffness * (length - restLength(problem, spring, time)) +
-            problem.damping * spring.damping * glm::dot(n, approach);
-        out[a] -= pull * n;
-        out[b] += pull * n;
-    }
-    for (size_t i = 0; i < out.size(); ++i) {
-        out[i] = problem.pinned(i) ? glm::dvec3(0) : out[i] / problem.molecule->vertices[i].mass;
-    }
+    Vectors out;
+    Equations(problem).springs(position, freeVelocities(problem, velocity), time, out);
     return out;
 }
 
-Vectors normals(const Problem& problem, const Vectors& position) {
-    Vectors sum(position.size(), glm::dvec3(0));
-    for (const Triangle& triangle : problem.molecule->triangles) {
+void sumNormals(const Molecule& molecule, const Vectors& position, Vectors& out) {
+    out.assign(position.size(), glm::dvec3(0));
+    for (const Triangle& triangle : molecule.triangles) {
         const size_t a = size_t(triangle.a), b = size_t(triangle.b), c = size_t(triangle.c);
         const glm::dvec3 area = glm::cross(position[b] - position[a], position[c] - position[a]);
-        sum[a] += area;
-        sum[b] += area;
-        sum[c] += area;
+        out[a] += area;
+        out[b] += area;
+        out[c] += area;
     }
-    for (glm::dvec3& n : sum) {
+    for (glm::dvec3& n : out) {
         const double length = glm::length(n);
         n = length > 0 ? n / length : glm::dvec3(0);
     }
-    return sum;
+}
+
+Vectors normals(const Problem& problem, const Vectors& position) {
+    Vectors out;
+    sumNormals(*problem.molecule, position, out);
+    return out;
 }
 
 Vectors acceleration(const Problem& problem, const State& state) {
-    Vectors out = springAcceleration(problem, state.position, state.velocity, state.time);
-    const Drag& drag = problem.drag;
-    Vectors normal;
-    if (drag.directional()) normal = normals(problem, state.position);
-    for (size_t i = 0; i < out.size(); ++i) {
-        if (problem.pinned(i)) continue;
-        out[i] += problem.gravity;
-        if (!drag.any()) continue;
-        const glm::dvec3 slip =
-            fluidVelocity(problem.fields, state.position[i], state.time) - state.velocity[i];
-        out[i] += drag.tangent * slip;
-        if (drag.directional()) {
-            out[i] += (drag.normal - drag.tangent) * glm::dot(slip, normal[i]) * normal[i];
-        }
-    }
+    Vectors out;
+    Equations(problem).everything(state.position, freeVelocities(problem, state.velocity), state.time, out);
     return out;
 }
 

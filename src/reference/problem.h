@@ -25,6 +25,7 @@ struct Problem {
     glm::dvec3 gravity{0};               // m/s^2
     Drag drag{};
     std::vector<Field> fields{};
+    std::vector<Collider> colliders{};  // pinned vertices pass through them
 
     bool pinned(size_t vertex) const { return held && molecule->vertices[vertex].pinned; }
 };
@@ -47,6 +48,8 @@ Vectors springAcceleration(const Problem& problem, const Vectors& position, cons
                            double time);
 // Unit normals: the sum of the area vectors of the triangles around a vertex; 0 where that vanishes.
 Vectors normals(const Problem& problem, const Vectors& position);
+// The same into `out`, for loops that should not allocate.
+void sumNormals(const Molecule& molecule, const Vectors& position, Vectors& out);
 // Everything: springs, gravity, drag.
 Vectors acceleration(const Problem& problem, const State& state);
 

@@ -3,20 +3,44 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/contact.h"
+#include "reference/runge_kutta.h"
+
 namespace shoal::reference {
 
 namespace {
 
-State advanced(const Problem& problem, const State& state, const Vectors& velocity, const Vectors& change,
-               double h) {
-    State out = state;
-    out.time += h;
-    for (size_t i = 0; i < out.position.size(); ++i) {
-        if (problem.pinned(i)) continue;
-        out.position[i] += h * velocity[i];
-        out.velocity[i] += h * change[i];
+// Equations and contact count on pinned vertices that stand still; what a state says of their velocity is
+// kept for its caller.
+void standStill(const Problem& problem, Vectors& velocity) {
+    for (size_t i = 0; i < velocity.size(); ++i) {
+        if (problem.pinned(i)) velocity[i] = glm::dvec3(0);
     }
-    return out;
+}
+
+void giveBack(const Problem& problem, const Vectors& before, Vectors& velocity) {
+    for (size_t i = 0; i < velocity.size(); ++i) {
+        if (problem.pinned(i)) velocity[i] = before[i];
+    }
+}
+
+// The rates of change of free motion.
+auto motion(Equations& equations) {
+    return [&equations](const Vectors& x, const Vectors& v, double time, RungeKutta::Rates& out) {
+        equations.everything(x, v, time, out.velocity);
+        out.position = v;
+    };
+}
+
+// Whether the springs' damping alone takes every oscillation of at least `rate` rad/s down by e^-20. A mode
+// of frequency w decays at w^2 c / 2k when all springs have that c / k; the least c / k bounds it.
+bool dampedAway(const Problem& problem, double rate, double duration) {
+    double least = 1e30;  // s
+    for (const Spring& spring : problem.molecule->springs) {
+        if (spring.stiffness * problem.stiffness <= 0) continue;
+        least = std::min(least, problem.damping * spring.damping / (problem.stiffness * spring.stiffness));
+    }
+    return least < 1e30 && rate * rate * least / 2 * duration > 20;
 }
 
 bool finite(const State& state) {
@@ -25,33 +49,52 @@ bool finite(const State& state) {
     });
 }
 
+State integrateFreely(const Problem& problem, State state, double duration, int64_t steps) {
+    Equations equations(problem);
+    RungeKutta method(equations.vertices());
+    const double begin = state.time, h = duration / double(steps);
+    State next = state;
+    for (int64_t i = 0; i < steps; ++i) {
+        method.step(state, h, motion(equations), next);
+        std::swap(state, next);
+        state.time = begin + double(i + 1) * h;  // a sum of many steps would wander
+    }
+    return state;
+}
+
+// With whether contact has come to an end in every step.
+ContactRun run(const Problem& problem, const State& start, double duration, int64_t steps) {
+    State still = start;
+    standStill(problem, still.velocity);
+    ContactRun out = problem.colliders.empty()
+                         ? ContactRun{integrateFreely(problem, std::move(still), duration, steps)}
+                         : integrateWithContact(problem, still, duration, steps);
+    giveBack(problem, start.velocity, out.state.velocity);
+    return out;
+}
+
+// Steps that resolve the fastest spring; four times longer ones where the springs' own damping leaves nothing
+// of the motions that those would not resolve. (Motions that last must be resolved: two runs that both damp
+// them away by their own error agree with each other.)
+int64_t firstSteps(const Problem& problem, double duration) {
+    const double rate = fastestRate(problem);
+    const double perRadian = dampedAway(problem, rate / 2, duration) ? 0.5 : 2;
+    return std::max<int64_t>(8, int64_t(std::ceil(perRadian * duration * rate)));
+}
+
 }  // namespace
 
 void rungeKuttaStep(const Problem& problem, State& state, double h) {
-    const Vectors a1 = acceleration(problem, state);
-    const State s2 = advanced(problem, state, state.velocity, a1, h / 2);
-    const Vectors a2 = acceleration(problem, s2);
-    const State s3 = advanced(problem, state, s2.velocity, a2, h / 2);
-    const Vectors a3 = acceleration(problem, s3);
-    const State s4 = advanced(problem, state, s3.velocity, a3, h);
-    const Vectors a4 = acceleration(problem, s4);
-    for (size_t i = 0; i < state.position.size(); ++i) {
-        if (problem.pinned(i)) continue;
-        state.position[i] +=
-            h / 6 * (state.velocity[i] + 2.0 * s2.velocity[i] + 2.0 * s3.velocity[i] + s4.velocity[i]);
-        state.velocity[i] += h / 6 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
-    }
-    state.time += h;
+    Equations equations(problem);
+    State still = state, next = state;
+    standStill(problem, still.velocity);
+    RungeKutta(equations.vertices()).step(still, h, motion(equations), next);
+    giveBack(problem, state.velocity, next.velocity);
+    state = std::move(next);
 }
 
 State integrate(const Problem& problem, const State& start, double duration, int64_t steps) {
-    State state = start;
-    const double h = duration / double(steps);
-    for (int64_t i = 0; i < steps; ++i) {
-        rungeKuttaStep(problem, state, h);
-        state.time = start.time + double(i + 1) * h;  // a sum of many steps would wander
-    }
-    return state;
+    return run(problem, start, duration, steps).state;
 }
 
 Deviation deviation(const State& state, const State& reference, double size) {
@@ -78,16 +121,20 @@ double relativeError(const State& state, const State& reference, double size) {
 double fastestRate(const Problem& problem) {
     const Molecule& molecule = *problem.molecule;
     std::vector<double> stiffness(molecule.vertices.size()), damping(molecule.vertices.size());
-    double muscle = 0;
+    double driven = 0;
     for (const Spring& spring : molecule.springs) {
         for (int end : {spring.a, spring.b}) {
             stiffness[size_t(end)] += problem.stiffness * spring.stiffness;
             damping[size_t(end)] += problem.damping * spring.damping;
         }
-        if (spring.actuation) muscle = std::max(muscle, 6.3 * std::abs(spring.actuation->frequency));
+        if (spring.actuation) driven = std::max(driven, 6.3 * std::abs(spring.actuation->frequency));
     }
     // Gershgorin: an eigenvalue of M^-1 K is at most twice the largest sum of k / m around a vertex
-    double rate = std::max({muscle, std::abs(problem.drag.normal), std::abs(problem.drag.tangent)});
+    for (const Field& field : problem.fields) {
+        if (const auto* wind = std::get_if<OscillatingField>(&field.shape))
+            driven = std::max(driven, 6.3 * wind->frequency);
+    }
+    double rate = std::max({driven, std::abs(problem.drag.normal), std::abs(problem.drag.tangent)});
     for (size_t i = 0; i < molecule.vertices.size(); ++i) {
         if (problem.pinned(i)) continue;
         const double mass = molecule.vertices[i].mass;
@@ -96,17 +143,29 @@ double fastestRate(const Problem& problem) {
     return rate;
 }
 
+// Chaos: finer steps that do not bring their changes down would go on not to.
+static bool stalled(const std::vector<double>& changes) {
+    constexpr size_t patience = 5;
+    const size_t count = changes.size();
+    return count > patience && changes[count - 1] > changes[count - 1 - patience] / 2;
+}
+
 Solution solve(const Problem& problem, const State& start, double duration, double tolerance, int halvings) {
     const double size = problem.scale * problem.molecule->size();
-    int64_t steps = std::max<int64_t>(8, int64_t(std::ceil(2 * duration * fastestRate(problem))));
-    Solution out{integrate(problem, start, duration, steps), duration / double(steps), 0, false};
-    for (int i = 0; i < halvings && !out.converged; ++i) {
+    int64_t steps = firstSteps(problem, duration);
+    ContactRun coarse = run(problem, start, duration, steps);
+    Solution out{std::move(coarse.state), duration / double(steps), 0, false};
+    std::vector<double> changes;
+    for (int i = 0; i < halvings && !out.converged && !stalled(changes); ++i) {
         steps *= 2;
-        State finer = integrate(problem, start, duration, steps);
-        out.error = relativeError(finer, out.state, size);
+        ContactRun finer = run(problem, start, duration, steps);
+        if (!finite(finer.state)) break;
+        out.error = relativeError(finer.state, out.state, size);
         out.step = duration / double(steps);
-        out.state = std::move(finer);
-        out.converged = finite(out.state) && out.error <= tolerance;
+        out.converged = coarse.settled && finer.settled && out.error <= tolerance;
+        out.state = std::move(finer.state);
+        coarse.settled = finer.settled;
+        changes.push_back(out.error);
     }
     return out;
 }

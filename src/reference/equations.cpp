@@ -1,0 +1,83 @@
+#include "reference/equations.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "reference/fields.h"
+
+namespace shoal::reference {
+
+namespace {
+
+// Ends closer than this have no direction between them.
+constexpr double coincident = 1e-12;
+
+}  // namespace
+
+Equations::Equations(const Problem& problem) : problem_(&problem) {
+    const Molecule& molecule = *problem.molecule;
+    inverseMass_.reserve(molecule.vertices.size());
+    for (size_t i = 0; i < molecule.vertices.size(); ++i)
+        inverseMass_.push_back(problem.pinned(i) ? 0 : 1 / molecule.vertices[i].mass);
+    links_.reserve(molecule.springs.size());
+    for (const Spring& spring : molecule.springs)
+        addLink(spring);
+}
+
+void Equations::addLink(const Spring& spring) {
+    const Problem& p = *problem_;
+    const double length = p.scale * p.molecule->restLength(spring);
+    if (const auto& muscle = spring.actuation) {
+        muscles_.push_back({links_.size(), length, muscle->amplitude,
+                            2 * std::numbers::pi * muscle->frequency, muscle->phase + p.phase});
+    }
+    links_.push_back({uint32_t(spring.a), uint32_t(spring.b), p.stiffness * spring.stiffness,
+                      p.damping * spring.damping, length});
+}
+
+void Equations::flex(double time) {
+    for (const Muscle& muscle : muscles_) {
+        const double contraction = muscle.amplitude * std::sin(muscle.angularFrequency * time + muscle.phase);
+        links_[muscle.link].restLength = muscle.restLength * (1 + contraction);
+    }
+}
+
+void Equations::springs(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
+    flex(time);
+    out.assign(position.size(), glm::dvec3(0));
+    for (const Link& link : links_) {
+        const glm::dvec3 d = position[link.a] - position[link.b];
+        const double square = glm::dot(d, d);
+        if (square < coincident * coincident) continue;
+        const double length = std::sqrt(square), inverse = 1 / length;
+        const double approach = glm::dot(d, velocity[link.a] - velocity[link.b]) * inverse;
+        const double pull = link.stiffness * (length - link.restLength) + link.damping * approach;
+        const glm::dvec3 force = pull * inverse * d;
+        out[link.a] -= force;
+        out[link.b] += force;
+    }
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] *= inverseMass_[i];
+}
+
+void Equations::everything(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
+    springs(position, velocity, time, out);
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (!pinned(i)) out[i] += problem_->gravity;
+    }
+    if (problem_->drag.any()) addDrag(position, velocity, time, out);
+}
+
+void Equations::addDrag(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
+    const Drag& drag = problem_->drag;
+    if (drag.directional()) sumNormals(*problem_->molecule, position, normals_);
+    for (size_t i = 0; i < out.size(); ++i) {
+        if (pinned(i)) continue;
+        const glm::dvec3 slip = fluidVelocity(problem_->fields, position[i], time) - velocity[i];
+        out[i] += drag.tangent * slip;
+        if (drag.directional())
+            out[i] += (drag.normal - drag.tangent) * glm::dot(slip, normals_[i]) * normals_[i];
+    }
+}
+
+}  // namespace shoal::reference

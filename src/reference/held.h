@@ -1,0 +1,92 @@
+// The vertices that surfaces hold: which stick, which slide, and the forces that this takes. All forces are
+// per mass, in m/s^2; `free` is a vertex's acceleration without contact. reference/contact.h tells the whole.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "reference/colliders.h"
+
+namespace shoal::reference {
+
+// What can happen to a vertex.
+enum class Change { impact, release, slip, stop };
+
+class Held {
+  public:
+    // Borrows the surfaces.
+    Held(const RestSurfaces& surfaces, size_t vertices) : surfaces_(&surfaces), contacts_(vertices) {}
+
+    const std::vector<size_t>& list() const { return list_; }  // of held vertices
+    bool any(size_t vertex) const { return contacts_[vertex].count > 0; }
+    bool holds(size_t vertex, size_t collider) const;
+
+    void hold(size_t vertex, size_t collider);  // a fourth surface at once is left out
+    void release(size_t vertex, size_t collider);
+    void releaseAll(size_t vertex);
+    // Whether it sticks, slides or lets go from now on. `slipped`: friction has just failed to hold it.
+    void classify(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free,
+                  bool slipped);
+
+    // Before a step: friction acts against these directions until it ends, also past a stop, which keeps the
+    // motion smooth until the stop is found.
+    void keepDirections(const std::vector<glm::dvec3>& velocity);
+    // Turns the rates of change without contact into those with it.
+    void constrain(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, glm::dvec3& rate,
+                   glm::dvec3& acceleration) const;
+    // After a step: takes back what its error has moved off the surfaces.
+    void project(size_t vertex, glm::dvec3& x, glm::dvec3& v) const;
+
+    // Calls see(change, collider) for all that may end how a vertex is held.
+    template <typename See>
+    void changes(size_t vertex, See&& see) const {
+        const Contacts& c = contacts_[vertex];
+        if (c.sticks) return see(Change::slip, c.collider[0]);
+        for (size_t j = 0; j < c.count; ++j)
+            see(Change::release, c.collider[j]);
+        if (rough(c)) see(Change::stop, c.collider[0]);
+    }
+    // Each falls below 0 when its change happens: the force of the surface on a vertex that slides, what
+    // friction could still take of one that sticks, the speed along the direction of sliding.
+    double pressure(size_t vertex, size_t collider, const glm::dvec3& x, const glm::dvec3& v,
+                    const glm::dvec3& free) const;
+    double grip(size_t vertex, const glm::dvec3& x, const glm::dvec3& free) const;
+    double speedAlong(size_t vertex, const glm::dvec3& v) const {
+        return glm::dot(v, contacts_[vertex].direction);
+    }
+
+  private:
+    static constexpr size_t most = 3;
+    struct Contacts {
+        size_t count = 0;
+        std::array<size_t, most> collider{};
+        bool sticks = false;
+        glm::dvec3 direction{0};  // unit, of sliding; 0 before it has one
+    };
+    // The surfaces at a vertex, and the forces along their normals.
+    struct Forces {
+        std::array<Surface, most> surface;
+        std::array<double, most> pressure{}, shift{};
+    };
+    struct Reply {
+        glm::dvec3 acceleration{0};
+        std::array<double, most> pressure{};
+    };
+
+    bool rough(const Contacts& contacts) const;
+    double friction(size_t collider) const { return surfaces_->collider(collider).friction; }
+    // Of a vertex that slides.
+    Forces forces(const Contacts& contacts, const glm::dvec3& x, const glm::dvec3& v,
+                  const glm::dvec3& free) const;
+    // Of a vertex at rest: Coulomb's law at every surface.
+    Reply reply(const Contacts& contacts, const glm::dvec3& x, const glm::dvec3& free) const;
+    void classifyResting(size_t vertex, const glm::dvec3& x, const glm::dvec3& free, bool slipped);
+    void classifySliding(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free);
+
+    const RestSurfaces* surfaces_;
+    std::vector<Contacts> contacts_;  // of each vertex
+    std::vector<size_t> list_;
+};
+
+}  // namespace shoal::reference
