@@ -3,8 +3,8 @@
 //
 //   A = beta M + sum (k + c/eta) n n^T over the springs at rest;   q += R A^-1 R^T (f(x + q, (q - z)/eta) - beta M (q - q0))
 //
-// Every molecule of a type shares A^-1: computed on the CPU in double (compile/corotated.h), the block Inverse of
-// generated/corotated.glsl. R turns the rest shape onto the predicted one (Mueller, Bender, Chentanez, Macklin 2016).
+// Every molecule of a type shares the factors of A: computed on the CPU in double (compile/corotated.h), the block Factors of
+// generated/factors.glsl. R turns the rest shape onto the predicted one (Mueller, Bender, Chentanez, Macklin 2016).
 // Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
 // step is not much smaller than the first, or once pins have let go, two sweeps solve the stage as in bdf2-xpbd.
 
@@ -102,8 +102,12 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];
     }
-    float first = improve(time);
-    float second = improve(time);
+    float first = 0.0;
+    float second = 0.0;
+    for (int n = 0; n < 2; ++n) {
+        first = second;
+        second = improve(time);
+    }
     sweeps = sweeps || !(second < 0.1 * first || second < SETTLED * scale * scale);
     if (sweeps) {
         for (int i = 0; i < VERTICES; ++i) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include <Eigen/Dense>
 
@@ -39,12 +40,8 @@ Eigen::MatrixXd stageMatrix(const Molecule& molecule, const CorotatedStage& stag
     return out;
 }
 
-int blockNumber(int i, int j) {
-    return i * (i + 1) / 2 + j;
-}
-
 std::string element(int number) {
-    return concat("inverse[", number / 4, "][", number % 4, "]");
+    return concat("factors[", number / 4, "][", number % 4, "]");
 }
 
 // Three vertices that stand as far apart as possible: their plane is the first guess of how a molecule is
@@ -63,19 +60,29 @@ std::array<int, 3> widestTriangle(const Molecule& molecule) {
     return {a, b, c};
 }
 
-std::string inverseText(int vertices) {
+std::string block(int number) {
+    std::string out = "mat3(";
+    for (int k = 0; k < 9; ++k)
+        out += (k == 0 ? "" : ", ") + element(9 * number + k);
+    return out + ")";
+}
+
+// L y = residual, D z = y, L^T correction = z.
+std::string solveText(const CorotatedPattern& pattern) {
     std::string out =
-        concat("layout(std140) uniform Inverse { vec4 inverse[", corotatedBlockSize(vertices),
-               "]; };\n\n// correction = A^-1 residual\nvoid applyInverse()\n{\n    mat3 b;\n"
-               "    for (int i = 0; i < VERTICES; ++i) {\n        correction[i] = vec3(0.0);\n    }\n");
-    for (int i = 0; i < vertices; ++i) {
-        for (int j = 0; j <= i; ++j) {
-            out += "    b = mat3(";
-            for (int k = 0; k < 9; ++k)
-                out += (k == 0 ? "" : ", ") + element(9 * blockNumber(i, j) + k);
-            out += concat(");\n    correction[", i, "] += b * residual[", j, "];\n");
-            if (i != j) out += concat("    correction[", j, "] += residual[", i, "] * b;\n");
-        }
+        "\n// correction = A^-1 residual\nvoid applyInverse()\n{\n    for (int i = 0; i < VERTICES; ++i) {\n"
+        "        correction[i] = residual[i];\n    }\n";
+    const auto at = [&](size_t place) { return concat("correction[", pattern.order[place], "]"); };
+    const size_t count = pattern.order.size();
+    for (size_t p = 0; p < count; ++p)
+        for (size_t n = 0; n < pattern.below[p].size(); ++n)
+            out += concat("    ", at(size_t(pattern.below[p][n])), " -= ", block(pattern.block[p][n]), " * ",
+                          at(p), ";\n");
+    for (size_t p = count; p-- > 0;) {
+        out += concat("    ", at(p), " = ", block(pattern.diagonal[p]), " * ", at(p), ";\n");
+        for (size_t n = 0; n < pattern.below[p].size(); ++n)
+            out += concat("    ", at(p), " -= ", at(size_t(pattern.below[p][n])), " * ",
+                          block(pattern.block[p][n]), ";\n");
     }
     return out + "}\n";
 }
@@ -99,44 +106,96 @@ std::string restText(const Molecule& molecule) {
 
 }  // namespace
 
-int corotatedBlockSize(int vertices) {
-    return (9 * vertices * (vertices + 1) / 2 + 3) / 4;
-}
-
-int largestCorotated(int blockBytes) {
-    int vertices = 1;
-    while (corotatedBlockSize(vertices + 1) * 16 <= blockBytes)
-        ++vertices;
-    return vertices;
-}
-
-std::vector<glm::vec4> corotatedInverse(const Molecule& molecule, const CorotatedStage& stage) {
-    const int vertices = int(molecule.vertices.size());
-    const auto pinned = [&](int v) { return stage.held && molecule.vertices[size_t(v)].pinned; };
-    Eigen::MatrixXd matrix = stageMatrix(molecule, stage);
-    for (int v = 0; v < vertices; ++v) {
-        if (!pinned(v)) continue;
-        matrix.middleRows<3>(3 * v).setZero();
-        matrix.middleCols<3>(3 * v).setZero();
-        matrix.block<3, 3>(3 * v, 3 * v).setIdentity();
+// Greedily: the vertex with the fewest neighbours goes next, and joins them to one another.
+CorotatedPattern corotatedPattern(const Molecule& molecule, bool held) {
+    const size_t count = molecule.vertices.size();
+    const auto pinned = [&](size_t v) { return held && molecule.vertices[v].pinned; };
+    std::vector<std::set<int>> neighbours(count);
+    for (const Spring& spring : molecule.springs) {
+        if (pinned(size_t(spring.a)) || pinned(size_t(spring.b))) continue;
+        neighbours[size_t(spring.a)].insert(spring.b);
+        neighbours[size_t(spring.b)].insert(spring.a);
     }
-    Eigen::MatrixXd inverse = Eigen::MatrixXd::Identity(matrix.rows(), matrix.cols());
-    matrix.llt().solveInPlace(inverse);
-    for (int v = 0; v < vertices; ++v)
-        if (pinned(v)) inverse.block<3, 3>(3 * v, 3 * v).setZero();
-    std::vector<glm::vec4> out(size_t(corotatedBlockSize(vertices)), glm::vec4(0));
-    for (int i = 0; i < vertices; ++i) {
-        for (int j = 0; j <= i; ++j) {
-            for (int k = 0; k < 9; ++k) {
-                const int number = 9 * blockNumber(i, j) + k;
-                out[size_t(number / 4)][number % 4] = float(inverse(3 * i + k % 3, 3 * j + k / 3));
-            }
+    CorotatedPattern out;
+    std::vector<std::set<int>> joined;  // vertices below each place
+    std::set<int> open;
+    for (size_t v = 0; v < count; ++v)
+        if (!pinned(v)) open.insert(int(v));
+    while (!open.empty()) {
+        const int next = *std::min_element(open.begin(), open.end(), [&](int a, int b) {
+            return neighbours[size_t(a)].size() < neighbours[size_t(b)].size();
+        });
+        open.erase(next);
+        const std::set<int> rest = neighbours[size_t(next)];
+        for (const int a : rest) {
+            neighbours[size_t(a)].erase(next);
+            for (const int b : rest)
+                if (a != b) neighbours[size_t(a)].insert(b);
         }
+        out.order.push_back(next);
+        joined.push_back(rest);
+    }
+    std::vector<int> place(count, -1);
+    for (size_t p = 0; p < out.order.size(); ++p)
+        place[size_t(out.order[p])] = int(p);
+    for (const std::set<int>& vertices : joined) {
+        out.diagonal.push_back(out.blocks++);
+        std::vector<int> below, numbers;
+        for (const int v : vertices)
+            below.push_back(place[size_t(v)]);
+        std::sort(below.begin(), below.end());
+        for (size_t i = 0; i < below.size(); ++i)
+            numbers.push_back(out.blocks++);
+        out.below.push_back(std::move(below));
+        out.block.push_back(std::move(numbers));
     }
     return out;
 }
 
-std::string corotatedText(const Molecule& molecule, bool held) {
+std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const CorotatedPattern& pattern,
+                                        const CorotatedStage& stage) {
+    const Eigen::MatrixXd whole = stageMatrix(molecule, stage);
+    const Eigen::Index count = Eigen::Index(pattern.order.size());
+    Eigen::MatrixXd matrix(3 * count, 3 * count);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (Eigen::Index j = 0; j < count; ++j)
+            matrix.block<3, 3>(3 * i, 3 * j) =
+                whole.block<3, 3>(3 * pattern.order[size_t(i)], 3 * pattern.order[size_t(j)]);
+    std::vector<glm::vec4> out(size_t(pattern.elements()), glm::vec4(0));
+    const auto keep = [&](int number, const Eigen::Matrix3d& block) {
+        for (int k = 0; k < 9; ++k)
+            out[size_t((9 * number + k) / 4)][(9 * number + k) % 4] = float(block(k % 3, k / 3));
+    };
+    for (Eigen::Index p = 0; p < count; ++p) {
+        const Eigen::Matrix3d inverse = matrix.block<3, 3>(3 * p, 3 * p).inverse();
+        keep(pattern.diagonal[size_t(p)], inverse);
+        const std::vector<int>& below = pattern.below[size_t(p)];
+        for (size_t n = 0; n < below.size(); ++n)
+            keep(pattern.block[size_t(p)][n], matrix.block<3, 3>(3 * below[n], 3 * p) * inverse);
+        for (const int i : below)
+            for (const int j : below)
+                matrix.block<3, 3>(3 * i, 3 * j) -=
+                    matrix.block<3, 3>(3 * i, 3 * p) * inverse * matrix.block<3, 3>(3 * p, 3 * j);
+    }
+    return out;
+}
+
+std::string corotatedBlock(const CorotatedPattern& pattern) {
+    return concat("layout(std140) uniform Factors { vec4 factors[", std::max(1, pattern.elements()),
+                  "]; };\n");
+}
+
+std::string corotatedConstants(const std::vector<glm::vec4>& factors) {
+    std::string out = concat("const vec4 factors[", std::max<size_t>(1, factors.size()), "] = vec4[](");
+    if (factors.empty()) out += "vec4(0.0)";
+    for (size_t i = 0; i < factors.size(); ++i)
+        out += concat(i == 0 ? "vec4(" : ",\n    vec4(", glslLiteral(factors[i].x), ", ",
+                      glslLiteral(factors[i].y), ", ", glslLiteral(factors[i].z), ", ",
+                      glslLiteral(factors[i].w), ")");
+    return out + ");\n";
+}
+
+std::string corotatedText(const Molecule& molecule, const CorotatedPattern& pattern, bool held) {
     const std::array<int, 3> fit = widestTriangle(molecule);
     const double size = molecule.size();
     return concat("#define FIT_A ", fit[0], "\n#define FIT_B ", fit[1], "\n#define FIT_C ", fit[2],
@@ -144,7 +203,7 @@ std::string corotatedText(const Molecule& molecule, bool held) {
                   glslLiteral(1e-12 * size * size), "\n#define SHARED_PINS ", held ? "true" : "false",
                   "\n\n") +
            restText(molecule) + "\nvec3 residual[VERTICES];    // N, in the rest shape's axes\n" +
-           "vec3 correction[VERTICES];  // m, likewise\n" + inverseText(int(molecule.vertices.size()));
+           "vec3 correction[VERTICES];  // m, likewise\n" + solveText(pattern);
 }
 
 }  // namespace shoal

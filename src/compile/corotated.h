@@ -2,9 +2,9 @@
 //
 //   A = beta M + sum over the springs of (k + c/eta) n n^T in the rest shape,   beta = 1/eta^2 + gamma/eta
 //
-// of 3V rows, of which the pinned vertices' are left out. Symmetric, so that its inverse is kept as the 3x3
-// blocks of its lower half: block (i, j), j <= i, is number i (i + 1) / 2 + j, nine floats column by column,
-// without gaps.
+// factored as A = L D L^T in 3x3 blocks, one row and column a vertex, L unit lower: a molecule is a chain of
+// few neighbours, and its factors keep that, while the inverse is full (24 vertices of the fish: 140 blocks
+// against 300). The vertices are eliminated in the order of least degree. Pinned vertices take no part.
 #pragma once
 
 #include <string>
@@ -20,20 +20,31 @@ struct CorotatedStage {
     double eta = 0;                     // s
     double drag = 0;                    // 1/s; of two rates the larger, which makes the steps shorter
     double stiffness = 1, damping = 1;  // factors on every spring
-    bool held = true;                   // pinned vertices hold
     bool operator==(const CorotatedStage&) const = default;
 };
 
-// The inverse in 4-vectors, as the uniform block has it; computed in double. Blocks of pinned vertices are 0.
-std::vector<glm::vec4> corotatedInverse(const Molecule& molecule, const CorotatedStage& stage);
+// Which blocks there are. Block number b has floats 9b to 9b + 8, column by column.
+struct CorotatedPattern {
+    std::vector<int> order;  // vertices, as they are eliminated; without pinned ones
+    std::vector<std::vector<int>>
+        below;  // for each place in `order`: later places that L joins it to, rising
+    std::vector<std::vector<int>> block;  // likewise: the number of that block of L
+    std::vector<int> diagonal;            // for each place: the number of its block of D^-1
+    int blocks = 0;
 
-// 4-vectors of the block.
-int corotatedBlockSize(int vertices);
+    int elements() const { return (9 * blocks + 3) / 4; }  // 4-vectors
+};
+CorotatedPattern corotatedPattern(const Molecule& molecule, bool held);
 
-// The largest molecule whose matrix fits a uniform block of so many bytes.
-int largestCorotated(int blockBytes);
+// The blocks in 4-vectors; computed in double.
+std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const CorotatedPattern& pattern,
+                                        const CorotatedStage& stage);
 
-// generated/corotated.glsl: the block, applyInverse() on it, the rest shape for the fit, stageForces().
-std::string corotatedText(const Molecule& molecule, bool held);
+// generated/corotated.glsl: the rest shape for the fit, and applyInverse() from a `vec4 factors[]`.
+std::string corotatedText(const Molecule& molecule, const CorotatedPattern& pattern, bool held);
+// That array, as a uniform block; or as constants: for CPU rasterisers, to which every read of a uniform is a
+// call.
+std::string corotatedBlock(const CorotatedPattern& pattern);
+std::string corotatedConstants(const std::vector<glm::vec4>& factors);
 
 }  // namespace shoal

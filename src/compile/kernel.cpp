@@ -213,7 +213,8 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     if (solver.implicit && needs.springs)
         text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);
     if (solver.kind == SolverKind::bdf2Corotated)
-        text.sweeps += stageText(molecule, needs) + corotatedText(molecule, needs.pins);
+        text.sweeps += stageText(molecule, needs) +
+                       corotatedText(molecule, corotatedPattern(molecule, needs.pins), needs.pins);
     text.packing = packingText(molecule, needs, solver.history);
     return text;
 }

@@ -162,7 +162,7 @@ Plan compile(const Scene& scene) {
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
-        if (group.solver == SolverKind::bdf2Corotated) group.shape = scene.groups[i].molecule;
+        if (group.factored()) group.shape = scene.groups[i].molecule;
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }

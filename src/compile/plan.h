@@ -57,6 +57,7 @@ struct GroupPlan {
     KernelText kernel;  // of the fused path
     Molecule shape;     // bdf2-corotated only: of its matrix (compile/corotated.h)
 
+    bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
 };
 

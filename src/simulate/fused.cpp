@@ -15,6 +15,11 @@ namespace binding {
 constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
 }
 
+CorotatedStage corotatedStage(const GroupPlan& group, const Parameters& parameters, double h) {
+    return {2 * h / 3, std::max(group.drag.normal, group.drag.tangent) * parameters.drag,
+            group.stiffness * parameters.stiffness, group.damping * parameters.damping};
+}
+
 void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
@@ -34,7 +39,12 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
 
 Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
              const FusedOptions& options)
-    : plan_(&plan), tables_(&tables), drawn_(options.drawn) {
+    : context_(&context),
+      shaderRoot_(shaderRoot),
+      plan_(&plan),
+      tables_(&tables),
+      drawn_(options.drawn),
+      cache_(options.cache) {
     const gpu::ContextInfo& info = context.info();
     constexpr uint32_t fine = 0;
     if (options.watch) alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
@@ -51,27 +61,50 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         state.emplace_back(context, group, options.drawn, options.inPlace,
                            size_t(info.maxWorkGroupsX) * perWorkgroup);
 
-        gpu::ProgramOptions program = kernelProgram(plan, g, kernel);
-        program.cache = options.cache;
         Kernel& made = kernels_.emplace_back();
-        made.lanes = kernel.lanes;
-        made.step = Program(context, shaderRoot, program);
-        made.step.use();
-        if (group.solver == SolverKind::bdf2Corotated && group.needs.springs) {
-            const size_t bytes = size_t(corotatedBlockSize(group.vertexCount)) * sizeof(glm::vec4);
-            made.inverse = gpu::Buffer(context, gpu::Buffer::Use::uniform, nullptr, bytes, "inverse");
-            made.step.uniformBlock("Inverse", 0, made.inverse);
+        made.options = kernel;
+        if (group.factored()) {
+            Parameters parameters;
+            made.stage = corotatedStage(group, parameters, 1 / plan.frameRate / plan.substeps);
+            makeFactors(g);
         }
-        if (group.needs.fields)
-            made.step.set("givenFieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
-        if (group.needs.collide)
-            made.step.set("givenColliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
+        makeStep(g);
         if (!options.drawn || !group.needs.normals) continue;
         kernel.onlyNormals = true;
-        program = kernelProgram(plan, g, kernel);
+        gpu::ProgramOptions program = kernelProgram(plan, g, kernel);
         program.cache = options.cache;
         made.normals = Program(context, shaderRoot, program);
     }
+}
+
+void Fused::makeStep(size_t index) {
+    const GroupPlan& group = plan_->groups[index];
+    Kernel& kernel = kernels_[index];
+    gpu::ProgramOptions program = kernelProgram(*plan_, index, kernel.options);
+    program.cache = cache_;
+    kernel.step = Program(*context_, shaderRoot_, program);
+    kernel.step.use();
+    if (group.needs.fields)
+        kernel.step.set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+    if (group.needs.collide)
+        kernel.step.set("givenColliderParameters", std::span<const glm::vec4>(plan_->colliderParameters));
+}
+
+// A GPU reads the matrix from a buffer. To a CPU rasteriser every read of a uniform is a call: there it
+// becomes constants of the program, which is made anew when the step or a slider changes it.
+void Fused::makeFactors(size_t index) {
+    const GroupPlan& group = plan_->groups[index];
+    Kernel& kernel = kernels_[index];
+    const CorotatedPattern pattern = corotatedPattern(group.shape, group.needs.pins);
+    const std::vector<glm::vec4> factors = corotatedFactors(group.shape, pattern, kernel.stage);
+    if (kernel.options.software) {
+        kernel.options.factors = corotatedConstants(factors);
+        return;
+    }
+    const size_t bytes = factors.size() * sizeof(glm::vec4);
+    if (!kernel.factors)
+        kernel.factors = gpu::Buffer(*context_, gpu::Buffer::Use::uniform, nullptr, bytes, "factors");
+    kernel.factors.update(gpu::Traffic::Kind::parameters, 0, factors.data(), bytes);
 }
 
 void Fused::setUniforms(const Program& program, const GroupPlan& group, const Frame& frame) const {
@@ -100,22 +133,17 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenRestarts", int(frame.restarts));
 }
 
-// Only a change of the step or of a slider makes a new one.
-void Fused::updateInverse(size_t index, const Frame& frame) {
-    Kernel& kernel = kernels_[index];
-    if (!kernel.inverse) return;
+void Fused::updateFactors(size_t index, const Frame& frame) {
     const GroupPlan& group = plan_->groups[index];
-    const Parameters& parameters = frame.parameters;
-    const CorotatedStage stage{
-        2 * frame.h / 3, std::max(group.drag.normal, group.drag.tangent) * parameters.drag,
-        group.stiffness * parameters.stiffness, group.damping * parameters.damping, group.needs.pins};
+    if (!group.factored()) return;
+    Kernel& kernel = kernels_[index];
+    const CorotatedStage stage = corotatedStage(group, frame.parameters, frame.h);
     if (!(stage == kernel.stage)) {
         kernel.stage = stage;
-        const std::vector<glm::vec4> inverse = corotatedInverse(group.shape, stage);
-        kernel.inverse.update(gpu::Traffic::Kind::parameters, 0, inverse.data(),
-                              inverse.size() * sizeof(glm::vec4));
+        makeFactors(index);
+        if (kernel.options.software) makeStep(index);
     }
-    kernel.inverse.bindUniform(0);
+    if (kernel.factors) kernel.step.uniformBlock("Factors", 0, kernel.factors);
 }
 
 void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {
@@ -126,7 +154,7 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
     if (buffers.hasConstants()) program.texture("constants", unit::constants, part.constant);
     if (group.needs.fields || group.needs.collide)
         program.texture("samples", unit::samples, tables_->samples);
-    if (kernels_[index].lanes == Lanes::vertex) {
+    if (kernels_[index].options.lanes == Lanes::vertex) {
         program.texture("topology", unit::topology, tables_->topology);
         program.set("topologyBase", group.topologyBase);
     }
@@ -137,9 +165,9 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     bind(program, index, part);
-    const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].lanes);
-    program.dispatch(kernels_[index].lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes
-                                                              : part.count);
+    const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].options.lanes);
+    program.dispatch(kernels_[index].options.lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes
+                                                                      : part.count);
 }
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
@@ -147,11 +175,11 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     gpu::barrier(
         {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written
     for (size_t g = 0; g < state.size(); ++g) {
+        updateFactors(g, frame);
         const Program& program = kernels_[g].step;
         program.use();
         setUniforms(program, plan_->groups[g], frame);
         if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
-        updateInverse(g, frame);
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);
         state[g].flip();

@@ -35,26 +35,31 @@ class Fused {
     void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
 
     std::vector<GroupBuffers> state;  // per group
-    Lanes lanes(size_t group) const { return kernels_[group].lanes; }
+    Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
     // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
     bool alarmed() const;
     void disarm();
 
   private:
     struct Kernel {
-        Lanes lanes = Lanes::molecule;
+        KernelOptions options;
         gpu::Program step, normals;
-        gpu::Buffer inverse;  // bdf2-corotated: its matrix, of the stage below
-        CorotatedStage stage;
+        CorotatedStage stage;  // bdf2-corotated: of the matrix
+        gpu::Buffer factors;   // and the matrix, where it is not part of the program
     };
-    void updateInverse(size_t index, const Frame& frame);
+    void makeStep(size_t index);
+    void makeFactors(size_t index);
+    void updateFactors(size_t index, const Frame& frame);
     void setUniforms(const gpu::Program& program, const GroupPlan& group, const Frame& frame) const;
     void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
 
+    gpu::Context* context_;
+    std::string shaderRoot_;
     const Plan* plan_;
     const Tables* tables_;
     bool drawn_;
+    gpu::ProgramCache* cache_;
     std::vector<Kernel> kernels_;
     gpu::Buffer alarm_;  // one word; where watched
 };

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "compile/corotated.h"
 #include "compile/generate.h"
 #include "gpu/conditions.h"
 #include "gpu/shader_source.h"
 #include "simulate/vertex_loops.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -29,6 +31,10 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(options.normals && needs.normals, "NORMALS");
     define(options.onlyNormals, "ONLY_NORMALS");
+    if (options.watch && !options.onlyNormals) {
+        out.emplace_back("WATCH");
+        out.push_back(fastestDefine());
+    }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");
     define(needs.pins, "PINS");
@@ -63,6 +69,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, "fused/step.glsl");
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
+        include(group.factored(), "generated/factors.glsl");
         include(group.needs.springs, "generated/sweeps.glsl");
     }
     include(solver(group.solver).history, "fused/bdf2.glsl");
@@ -71,6 +78,11 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.collide, "fused/contact.glsl");
     include(true, perLane ? "fused/lane.comp" : "fused/group.comp");
     return out;
+}
+
+std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
+    if (!group.factored() || !options.factors.empty()) return options.factors;
+    return corotatedBlock(corotatedPattern(group.shape, group.needs.pins));
 }
 
 // Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
@@ -105,6 +117,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/molecule.glsl", group.kernel.molecule},
                      {"generated/forces.glsl", group.kernel.forces},
                      {"generated/sweeps.glsl", group.kernel.sweeps},
+                     {"generated/factors.glsl", factorsText(group, options)},
                      {"generated/packing.glsl", group.kernel.packing},
                      {"generated/fields.glsl", plan.fieldSource},
                      {"generated/colliders.glsl", plan.collideSource}};

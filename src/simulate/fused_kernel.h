@@ -10,11 +10,13 @@
 namespace shoal {
 
 struct KernelOptions {
+    std::string factors = {};       // bdf2-corotated: its matrix as constants; empty: a uniform block
     Lanes lanes = Lanes::molecule;  // not automatic
     bool normals = false;           // written, where the shape has a surface
     bool onlyNormals = false;       // of the state as it is; nothing moves
     bool groupVote = false;         // ContextInfo::groupVote
     bool software = false;          // what suits a CPU rasteriser
+    bool watch = false;             // for states that run away
 };
 
 // Lanes of a workgroup.
