@@ -2,7 +2,9 @@
 
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/measure.h"
 #include "core/json.h"
+#include "measure/calibration_store.h"
 #include "scene/scene_file.h"
 #include "simulate/fused_kernel.h"
 
@@ -11,26 +13,38 @@ namespace shoal::app {
 Loaded load(const Options& options) {
     Loaded out{readScene(options.files.front()), {}};
     apply(options, out.scene);
+    if (options.error) return out;  // what to compile is to be found yet: measure.h
     out.plan = compile(out.scene);
     for (const Warning& warning : out.plan.warnings)
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     return out;
 }
 
-// Of a context as it is nearly everywhere; what is not given is not asked of a driver.
+// Of a context as it is nearly everywhere; what is not given is not asked of a driver. Only --error measures.
 int explainCommand(const Options& options) {
-    const Loaded loaded = load(options);
+    Loaded loaded = load(options);
+    std::optional<measure::Calibration> found;
+    if (options.error) {
+        gpu::ContextOptions wanted;
+        wanted.kind = options.context;
+        wanted.visible = false;
+        gpu::Context context(wanted);
+        found = calibrated(options, context, loaded);
+    }
     const PathLimits limits;
     const PathChoice choice = choosePath(loaded.plan, options.path, limits);
     if (options.shader && choice.path != Path::fused)
         throw Error("--shader prints the fused path's kernels; this scene runs on the other path: " +
                     choice.why);
     if (options.json) {
-        std::cout << writeJson(explainJson(loaded.plan, choice, options.inPlace));
+        JsonValue report = explainJson(loaded.plan, choice, options.inPlace);
+        if (found) report.add("calibration", asJson(*found));
+        std::cout << writeJson(report);
         return 0;
     }
     if (!options.shader) {
         std::cout << explain(loaded.plan, choice, options.inPlace);
+        if (found) std::cout << "\n" << asText(*found);
         return 0;
     }
     std::cout

@@ -71,18 +71,19 @@ AccuracyPanel panelOf(const MeasureReport& report) {
     out.title = concat(report.accuracy.scene, ": error after ", report.accuracy.duration, " s");
     out.subtitle = report.processor + ", " + report.context.renderer;
     out.points = report.accuracy.points;
-    out.chosen = chosenPoint(report);
+    if (const AccuracyPoint* point = chosenPoint(report)) out.chosen = *point;
     out.target = report.target;
     return out;
 }
 
+// The report first: a picture that fails must not take it along.
 void tell(const MeasureReport& report, const Options& options) {
-    if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
-    if (!options.plot.empty()) plotAccuracy(options.plot, panelOf(report));
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
-    if (options.json) return;
-    if (!options.csv.empty()) std::cout << "\ntable: " << options.csv << "\n";
-    if (!options.plot.empty()) std::cout << "\nplot: " << options.plot << "\n";
+    if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
+    if (!options.csv.empty() && !options.json) std::cout << "\ntable: " << options.csv << "\n";
+    std::cout.flush();
+    if (!options.plot.empty()) plotAccuracy(options.plot, panelOf(report));
+    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << options.plot << "\n";
 }
 
 }  // namespace
@@ -108,6 +109,17 @@ AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu
     out.path = options.path;
     out.lanes = options.lanes;
     out.inPlace = options.inPlace;
+    return out;
+}
+
+Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded) {
+    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    Calibration out =
+        calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context, cache));
+    measure::apply(out, loaded.scene);
+    loaded.plan = compile(loaded.scene);
+    for (const Warning& warning : loaded.plan.warnings)
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
     return out;
 }
 

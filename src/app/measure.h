@@ -1,6 +1,7 @@
 // What the commands share that measure a scene.
 #pragma once
 
+#include "app/commands.h"
 #include "app/measure_report.h"
 #include "app/options.h"
 #include "gpu/program_cache.h"
@@ -11,6 +12,9 @@ namespace shoal::app {
 measure::CalibrationOptions calibrationOptions(const Options& options);
 measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context,
                                        gpu::ProgramCache& cache);
+
+// For --error: finds the method, puts it into the scene and compiles that; warnings go to standard error.
+measure::Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded);
 
 // Chooses and sweeps, with progress on standard error.
 MeasureReport measureScene(const Scene& scene, const Options& options, const measure::AccuracyDevice& device);

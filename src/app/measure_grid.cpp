@@ -1,10 +1,128 @@
-// `shoal measure --report`: the report's own scenes, one file each, then pictures and tables of all.
+// `shoal measure --report`: the report's own scenes, one JSON each, then pictures and tables of all:
+//
+//   <folder>/<molecule>-<motion>-<stiffness>.json    what `shoal measure --json` says
+//   <folder>/<molecule>.svg                          a row a motion, a column a stiffness
+//   <folder>/tables.md                               speed-ups, costs, what is chosen
+//
+// A scene whose file is there is not measured again, so that a run goes on where it was ended.
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+
+#include "app/gnuplot.h"
+#include "app/machine.h"
 #include "app/measure.h"
+#include "app/measure_plot.h"
+#include "app/measure_read.h"
+#include "core/file.h"
+#include "measure/report_scenes.h"
 
 namespace shoal::app {
 
-int measureReport(const Options&) {
-    throw Error("--report: not there yet");
+using namespace measure;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// Enough to fill the device.
+constexpr int moleculesOnGpu = 16384, moleculesOnCpu = 4096;
+constexpr double usualSeconds = 60;  // of a scene, before one has been measured
+
+std::string fileOf(const Options& options, const ReportScene& scene) {
+    return (fs::path(options.report) / (scene.id + ".json")).string();
+}
+
+AccuracyPanel panelOf(const ReportScene& scene, const ReportEntry& entry) {
+    AccuracyPanel out;
+    out.title = concat(scene.motion, ", k = ", scene.stiffness,
+                       entry.accuracy.chaotic.empty() ? "" : ": chaotic, no error");
+    out.points = entry.accuracy.points;
+    for (const AccuracyPoint& point : out.points)
+        if (entry.chosen && point.method == entry.chosen->method &&
+            point.step == Step{entry.chosen->substeps, 1})
+            out.chosen = point;
+    out.target = entry.chosen ? entry.chosen->target : 0;
+    return out;
+}
+
+void tellLeft(size_t index, size_t count, const ReportScene& scene, double secondsEach) {
+    std::cerr << "scene " << index + 1 << " of " << count << ", " << scene.scene.name
+              << "; all that is left takes about " << roughly(secondsEach * double(count - index)) << "\n";
+}
+
+// Those that have no file yet.
+void measureMissing(const Options& options, const std::vector<ReportScene>& all,
+                    const AccuracyDevice& device) {
+    std::vector<const ReportScene*> missing;
+    for (const ReportScene& scene : all)
+        if (!readMeasured(fileOf(options, scene))) missing.push_back(&scene);
+    const Clock::time_point start = Clock::now();
+    for (size_t i = 0; i < missing.size(); ++i) {
+        const double passed = std::chrono::duration<double>(Clock::now() - start).count();
+        tellLeft(i, missing.size(), *missing[i],
+                 i > 0 ? passed / double(i) : options.seconds.value_or(usualSeconds));
+        Options own = options;
+        own.duration = missing[i]->duration;
+        writeFile(fileOf(options, *missing[i]),
+                  writeJson(asJson(measureScene(missing[i]->scene, own, device))));
+    }
+}
+
+std::string headOf(const Options& options, const gpu::ContextInfo& info, int count) {
+    return concat("Machine: ", processorName(), ". Context: ", info.renderer, " (", gpu::name(info.kind),
+                  "), OpenGL ", info.version, ". ", count, " molecules timed, ", options.molecules,
+                  " measured.\n\n");
+}
+
+std::string tables(const std::vector<ReportEntry>& entries, double error) {
+    return concat("## Cheapest method for an error of ", error, ", and how many times as fast as euler\n\n",
+                  speedUpTable(entries, error),
+                  "\n## Nanoseconds per vertex and simulated second for an error of ", error, "\n\n",
+                  costTable(entries, error), "\n## What the calibration chooses, with its substeps\n\n",
+                  chosenTable(entries));
+}
+
+void drawAll(const Options& options, const std::vector<ReportScene>& all,
+             const std::vector<ReportEntry>& entries, const std::string& machine) {
+    for (const std::string molecule : reportMolecules) {
+        std::vector<AccuracyPanel> panels;
+        for (size_t i = 0; i < all.size(); ++i)
+            if (all[i].molecule == molecule) panels.push_back(panelOf(all[i], entries[i]));
+        plotGrid((fs::path(options.report) / (molecule + ".svg")).string(), molecule + "; " + machine,
+                 int(std::size(reportStiffnesses)), panels);
+    }
+}
+
+}  // namespace
+
+int measureReport(const Options& options) {
+    needGnuplot();
+    gpu::ContextOptions wanted;
+    wanted.kind = options.context;
+    wanted.visible = false;
+    gpu::Context context(wanted);
+    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
+    const std::vector<ReportScene> all = reportScenes(count);
+    measureMissing(options, all, accuracyDevice(options, context, cache));
+    std::vector<ReportEntry> entries;
+    for (const ReportScene& scene : all) {
+        std::optional<ReportEntry> entry = readMeasured(fileOf(options, scene));
+        if (!entry) throw Error(concat(fileOf(options, scene), ": cannot be read again"));
+        entry->molecule = scene.molecule;
+        entry->motion = scene.motion;
+        entry->stiffness = scene.stiffness;
+        entries.push_back(std::move(*entry));
+    }
+    const std::string machine = processorName() + ", " + context.info().renderer;
+    const std::string text =
+        headOf(options, context.info(), count) + tables(entries, options.error.value_or(1e-3));
+    writeFile(fs::path(options.report) / "tables.md", text);
+    drawAll(options, all, entries, machine);
+    std::cout << text;
+    return 0;
 }
 
 }  // namespace shoal::app

@@ -1,7 +1,7 @@
 #include "app/measure_plot.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <map>
 #include <sstream>
 
@@ -38,12 +38,14 @@ constexpr double worstError = 2;
 
 struct Limits {
     double left = 1e30, right = 0, low = 1e30, high = 0;
-    void add(const AccuracyPoint& point) {
-        if (!drawn(point) || point.error->total > worstError) return;
-        left = std::min(left, nanoseconds(point));
-        right = std::max(right, nanoseconds(point));
-        low = std::min(low, point.error->total);
-        high = std::max(high, point.error->total);
+    void add(const std::vector<AccuracyPoint>& points, double worst = worstError) {
+        for (const AccuracyPoint& point : points) {
+            if (!drawn(point) || point.error->total > worst) continue;
+            left = std::min(left, nanoseconds(point));
+            right = std::max(right, nanoseconds(point));
+            low = std::min(low, point.error->total);
+            high = std::max(high, point.error->total);
+        }
     }
     bool any() const { return right > 0; }
 };
@@ -67,7 +69,7 @@ class Script {
         front(panel);
         for (const Method& method : methodsOf(panel.points))
             curve(panel, method);
-        if (panel.chosen != nullptr && drawn(*panel.chosen)) chosen(*panel.chosen);
+        if (panel.chosen && drawn(*panel.chosen)) chosen(*panel.chosen);
         if (lines_.str().empty()) return {};
         return data_.str() + "plot " + lines_.str() + "\n";
     }
@@ -180,8 +182,7 @@ std::string gridScript(const std::string& output, const std::string& title, int 
         << axes << "unset key\n";
     Limits all;
     for (const AccuracyPanel& panel : panels)
-        for (const AccuracyPoint& point : panel.points)
-            all.add(point);
+        all.add(panel.points);
     if (!all.any()) return out.str();
     out << ranges(all);
     Script script(true);
@@ -212,13 +213,15 @@ bool plottable(const std::vector<AccuracyPoint>& points) {
 
 std::string accuracyScript(const std::string& output, const AccuracyPanel& panel) {
     Limits limits;
-    for (const AccuracyPoint& point : panel.points)
-        limits.add(point);
+    limits.add(panel.points);
+    if (!limits.any()) limits.add(panel.points, std::numeric_limits<double>::infinity());
     std::ostringstream out;
     const size_t curves = methodsOf(panel.points).size();
-    out << terminal(output, 1080, 680 + (curves > 18 ? 160 : 0), 14) << "set title "
-        << quoted(panel.title + "\n" + panel.subtitle) << " noenhanced font ',13'\n"
-        << "set xlabel 'time per vertex and simulated second (ns)' offset 0,-0.3\n"
+    out << terminal(output, 1080, 680 + (curves > 18 ? 160 : 0), 14) << "set tmargin 5\nset label 1 "
+        << quoted(panel.title) << " at graph 0, screen 0.955 left noenhanced font ',17'\n"
+        << "set label 2 " << quoted(panel.subtitle)
+        << " at graph 0, screen 0.912 left noenhanced font ',11' textcolor rgb '#666666'\n"
+        << "set xlabel 'time per vertex and simulated second' offset 0,-0.3\n"
         << "set ylabel 'error after the run / size of a molecule' offset -0.5\n"
         << axes << ranges(limits)
         << "set key outside right center Left reverse samplen 3 spacing 1.25 font ',11'\n"

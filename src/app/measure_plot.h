@@ -1,6 +1,7 @@
 // Pictures of `shoal measure`: error against time, through gnuplot.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,8 +13,8 @@ namespace shoal::app {
 struct AccuracyPanel {
     std::string title, subtitle;
     std::vector<measure::AccuracyPoint> points;
-    const measure::AccuracyPoint* chosen = nullptr;  // marked; may lie elsewhere than `points`
-    double target = 0;                               // a line at this error; 0: none
+    std::optional<measure::AccuracyPoint> chosen;  // marked
+    double target = 0;                             // a line at this error; 0: none
 };
 
 // Whether there is anything to draw: a point with error and time.

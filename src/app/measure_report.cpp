@@ -92,7 +92,8 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
     const AccuracyPoint* refused = nullptr;
     const auto tellRefused = [&] {
         if (refused != nullptr)
-            out << "  up to " << steps(*refused) << " substeps refused: " << refused->why << "\n";
+            out << "  refused up to " << steps(*refused)
+                << (refused->step.perFrame() == 1 ? " substep: " : " substeps: ") << refused->why << "\n";
         refused = nullptr;
     };
     for (const AccuracyPoint& point : report.accuracy.points) {
@@ -215,14 +216,17 @@ const AccuracyPoint* chosenPoint(const MeasureReport& report) {
     return nullptr;
 }
 
+std::string oneLine(const Calibration& one) {
+    return concat("error ", one.target, ": ", shoal::name(one.method.solver), ", ", one.substeps,
+                  one.substeps == 1 ? " substep" : " substeps", " a frame, fields by ",
+                  shoal::name(one.method.sampling), "; measured ", exponent(one.error), " at ",
+                  nanoseconds(one.cost), " ns per vertex and simulated second, ",
+                  one.kept ? "as found before" : concat("found in ", number("%.1f", one.seconds), " s"));
+}
+
 std::string asText(const Calibration& one) {
     std::ostringstream out;
-    out << "error " << one.target << ": " << shoal::name(one.method.solver) << ", " << one.substeps
-        << (one.substeps == 1 ? " substep" : " substeps") << ", fields by "
-        << shoal::name(one.method.sampling) << " (measured error " << exponent(one.error) << ", "
-        << nanoseconds(one.cost) << " ns per vertex and simulated second; "
-        << (one.kept ? "as found before" : concat("found in ", number("%.1f", one.seconds), " s"))
-        << "): " << one.why << "\n";
+    out << oneLine(one) << ": " << one.why << "\n";
     for (const Candidate& candidate : one.candidates) {
         out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
             << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")

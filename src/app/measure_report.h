@@ -31,5 +31,6 @@ std::string asCsv(const MeasureReport& report);
 
 // Of a calibration, also for `explain`; as JSON: measure/calibration_store.h.
 std::string asText(const measure::Calibration& calibration);
+std::string oneLine(const measure::Calibration& calibration);
 
 }  // namespace shoal::app

@@ -82,8 +82,16 @@ void addContext(CLI::App& command, Options& options, Texts& texts) {
     command.add_flag("--json", options.json, "Report as JSON on standard output");
 }
 
+void addError(CLI::App& command, Options& options) {
+    command
+        .add_option("--error", options.error,
+                    "Cheapest solver, substeps and field sampling whose measured error is below this")
+        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
+}
+
 void addRun(CLI::App& command, Options& options, Texts& texts) {
     addScene(command, options);
+    addError(command, options);
     addOverrides(command, options, texts);
     addPath(command, options, texts);
     addContext(command, options, texts);
@@ -118,13 +126,6 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
         ->check(kindOf(isAll<double>, "a time in seconds"));
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
     command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");
-}
-
-void addError(CLI::App& command, Options& options) {
-    command
-        .add_option("--error", options.error,
-                    "Cheapest solver, substeps and field sampling whose measured error is below this")
-        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
 }
 
 void addMeasure(CLI::App& command, Options& options, Texts& texts) {
@@ -318,7 +319,8 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addOverrides(*explain, options, texts);
     addPath(*explain, options, texts);
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
-    explain->add_flag("--json", options.json, "Report as JSON on standard output");
+    addContext(*explain, options, texts);
+    addError(*explain, options);
     addContext(*info, options, texts);
     addBench(*bench, options, texts);
     addMeasure(*measure, options, texts);

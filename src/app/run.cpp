@@ -11,6 +11,7 @@
 #include "app/checkpoints.h"
 #include "app/data_paths.h"
 #include "app/export.h"
+#include "app/measure.h"
 #include "app/progress.h"
 #include "app/report.h"
 #include "render/picture.h"
@@ -224,3 +225,4 @@ int runCommand(const Options& options) {
 }
 
 }  // namespace shoal::app
+    if (options.error) std::cerr << oneLine(calibrated(options, context, loaded)) << "\n";

@@ -1,0 +1,40 @@
+// The scenes of the accuracy report: three molecules, four motions, four stiffnesses. Their numbers are those
+// of a prototype with z up; here (x, z, -y).
+//
+// Molecules have masses of 1 and springs of stiffness k with a damping of 0.05 sqrt(k), are centred on the
+// origin and start turned by 0.7 rad about (1, 2, 3); the others of a group are turned at random, so that
+// more than one direction counts. Molecules do not meet: all start at the same place, where the fields are.
+//
+//   fall     in a shear flow, drag 1 /s, gravity
+//   gusts    two vertices pinned, in a shear flow with four oscillations, drag 2 /s, gravity
+//   spin     20 rad/s, no drag, no gravity
+//   impact   thrown onto a plane with restitution 0.5 and friction 0.3, no drag
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "scene/scene.h"
+
+namespace shoal::measure {
+
+Molecule foldedLeaf(double stiffness);   // 4 vertices, 6 springs
+Molecule bracedCross(double stiffness);  // 10 vertices, 29 springs
+Molecule slenderFish(double stiffness);  // 24 vertices, 96 springs
+
+struct ReportScene {
+    std::string id;                // of its file: "leaf-fall-1e4"
+    std::string molecule, motion;  // for people
+    double stiffness = 0;          // N/m
+    double duration = 1;           // s
+    Scene scene;
+};
+
+inline constexpr const char* reportMolecules[] = {"leaf", "cross", "fish"};
+inline constexpr const char* reportMotions[] = {"fall", "gusts", "spin", "impact"};
+inline constexpr double reportStiffnesses[] = {1e2, 1e4, 1e6, 1e8};
+
+// Molecule by molecule, motion by motion, by growing stiffness; `count` molecules in each.
+std::vector<ReportScene> reportScenes(int count);
+
+}  // namespace shoal::measure
