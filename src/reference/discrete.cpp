@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "reference/fields.h"
+#include "reference/implicit.h"
+#include "reference/solve.h"
 
 namespace shoal::reference {
 
@@ -52,6 +54,22 @@ void eulerStep(const Problem& problem, State& state, double h) {
     state.time += h;
 }
 
+void verletStep(const Problem& problem, State& state, double h) {
+    const auto bound = [&](Molecule molecule) {
+        for (Spring& spring : molecule.springs) {
+            const double weight =
+                1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
+            spring.restLength = problem.molecule->restLength(spring);
+            spring.stiffness = std::min(spring.stiffness, 1 / (weight * h * h * problem.stiffness));
+        }
+        return molecule;
+    };
+    const Molecule molecule = bound(*problem.molecule);
+    Problem bounded = problem;
+    bounded.molecule = &molecule;
+    eulerStep(bounded, state, h);
+}
+
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h) {
     add(problem, state.velocity, springs, h / 2);
     add(problem, state.position, state.velocity, h / 2);
@@ -66,14 +84,33 @@ void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double
 
 void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps) {
     const double h = duration / substeps;
-    if (kind == SolverKind::euler) {
-        for (int i = 0; i < substeps; ++i)
+    Vectors springs;
+    if (kind == SolverKind::leapfrog)
+        springs = springAcceleration(problem, state.position, state.velocity, state.time);
+    History history;
+    for (int i = 0; i < substeps; ++i) {
+        switch (kind) {
+        case SolverKind::euler:
             eulerStep(problem, state, h);
-        return;
+            break;
+        case SolverKind::verlet:
+            verletStep(problem, state, h);
+            break;
+        case SolverKind::leapfrog:
+            leapfrogStep(problem, state, springs, h);
+            break;
+        case SolverKind::rk4:
+            rungeKuttaStep(problem, state, h);
+            break;
+        case SolverKind::xpbd:
+            xpbdStep(problem, state, h);
+            break;
+        case SolverKind::bdf2Xpbd:
+        case SolverKind::bdf2Corotated:
+            bdf2Step(problem, state, history, h, kind == SolverKind::bdf2Corotated);
+            break;
+        }
     }
-    Vectors springs = springAcceleration(problem, state.position, state.velocity, state.time);
-    for (int i = 0; i < substeps; ++i)
-        leapfrogStep(problem, state, springs, h);
 }
 
 }  // namespace shoal::reference

@@ -1,6 +1,6 @@
-// The two explicit methods of the GPU, step for step, in double precision: what the passes would compute if
+// The explicit methods of the GPU, step for step, in double precision: what the passes would compute if
 // floats had no rounding. `euler` is symplectic Euler (Latta 2004, 3 and 8), `leapfrog` its second-order
-// relative. Both take gravity and drag exactly over the step they are given:
+// relative. All but rk4 take gravity and drag exactly over the step they are given:
 //   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma.
 #pragma once
 
@@ -16,7 +16,12 @@ void eulerStep(const Problem& problem, State& state, double h);
 // on return.
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h);
 
-// A frame of `substeps` equal steps; leapfrog evaluates a anew at its start.
+// As eulerStep, with every spring no stiffer than what moves its ends to its rest length at once, and v from
+// the positions' difference.
+void verletStep(const Problem& problem, State& state, double h);
+
+// A frame of `substeps` equal steps of any solver, the implicit ones too (reference/implicit.h); leapfrog
+// evaluates a anew at its start, and those with history start without.
 void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps);
 
 }  // namespace shoal::reference

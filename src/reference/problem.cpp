@@ -9,15 +9,6 @@ namespace shoal::reference {
 
 namespace {
 
-double restLength(const Problem& problem, const Spring& spring, double time) {
-    double length = problem.scale * problem.molecule->restLength(spring);
-    if (const auto& muscle = spring.actuation) {
-        const double turns = 2 * std::numbers::pi * muscle->frequency * time;
-        length *= 1 + muscle->amplitude * std::sin(turns + muscle->phase + problem.phase);
-    }
-    return length;
-}
-
 glm::dvec3 freeVelocity(const Problem& problem, const Vectors& velocity, size_t vertex) {
     return problem.pinned(vertex) ? glm::dvec3(0) : velocity[vertex];
 }
@@ -30,6 +21,15 @@ Vectors freeVelocities(const Problem& problem, const Vectors& velocity) {
 }
 
 }  // namespace
+
+double restLength(const Problem& problem, const Spring& spring, double time) {
+    double length = problem.scale * problem.molecule->restLength(spring);
+    if (const auto& muscle = spring.actuation) {
+        const double turns = 2 * std::numbers::pi * muscle->frequency * time;
+        length *= 1 + muscle->amplitude * std::sin(turns + muscle->phase + problem.phase);
+    }
+    return length;
+}
 
 State restState(const Problem& problem, const Instance& instance, const glm::dvec3& velocity,
                 const glm::dvec3& spin) {

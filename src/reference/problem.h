@@ -43,6 +43,8 @@ using Vectors = std::vector<glm::dvec3>;
 State restState(const Problem& problem, const Instance& instance = {}, const glm::dvec3& velocity = {},
                 const glm::dvec3& spin = {});
 
+// m, with the muscle's share at that time.
+double restLength(const Problem& problem, const Spring& spring, double time);
 // Spring forces divided by the mass, 0 at pinned vertices.
 Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
                            double time);

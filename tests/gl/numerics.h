@@ -87,8 +87,16 @@ inline bool finite(const Snapshot& snapshot) {
 
 constexpr SolverKind bothSolvers[] = {SolverKind::euler, SolverKind::leapfrog};
 
+// All that the tested path runs.
+inline std::vector<SolverKind> solversHere() {
+    std::vector<SolverKind> out;
+    for (const Solver& one : solvers())
+        if (testPath() != Path::pingPong || !one.implicit) out.push_back(one.kind);
+    return out;
+}
+
 inline int orderOf(SolverKind kind) {
-    return kind == SolverKind::euler ? 1 : 2;
+    return solver(kind).order;
 }
 
 }  // namespace shoal::test

@@ -1,0 +1,254 @@
+#include "reference/implicit.h"
+
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "reference/fields.h"
+
+namespace shoal::reference {
+
+namespace {
+
+// Across and along the surface.
+struct Rates {
+    double across, along;
+};
+
+// A stage in the making.
+struct Stage {
+    double eta = 0;                  // s
+    double time = 0;                 // s, at its end
+    Vectors known;                   // z, m
+    Vectors moved;                   // q, m
+    std::vector<glm::dmat3> weight;  // inverse of mass times beta, s^2/kg; 0 where pinned
+};
+
+glm::dmat3 byDirection(const glm::dvec3& n, const Rates& rates) {
+    return glm::dmat3(rates.along) + (rates.across - rates.along) * glm::outerProduct(n, n);
+}
+
+// v + decay (u - v) + phi g, each by its direction.
+glm::dvec3 relaxed(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
+                   const Rates& decay, const Rates& phi) {
+    return v + byDirection(n, decay) * (u - v) + byDirection(n, phi) * problem.gravity;
+}
+
+template <typename Function>
+Rates ratesOf(const Drag& drag, const Function& function) {
+    return {function(drag.normal), function(drag.tangent)};
+}
+
+double exactPhi(double gamma, double h) {
+    return gamma == 0 ? h : -std::expm1(-gamma * h) / gamma;
+}
+
+Vectors fluidAt(const Problem& problem, const Vectors& position, double time) {
+    Vectors out(position.size(), glm::dvec3(0));
+    for (size_t i = 0; i < out.size() && problem.drag.any(); ++i)
+        out[i] = fluidVelocity(problem.fields, position[i], time);
+    return out;
+}
+
+Vectors surfaceAt(const Problem& problem, const Vectors& position) {
+    return problem.drag.directional() ? normals(problem, position) : Vectors(position.size(), glm::dvec3(0));
+}
+
+void relax(const Problem& problem, const State& state, Stage& stage, size_t index, double& pushed) {
+    const Spring& spring = problem.molecule->springs[index];
+    const size_t a = size_t(spring.a), b = size_t(spring.b);
+    const glm::dvec3 d = (state.position[a] + stage.moved[a]) - (state.position[b] + stage.moved[b]);
+    const double length = glm::length(d);
+    if (length < 1e-12) return;
+    const glm::dvec3 n = d / length;
+    const glm::dvec3 parted = (stage.moved[a] - stage.known[a]) - (stage.moved[b] - stage.known[b]);
+    const double k = problem.stiffness * spring.stiffness, c = problem.damping * spring.damping / stage.eta;
+    const double weight = glm::dot(n, (stage.weight[a] + stage.weight[b]) * n);
+    const double stretch = length - restLength(problem, spring, stage.time);
+    const double change = -(k * stretch + c * glm::dot(n, parted) + pushed) / ((k + c) * weight + 1);
+    pushed += change;
+    stage.moved[a] += stage.weight[a] * n * change;
+    stage.moved[b] -= stage.weight[b] * n * change;
+}
+
+void sweep(const Problem& problem, const State& state, Stage& stage, bool back) {
+    const size_t count = problem.molecule->springs.size();
+    std::vector<double> pushed(count, 0);
+    for (size_t i = 0; i < count; ++i)
+        relax(problem, state, stage, i, pushed[i]);
+    for (size_t i = count; back && i-- > 0;)
+        relax(problem, state, stage, i, pushed[i]);
+}
+
+Eigen::Vector3d toEigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// The rotation of the rest shape that comes nearest to the displaced molecule, by mass; and how far the
+// furthest vertex is from it, as a share of the molecule's size.
+struct Fit {
+    Eigen::Matrix3d rotation;
+    double furthest = 0;
+};
+
+Fit fit(const Problem& problem, const State& state, const Stage& stage) {
+    const auto& vertices = problem.molecule->vertices;
+    glm::dvec3 centre(0), restCentre(0);
+    double total = 0;
+    for (size_t i = 0; i < vertices.size(); ++i) {
+        total += vertices[i].mass;
+        centre += vertices[i].mass * (state.position[i] + stage.moved[i]);
+        restCentre += vertices[i].mass * vertices[i].position;
+    }
+    centre /= total;
+    restCentre /= total;
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    const auto arm = [&](size_t i) { return toEigen(state.position[i] + stage.moved[i] - centre); };
+    const auto rest = [&](size_t i) { return toEigen(vertices[i].position - restCentre); };
+    for (size_t i = 0; i < vertices.size(); ++i)
+        covariance += vertices[i].mass * arm(i) * rest(i).transpose();
+    const Eigen::JacobiSVD<Eigen::Matrix3d> svd(covariance, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    Eigen::Vector3d sign(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1);
+    Fit out{svd.matrixU() * sign.asDiagonal() * svd.matrixV().transpose(), 0};
+    const double size = problem.molecule->size();
+    for (size_t i = 0; i < vertices.size(); ++i)
+        out.furthest = std::max(
+            out.furthest, (arm(i) - problem.scale * out.rotation * rest(i)).norm() / (problem.scale * size));
+    return out;
+}
+
+Eigen::MatrixXd restMatrix(const Problem& problem, const Stage& stage) {
+    const Molecule& molecule = *problem.molecule;
+    const Eigen::Index size = 3 * Eigen::Index(molecule.vertices.size());
+    const double gamma = std::max(problem.drag.normal, problem.drag.tangent);
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(size, size);
+    for (const Spring& spring : molecule.springs) {
+        const glm::dvec3 d =
+            molecule.vertices[size_t(spring.a)].position - molecule.vertices[size_t(spring.b)].position;
+        if (glm::length(d) == 0) continue;
+        Eigen::VectorXd n = Eigen::VectorXd::Zero(size);
+        n.segment<3>(3 * spring.a) = toEigen(glm::normalize(d));
+        n.segment<3>(3 * spring.b) = -toEigen(glm::normalize(d));
+        out += (problem.stiffness * spring.stiffness + problem.damping * spring.damping / stage.eta) * n *
+               n.transpose();
+    }
+    for (size_t i = 0; i < molecule.vertices.size(); ++i) {
+        const Eigen::Index row = 3 * Eigen::Index(i);
+        if (problem.pinned(i)) {
+            out.middleRows<3>(row).setZero();
+            out.middleCols<3>(row).setZero();
+        }
+        out.block<3, 3>(row, row) += (1 / (stage.eta * stage.eta) + gamma / stage.eta) *
+                                     molecule.vertices[i].mass * Eigen::Matrix3d::Identity();
+    }
+    return out;
+}
+
+// Whether two quasi-Newton steps have solved the stage.
+bool improve(const Problem& problem, const State& state, Stage& stage) {
+    const Fit rotation = fit(problem, state, stage);
+    if (rotation.furthest > 0.03) return false;
+    const Eigen::LDLT<Eigen::MatrixXd> matrix(restMatrix(problem, stage));
+    const Vectors start = stage.moved;
+    const size_t count = start.size();
+    double before = 0, now = 0;
+    for (int step = 0; step < 2; ++step) {
+        Vectors position(count), velocity(count);
+        for (size_t i = 0; i < count; ++i) {
+            position[i] = state.position[i] + stage.moved[i];
+            velocity[i] = (stage.moved[i] - stage.known[i]) / stage.eta;
+        }
+        const Vectors spring = springAcceleration(problem, position, velocity, stage.time);
+        Eigen::VectorXd residual = Eigen::VectorXd::Zero(3 * Eigen::Index(count));
+        for (size_t i = 0; i < count; ++i) {
+            if (problem.pinned(i)) continue;
+            const glm::dvec3 left = problem.molecule->vertices[i].mass * spring[i] -
+                                    glm::inverse(stage.weight[i]) * (stage.moved[i] - start[i]);
+            residual.segment<3>(3 * Eigen::Index(i)) = rotation.rotation.transpose() * toEigen(left);
+        }
+        const Eigen::VectorXd change = matrix.solve(residual);
+        before = now;
+        now = 0;
+        for (size_t i = 0; i < count; ++i) {
+            if (problem.pinned(i)) continue;
+            const Eigen::Vector3d d = rotation.rotation * change.segment<3>(3 * Eigen::Index(i));
+            stage.moved[i] += glm::dvec3(d.x(), d.y(), d.z());
+            now += d.squaredNorm();
+        }
+    }
+    const double size = problem.scale * problem.molecule->size();
+    if (now < 0.1 * before || now < 1e-12 * size * size) return true;
+    stage.moved = start;
+    return false;
+}
+
+}  // namespace
+
+void xpbdStep(const Problem& problem, State& state, double h) {
+    const size_t count = state.position.size();
+    const Vectors u = fluidAt(problem, state.position, state.time), n = surfaceAt(problem, state.position);
+    const Rates phi = ratesOf(problem.drag, [h](double gamma) { return exactPhi(gamma, h); });
+    const Rates decay = ratesOf(problem.drag, [h](double gamma) { return -std::expm1(-gamma * h); });
+    Stage stage{h, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
+                std::vector<glm::dmat3>(count, glm::dmat3(0))};
+    for (size_t i = 0; i < count; ++i) {
+        if (problem.pinned(i)) continue;
+        stage.moved[i] = h * relaxed(problem, state.velocity[i], u[i], n[i], decay, phi);
+        stage.weight[i] = h / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
+    }
+    sweep(problem, state, stage, false);
+    for (size_t i = 0; i < count; ++i) {
+        state.velocity[i] = stage.moved[i] / h;
+        state.position[i] += stage.moved[i];
+    }
+    state.time += h;
+}
+
+void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated) {
+    const size_t count = state.position.size();
+    const double eta = 2 * h / 3;
+    const bool fresh = history.displacement.empty();
+    Vectors ahead(count);
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec3 v = state.velocity[i];
+        ahead[i] = state.position[i];
+        if (problem.pinned(i)) continue;
+        ahead[i] +=
+            fresh ? h * v : history.displacement[i] / 3.0 + eta * (v + history.velocityChange[i] / 3.0);
+    }
+    const Vectors u = fluidAt(problem, ahead, state.time + h), n = surfaceAt(problem, ahead);
+    if (fresh) {
+        const Rates flightDecay =
+            ratesOf(problem.drag, [h](double gamma) { return -std::expm1(-gamma * h); });
+        const Rates flightPhi = ratesOf(problem.drag, [h](double gamma) { return exactPhi(gamma, h); });
+        for (size_t i = 0; i < count; ++i) {
+            const glm::dvec3 v = state.velocity[i];
+            const glm::dvec3 change = relaxed(problem, v, u[i], n[i], flightDecay, flightPhi) - v;
+            history.velocityChange.push_back(change);
+            history.displacement.push_back(h * v - h / 2 * change);
+        }
+    }
+    const Rates phi = ratesOf(problem.drag, [eta](double gamma) { return eta / (1 + gamma * eta); });
+    const Rates decay =
+        ratesOf(problem.drag, [eta](double gamma) { return gamma * eta / (1 + gamma * eta); });
+    Stage stage{eta, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
+                std::vector<glm::dmat3>(count, glm::dmat3(0))};
+    for (size_t i = 0; i < count; ++i) {
+        if (problem.pinned(i)) continue;
+        stage.known[i] = history.displacement[i] / 3.0;
+        const glm::dvec3 w = state.velocity[i] + history.velocityChange[i] / 3.0;
+        stage.moved[i] = stage.known[i] + eta * relaxed(problem, w, u[i], n[i], decay, phi);
+        stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
+    }
+    if (!corotated || !improve(problem, state, stage)) sweep(problem, state, stage, true);
+    for (size_t i = 0; i < count; ++i) {
+        const glm::dvec3 velocity = (stage.moved[i] - stage.known[i]) / eta;
+        history.velocityChange[i] = velocity - state.velocity[i];
+        history.displacement[i] = stage.moved[i];
+        state.velocity[i] = velocity;
+        state.position[i] += stage.moved[i];
+    }
+    state.time += h;
+}
+
+}  // namespace shoal::reference
