@@ -19,12 +19,6 @@ reference::State stateOf(const Snapshot& snapshot, int m) {
             {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
 }
 
-template <typename Problem>
-void giveColliders(Problem& problem, const Scene& scene, const Group& group) {
-    if constexpr (requires { problem.colliders; })
-        if (group.collide) problem.colliders = scene.colliders;
-}
-
 reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     const Group& group = scene.groups[plan.index];
     reference::Problem out;
@@ -37,7 +31,7 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.gravity = scene.gravity;
     out.drag = group.drag;
     out.fields = scene.fields;
-    giveColliders(out, scene, group);
+    if (group.collide) out.colliders = scene.colliders;
     return out;
 }
 
