@@ -9,9 +9,11 @@
 
 namespace shoal::app {
 
+namespace fs = std::filesystem;
+
 std::string numbered(const std::string& target, int frame, bool several) {
     if (!several) return target;
-    const std::filesystem::path path(target);
+    const fs::path path(target);
     char number[16];
     std::snprintf(number, sizeof number, "-%05d", frame);
     return (path.parent_path() / (path.stem().string() + number + path.extension().string())).string();
@@ -41,7 +43,36 @@ void checkSave(const Options& options) {
 }
 
 void saveState(const std::string& file, const Simulation& simulation) {
+    simulation.check();
     writeCheckpoint(file, simulation.plan(), {simulation.save(), simulation.parameters});
+}
+
+// The folder of what a run writes.
+static fs::path outputFolder(const Options& options) {
+    if (!options.save.empty()) return fs::path(options.save).parent_path();
+    const std::string target = options.capture.empty() ? options.exports : options.capture;
+    return lowerExtension(target).empty() ? fs::path(target) : fs::path(target).parent_path();
+}
+
+std::string sceneStem(const std::string& file) {
+    const std::string stem = fs::path(file).filename().string();
+    return stem.substr(0, stem.find('.'));
+}
+
+std::string saveForInspection(const Options& options, const Simulation& simulation, const Runaway& runaway) {
+    const std::optional<SavedState> before = simulation.saveBefore();
+    const SavedState state = before ? *before : simulation.save();
+    if (!findAlarm(state).finite)
+        return concat("The state before is gone; to have it, run again with --frames ",
+                      std::max(1, runaway.alarm().frame - 1), " and --save");
+    const std::string file =
+        (outputFolder(options) / (sceneStem(options.files.front()) + ".watchdog.shoal")).string();
+    try {
+        writeCheckpoint(file, simulation.plan(), {state, simulation.parameters});
+    } catch (const Error& error) {
+        return concat("The state could not be saved: ", error.what());
+    }
+    return concat("Look closer with --resume ", file, ", the state at frame ", state.frames);
 }
 
 }  // namespace shoal::app

@@ -1,4 +1,4 @@
-// --save, --save-frames and --resume, of runs without and with a window.
+// --save, --save-frames, --resume and what the watchdog leaves, of runs without and with a window.
 #pragma once
 
 #include <string>
@@ -12,6 +12,9 @@ namespace shoal::app {
 // Where a frame's file goes: "out.csv" becomes "out-00060.csv" where several frames are asked for.
 std::string numbered(const std::string& target, int frame, bool several);
 
+// "hello" of "models/hello.scene.json".
+std::string sceneStem(const std::string& file);
+
 // Whether `frame` is among `frames`, or the last where there are none.
 bool asksFor(const std::vector<int>& frames, int frame, int last);
 // Error: one of them lies beyond the last, or before the first, which is 0 unless the run was resumed.
@@ -22,7 +25,13 @@ void resume(const Options& options, Simulation& simulation);
 
 // Error: it could not be written at the end of the run either. Makes its folder.
 void checkSave(const Options& options);
-// Writes the state as it is. Error: cannot be written.
+// Writes the state as it is. Runaway: it is none to go on from; an older file is kept. Error: cannot be
+// written.
 void saveState(const std::string& file, const Simulation& simulation);
+
+// Saves what can be looked at closer, as <scene>.watchdog.shoal beside the run's other output, else in the
+// working directory: the state before the frame that went wrong, or as it is, where that is finite.
+// Returns a sentence that says so, or why there is none.
+std::string saveForInspection(const Options& options, const Simulation& simulation, const Runaway& runaway);
 
 }  // namespace shoal::app

@@ -52,6 +52,7 @@ int explainCommand(const Options& options) {
         << " vertices in a lane (--lanes molecule), and stores and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
+        kernel.watch = true;
         kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
         kernel.normals = true;
         std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";

@@ -114,6 +114,7 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
         ->check(wholeNumber());
     command.add_option("--resume", options.resume,
                        "Go on from the state in this file; --frames are further ones");
+    command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     command.add_option("--screenshot", options.screenshot,
                        "Window: save its picture after --frames and close");

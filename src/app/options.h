@@ -45,6 +45,7 @@ struct Options {
     std::string save;             // a checkpoint
     std::vector<int> saveFrames;  // empty: the last
     std::string resume;           // a checkpoint to go on from
+    bool unwatched = false;       // no watchdog
     std::string screenshot;       // window: a picture of it after `frames`, then close
 
     // bench

@@ -10,6 +10,15 @@ namespace shoal::app {
 
 Controls::Controls(const Plan& plan) : gravity(plan.gravity), substeps(plan.substeps) {}
 
+void Controls::follow(const Parameters& parameters) {
+    gravity = parameters.gravity;
+    wind = float(parameters.wind);
+    drag = float(parameters.drag);
+    stiffness = float(parameters.stiffness);
+    damping = float(parameters.damping);
+    substeps = parameters.substeps;
+}
+
 void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) const {
     const double share = -std::expm1(-seconds / 0.2);
     const auto follow = [share](double& value, double target) { value += (target - value) * share; };

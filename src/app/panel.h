@@ -18,6 +18,7 @@ struct Controls {
     bool paused = false;
 
     explicit Controls(const Plan& plan);
+    void follow(const Parameters& parameters);  // as a run that was resumed has them
     void lead(Parameters& parameters, const Plan& plan, double seconds) const;
 };
 

@@ -45,8 +45,7 @@ bool wantsWindow(const Options& options) {
 
 // The pictures of a run that asked for none: eight of them, in a folder named after the scene.
 std::string defaultFolder(const std::string& sceneFile) {
-    std::string stem = std::filesystem::path(sceneFile).filename().string();
-    return "pictures/" + stem.substr(0, stem.find('.'));
+    return "pictures/" + sceneStem(sceneFile);
 }
 
 // Such a run writes pictures.
@@ -62,6 +61,7 @@ SimulationOptions simulationOptions(const Options& options, gpu::Context& contex
     out.path = options.path;
     out.lanes = options.lanes;
     out.inPlace = options.inPlace;
+    out.watchdog = !options.unwatched;
     out.cache = &cache;
     return out;
 }
@@ -101,8 +101,24 @@ class HeadlessRun {
 
     void go() {
         report_.start = context_.traffic();
-        Progress progress("frames", frames_);
         const auto start = std::chrono::steady_clock::now();
+        try {
+            runFrames();
+        } catch (const Runaway& runaway) {
+            if (pictures_) pictures_->finish();  // they show how it came about
+            throw Error(runaway.location(),
+                        concat(runaway.message(), ". ", saveForInspection(options_, simulation_, runaway)));
+        }
+        if (pictures_) pictures_->finish();
+        if (pictures_) note(pictures_->last().string());
+        context_.checkErrors("run");
+        simulation_.timers().drain();
+        if (renderer_) renderer_->timers().drain();
+        report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    void runFrames() {
+        Progress progress("frames", frames_);
         outside([&] { writeIfAsked(first_); });
         for (int frame = first_ + 1; frame <= last_; ++frame) {
             const gpu::Traffic before = context_.traffic();
@@ -119,12 +135,7 @@ class HeadlessRun {
             });
             progress.step();
         }
-        if (pictures_) pictures_->finish();
-        if (pictures_) note(pictures_->last().string());
-        context_.checkErrors("run");
-        simulation_.timers().drain();
-        if (renderer_) renderer_->timers().drain();
-        report_.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        simulation_.check();
     }
 
     void tell() {
@@ -220,9 +231,9 @@ int runCommand(const Options& options) {
     wanted.height = options.height;
     wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
     gpu::Context context(wanted);
+    if (options.error) std::cerr << oneLine(calibrated(options, context, loaded)) << "\n";
     return context.window() ? runWindow(options, context, std::move(loaded))
                             : runHeadless(options, context, std::move(loaded));
 }
 
 }  // namespace shoal::app
-    if (options.error) std::cerr << oneLine(calibrated(options, context, loaded)) << "\n";

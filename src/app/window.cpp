@@ -13,6 +13,7 @@
 #include <memory>
 #include <utility>
 
+#include "app/checkpoints.h"
 #include "app/data_paths.h"
 #include "app/orbit_camera.h"
 #include "app/panel.h"
@@ -116,6 +117,10 @@ class WindowRun {
         glfwSwapInterval(1);
         glfwGetFramebufferSize(window_, &width_, &height_);
         build(std::move(loaded.plan));
+        checkSave(options);
+        if (options.resume.empty()) return;
+        resume(options, *simulation_);
+        controls_.follow(simulation_->parameters);
     }
 
     void go() {
@@ -127,8 +132,9 @@ class WindowRun {
             last = now;
             // the first intervals hold start-up, not frames
             if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
-            if (!showFrame()) return;
+            if (!showFrame()) break;
         }
+        saveIfAsked(true);
     }
 
   private:
@@ -178,7 +184,7 @@ class WindowRun {
         const gpu::Traffic before = context_.traffic();
         if (!controls_.paused || action_ == Panel::Action::step) {
             controls_.lead(simulation_->parameters, simulation_->plan(), simulation_->parameters.frameTime);
-            simulation_->frame();
+            advance();
         }
         if (width_ != renderer_->width() || height_ != renderer_->height())
             renderer_->resize(width_, height_);
@@ -199,6 +205,31 @@ class WindowRun {
         glfwSwapBuffers(window_);
         obey();
         return !last;
+    }
+
+    // What runs away stands still, to be looked at and restarted.
+    void advance() {
+        try {
+            simulation_->frame();
+        } catch (const Runaway& runaway) {
+            controls_.paused = true;
+            message_ = concat(runaway.what(), ". ", saveForInspection(options_, *simulation_, runaway));
+            std::cerr << "shoal: warning: " << message_ << "\n";
+            return;
+        }
+        saveIfAsked(false);
+    }
+
+    // --save-frames as the run passes them, else once at the end.
+    void saveIfAsked(bool end) {
+        const bool now = options_.saveFrames.empty()
+                             ? end
+                             : !end && asksFor(options_.saveFrames, simulation_->frames(), -1);
+        if (options_.save.empty() || !now) return;
+        const std::string file =
+            numbered(options_.save, simulation_->frames(), options_.saveFrames.size() > 1);
+        saveState(file, *simulation_);
+        std::cout << "saved: " << file << "\n";
     }
 
     void obey() {

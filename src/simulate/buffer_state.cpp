@@ -1,6 +1,7 @@
 #include "simulate/buffer_state.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -50,6 +51,13 @@ void packHistory(const BufferLayout& layout, const GroupState& state, std::vecto
         out[BufferLayout::index(m, 2 * part, elements)].x = noHistory;
 }
 
+// Lanes past the last molecule do what it does, so that they never do anything worse.
+void repeatLast(std::vector<glm::vec4>& packed, int elements, size_t count) {
+    for (size_t m = count; m < packed.size() / size_t(elements); ++m)
+        for (int e = 0; e < elements; ++e)
+            packed[BufferLayout::index(m, e, elements)] = packed[BufferLayout::index(count - 1, e, elements)];
+}
+
 std::vector<glm::vec4> download(const Buffer& buffer) {
     std::vector<glm::vec4> out(buffer.bytes() / sizeof(glm::vec4));
     buffer.download(Traffic::Kind::state, 0, out.data(), buffer.bytes());
@@ -76,9 +84,10 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
     if (normals && group.needs.normals)
         normals_ = makeBuffer(context, group, molecules_ * size_t(layout_.positionElements()), "normals");
     if (group.needs.scale || group.needs.phase) {
-        std::vector<glm::vec4> constants(molecules_, glm::vec4(1, 0, 0, 0));
+        std::vector<glm::vec4> constants(molecules_);
         for (size_t m = 0; m < group.constants.scales.size(); ++m)
             constants[m] = glm::vec4(group.constants.scales[m], group.constants.phases[m], 0, 0);
+        repeatLast(constants, 1, size_t(group.count));
         constants_ = makeBuffer(context, group, molecules_, "constants");
         constants_.update(Traffic::Kind::parameters, 0, constants.data(), constants_.bytes());
     }
@@ -140,20 +149,32 @@ void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {
     pack(layout_, state.positions, 0, elements, packed);
     pack(layout_, state.velocities, layout_.positionElements(), elements, packed);
     if (layout_.history) packHistory(layout_, state, packed);
+    repeatLast(packed, elements, size_t(group.count));
     state_[size_t(current_)].update(Traffic::Kind::state, 0, packed.data(),
                                     packed.size() * sizeof(glm::vec4));
-    std::vector<glm::vec4> records(molecules_, glm::vec4(0, 0, 0, 1));
+    std::vector<glm::vec4> records(molecules_);
     for (size_t m = 0; m < size_t(group.count); ++m) {
         const float label = float(seeds_[m] + 1);
         records[m] = glm::vec4(state.anchors[m], state.released[m] ? -label : label);
     }
+    // a record is one element, and one element of a block of molecules lies as they are counted
+    repeatLast(records, 1, size_t(group.count));
     records_.update(Traffic::Kind::state, 0, records.data(), records_.bytes());
 }
 
 GroupState GroupBuffers::read(const GroupPlan& group) const {
+    return readSide(group, state_[size_t(current_)]);
+}
+
+GroupState GroupBuffers::readBefore(const GroupPlan& group) const {
+    assert(!inPlace_);
+    return readSide(group, state_[size_t(1 - current_)]);
+}
+
+GroupState GroupBuffers::readSide(const GroupPlan& group, const Buffer& side) const {
     const int elements = layout_.stateElements();
     const size_t count = size_t(group.count);
-    const std::vector<glm::vec4> packed = download(state_[size_t(current_)]);
+    const std::vector<glm::vec4> packed = download(side);
     GroupState state;
     state.positions = unpack(layout_, packed, 0, elements, count);
     state.velocities = unpack(layout_, packed, layout_.positionElements(), elements, count);

@@ -28,6 +28,8 @@ class GroupBuffers {
 
     void write(const GroupPlan& group, const GroupState& state);
     GroupState read(const GroupPlan& group) const;
+    // The side before the last frame, with two of them; anchors and released pins are those of now.
+    GroupState readBefore(const GroupPlan& group) const;
     std::vector<glm::vec3> readNormals(
         const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
 
@@ -55,6 +57,7 @@ class GroupBuffers {
 
   private:
     void split(gpu::Context& context, size_t largestPart);
+    GroupState readSide(const GroupPlan& group, const gpu::Buffer& side) const;
 
     BufferLayout layout_;
     size_t molecules_ = 0;  // padded to whole workgroups

@@ -1,6 +1,7 @@
 #include "simulate/ping_pong.h"
 
 #include "gpu/gl.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -10,9 +11,9 @@ using gpu::Texture;
 
 namespace {
 
-constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag",
-                                           "passes/restore.frag", "passes/advect.frag",
-                                           "passes/collide.frag"};
+constexpr const char* fragmentShaders[] = {
+    "passes/records.frag", "passes/normals.frag", "passes/restore.frag", "passes/advect.frag",
+    "passes/stage.frag",   "passes/collide.frag", "passes/watch.frag"};
 
 std::vector<std::string> defines(const GroupPlan& group) {
     const Needs& needs = group.needs;
@@ -21,6 +22,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
         if (need) out.emplace_back(name);
     };
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
+    define(group.solver == SolverKind::verlet, "VERLET");
     define(needs.acceleration && needs.springDamping, "PREDICT");
     define(needs.fields, "FIELDS");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
@@ -46,23 +48,35 @@ void drawPlainly() {
 }  // namespace
 
 PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                   const Tables& tables, bool drawn, gpu::ProgramCache* cache)
-    : state(context, plan), plan_(&plan), tables_(&tables), drawn_(drawn), noAttributes_(context, "pass") {
+                   const Tables& tables, bool drawn, gpu::ProgramCache* cache, bool watch)
+    : state(context, plan),
+      plan_(&plan),
+      tables_(&tables),
+      drawn_(drawn),
+      noAttributes_(context, "pass"),
+      traffic_(&context.traffic()) {
+    if (watch) {
+        GLuint id = 0;
+        glGenQueries(1, &id);
+        query_ = gpu::Handle<gpu::deleteQuery>(id);
+    }
     programs_.resize(plan.groups.size());
     for (const PassPlan& pass : plan.passes) {
         Program& program = programs_[pass.group][size_t(pass.kind)];
-        if (program) continue;
+        if (program || (pass.kind == PassKind::watch && !watch)) continue;
         gpu::ProgramOptions options;
         options.vertex = "passes/fullscreen.vert";
         options.fragment = fragmentShaders[size_t(pass.kind)];
         options.defines = defines(plan.groups[pass.group]);
+        if (pass.kind == PassKind::watch) options.defines.push_back(fastestDefine());
         options.generated = {{"generated/fields.glsl", plan.fieldSource},
                              {"generated/colliders.glsl", plan.collideSource}};
         options.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
         options.cache = cache;
         program = Program(context, shaderRoot, options);
         program.use();
-        if (pass.kind == PassKind::advect && plan.groups[pass.group].needs.fields)
+        if ((pass.kind == PassKind::advect || pass.kind == PassKind::stage) &&
+            plan.groups[pass.group].needs.fields)
             program.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (pass.kind == PassKind::collide)
             program.set("colliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
@@ -73,20 +87,47 @@ void PingPong::computeNormals(gpu::PassTimers& timers) {
     drawPlainly();
     const Frame still;
     for (const PassPlan& pass : plan_->passes)
-        if (pass.when == PassPlan::When::frameEnd && drawn_) runPass(pass, {0, 0, true, still}, timers);
+        if (pass.kind == PassKind::normals && pass.when == PassPlan::When::frameEnd && drawn_)
+            runPass(pass, {0, 0, true, still}, timers);
 }
 
 void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
     drawPlainly();
     const auto run = [&](PassPlan::When when, const Step& step) {
         for (const PassPlan& pass : plan_->passes)
-            if (pass.when == when) runPass(pass, step, timers);
+            if (pass.when == when && pass.kind != PassKind::watch) runPass(pass, step, timers);
     };
     run(PassPlan::When::frameStart, {frame.time, frame.h, true, frame});
     for (int i = 0; i < frame.parameters.substeps; ++i)
         run(PassPlan::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame});
     if (drawn_)
         run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame});
+    if (query_) watch(timers);
+}
+
+// All groups in one query, which the next frame reads. Nothing is drawn: the target is the side that is not
+// read, with its colours masked.
+void PingPong::watch(gpu::PassTimers& timers) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, query_.id());
+    for (const PassPlan& pass : plan_->passes) {
+        if (pass.kind != PassKind::watch) continue;
+        const auto timer = timers.time(name(pass.kind));
+        const GroupPlan& group = plan_->groups[pass.group];
+        prepare(pass.kind, group, pass.group);
+        drawState(group, state.target(state.velocity.write(pass.group)));
+    }
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    asked_ = true;
+}
+
+bool PingPong::alarmed() const {
+    if (!asked_) return false;
+    GLuint raised = GL_FALSE;
+    glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &raised);
+    traffic_->countReadBack(gpu::Traffic::Kind::control, sizeof raised);
+    return raised != GL_FALSE;
 }
 
 void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers) {
@@ -101,8 +142,14 @@ void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& 
         return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
     case PassKind::advect:
         return advect(group, pass.group, step);
+    case PassKind::stage:
+        for (int s = 0; s < 4; ++s)
+            stage(group, pass.group, step, s);
+        return;
     case PassKind::collide:
         return collide(group, pass.group, step);
+    case PassKind::watch:  // not one by one
+        return;
     }
 }
 
@@ -122,9 +169,11 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     program.texture("records", 3, state.record.read(index));
     program.texture("constants", 4, state.constant);
     program.texture("topology", 5, tables_->topology);
-    if ((kind == PassKind::advect && group.needs.fields) || kind == PassKind::collide)
+    if (((kind == PassKind::advect || kind == PassKind::stage) && group.needs.fields) ||
+        kind == PassKind::collide)
         program.texture("samples", 6, tables_->samples);
-    if (kind == PassKind::advect && state.normal) program.texture("vertexNormals", 7, state.normal);
+    if ((kind == PassKind::advect || kind == PassKind::stage) && state.normal)
+        program.texture("vertexNormals", 7, state.normal);
     return program;
 }
 
@@ -134,6 +183,7 @@ void PingPong::setSprings(const Program& program, const GroupPlan& group, const 
     program.set("dampingFactor", float(group.damping * step.frame.parameters.damping));
     program.set("springTime", float(time));
     program.set("predictTime", float(predictTime));
+    if (group.solver == SolverKind::verlet) program.set("stepsSquared", float(1 / (step.h * step.h)));
 }
 
 void PingPong::drawState(const GroupPlan& group, const Framebuffer& target) {
@@ -170,7 +220,7 @@ void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, b
 
 void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
     const Program& program = prepare(PassKind::restore, group, index);
-    if (group.solver == SolverKind::euler) {
+    if (group.solver != SolverKind::leapfrog) {
         setSprings(program, group, step, step.time, 0);
         program.set("kickTime", float(step.h));
         drawState(group, state.target(state.velocity.write(index)));
@@ -198,6 +248,46 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     program.set("phi", drag.phi);
     program.set("moveAnchors", int(step.first && group.needs.records));
     drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
+    state.position.flip(index);
+    state.velocity.flip(index);
+}
+
+// Stage s of a substep reads side s - 1 of the stages, or the state, and writes side s, or the new state.
+void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int s) {
+    constexpr double shares[] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0}, at[] = {0, 0.5, 0.5, 1};
+    const size_t read = size_t(s + 1) % 2, write = size_t(s) % 2;
+    const Texture& position = s == 0 ? state.position.read(index) : state.stagePosition[read];
+    const Texture& velocity = s == 0 ? state.velocity.read(index) : state.stageVelocity[read];
+    if (group.needs.directionalDrag) {
+        const Program& normals = prepare(PassKind::normals, group, index);
+        normals.texture("positions", 0, position);
+        normals.set("aheadTime", 0.0f);
+        drawState(group, state.target(state.normal));
+    }
+    const Program& program = prepare(PassKind::stage, group, index);
+    const double time = step.time + at[s] * step.h;
+    if (group.needs.springs) setSprings(program, group, step, time, 0);
+    program.texture("positions", 0, position);
+    program.texture("velocities", 1, velocity);
+    program.texture("startPositions", 8, state.position.read(index));
+    program.texture("startVelocities", 9, state.velocity.read(index));
+    program.texture("sumVelocities", 10, state.sumVelocity[read]);
+    program.texture("sumAccelerations", 11, state.sumAcceleration[read]);
+    program.set("time", float(time));
+    program.set("substep", float(step.h));
+    program.set("share", float(shares[s]));
+    program.set("ahead", float(s < 3 ? at[s + 1] * step.h : 0));
+    program.set("stage", s);
+    program.set("gravity", glm::vec3(step.frame.parameters.gravity));
+    program.set("wind", float(step.frame.parameters.wind));
+    program.set("dragRate",
+                glm::vec2(group.drag.normal, group.drag.tangent) * float(step.frame.parameters.drag));
+    program.set("moveAnchors", int(step.first && group.needs.records));
+    const bool last = s == 3;
+    drawState(group, state.target({last ? &state.position.write(index) : &state.stagePosition[write],
+                                   last ? &state.velocity.write(index) : &state.stageVelocity[write],
+                                   &state.sumVelocity[write], &state.sumAcceleration[write]}));
+    if (!last) return;
     state.position.flip(index);
     state.velocity.flip(index);
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "gpu/handle.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/step.h"
@@ -17,12 +18,17 @@ namespace shoal {
 
 class PingPong {
   public:
-    // Borrows the plan and the tables. `drawn`: normals are computed at the end of each frame.
+    // Borrows the plan and the tables. `drawn`: normals are computed at the end of each frame. `watch`: for
+    // states that run away (simulate/watchdog.h).
     PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-             bool drawn, gpu::ProgramCache* cache);
+             bool drawn, gpu::ProgramCache* cache, bool watch = false);
 
     void step(const Frame& frame, gpu::PassTimers& timers);
     void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
+
+    // Whether the last frame since disarm() left a state that ran away; waits for it, and reads 4 bytes.
+    bool alarmed() const;
+    void disarm() { asked_ = false; }
 
     TextureState state;
 
@@ -39,7 +45,9 @@ class PingPong {
     void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
     void restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart);
     void advect(const GroupPlan& group, size_t index, const Step& step);
+    void stage(const GroupPlan& group, size_t index, const Step& step, int s);
     void collide(const GroupPlan& group, size_t index, const Step& step);
+    void watch(gpu::PassTimers& timers);
 
     const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step, double time,
@@ -50,8 +58,11 @@ class PingPong {
     const Plan* plan_;
     const Tables* tables_;
     bool drawn_;
-    std::vector<std::array<gpu::Program, 5>> programs_;  // per group, by PassKind
+    std::vector<std::array<gpu::Program, 7>> programs_;  // per group, by PassKind
     gpu::VertexArray noAttributes_;
+    gpu::Handle<gpu::deleteQuery> query_;  // where watched
+    gpu::Traffic* traffic_;                // the context's
+    bool asked_ = false;                   // the query has been put
 };
 
 }  // namespace shoal

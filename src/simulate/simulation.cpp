@@ -26,8 +26,8 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
     using Paths = std::variant<std::monostate, PingPong, Fused>;
     if (choice_.path == Path::pingPong)
         return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
-                     options.cache);
-    FusedOptions fused{options.drawn, options.inPlace, options.lanes, options.cache};
+                     options.cache, options.watchdog);
+    FusedOptions fused{options.drawn, options.inPlace, options.lanes, options.cache, options.watchdog};
     if (options.path != Path::automatic)
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     // What works: two sides, else one, else the other path.
@@ -44,7 +44,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         warnings_.push_back(
             {error.location(), concat(error.message(), "; going on with the ping-pong path")});
         return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
-                     options.cache);
+                     options.cache, options.watchdog);
     }
 }
 
@@ -53,6 +53,7 @@ void Simulation::restart() {
         writeGroup(g, plan_.groups[g].start);
     time_ = lastStep_ = 0;
     frames_ = 0;
+    disarm();
     computeNormals();
 }
 
@@ -65,6 +66,8 @@ void Simulation::computeNormals() {
 
 void Simulation::frame() {
     assert(parameters.substeps >= 1);
+    check();
+    before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;
     const Frame frame{time_, step, frames_, parameters, step != lastStep_};
     lastStep_ = step;
@@ -74,6 +77,25 @@ void Simulation::frame() {
     timers_.endFrame();
     time_ += parameters.frameTime;
     ++frames_;
+}
+
+bool Simulation::alarmed() const {
+    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->alarmed();
+    return std::get<PingPong>(path_).alarmed();
+}
+
+void Simulation::disarm() {
+    before_.reset();
+    if (auto* fused = std::get_if<Fused>(&path_)) fused->disarm();
+    if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->disarm();
+}
+
+void Simulation::check() const {
+    if (!alarmed()) return;
+    // what was wrong before the last frame is where it began: springs spread it over the molecule
+    const std::optional<SavedState> before = saveBefore();
+    const Alarm first = before ? findAlarm(*before) : Alarm{};
+    throw Runaway(plan_, runsAway(first) ? first : findAlarm(save()));
 }
 
 Lanes Simulation::lanes(size_t group) const {

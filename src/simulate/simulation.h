@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -16,6 +17,7 @@
 #include "simulate/parameters.h"
 #include "simulate/ping_pong.h"
 #include "simulate/state_view.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -45,6 +47,7 @@ struct SimulationOptions {
     bool inPlace = false;            // fused: half the memory of the state
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     gpu::ProgramCache* cache = nullptr;
+    bool watchdog = true;  // simulate/watchdog.h
 };
 
 class Simulation {
@@ -55,7 +58,11 @@ class Simulation {
     Simulation(const Simulation&) = delete;  // the paths refer to the plan and the tables
     Simulation& operator=(const Simulation&) = delete;
 
-    void frame();    // advances by parameters.frameTime
+    // Advances by parameters.frameTime. Runaway: check's, of the frame before; nothing moves then.
+    void frame();
+    // Waits for the last frame. Runaway: it, or one before it, left a state that is not finite or too fast.
+    // That stays so until a restart or another state is loaded.
+    void check() const;
     void restart();  // back to the start state, which is uploaded again
 
     Parameters parameters;
@@ -74,6 +81,9 @@ class Simulation {
     // State bytes are counted as they cross the bus.
     Snapshot snapshot(size_t group) const;
     SavedState save() const;
+    // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
+    // ping-pong path, in place, and without a frame since the last load or restart.
+    std::optional<SavedState> saveBefore() const;
     void load(const SavedState& saved);
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits
 
@@ -83,6 +93,8 @@ class Simulation {
     GroupState readGroup(size_t group) const;
     void writeGroup(size_t group, const GroupState& state);
     void computeNormals();
+    bool alarmed() const;
+    void disarm();
 
     gpu::Context* context_;
     Plan plan_;
@@ -95,6 +107,11 @@ class Simulation {
     double time_ = 0;  // s
     int frames_ = 0;
     double lastStep_ = 0;  // s, a substep of the last frame; 0: none yet
+    struct Moment {
+        double time = 0, step = 0;  // s
+        int frames = 0;
+    };
+    std::optional<Moment> before_;  // the start of the last frame; nothing: it is gone
 };
 
 }  // namespace shoal

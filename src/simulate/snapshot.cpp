@@ -26,6 +26,18 @@ SavedState Simulation::save() const {
     return out;
 }
 
+std::optional<SavedState> Simulation::saveBefore() const {
+    const auto* fused = std::get_if<Fused>(&path_);
+    if (!fused || !before_) return std::nullopt;
+    SavedState out{before_->time, before_->frames, {}, before_->step};
+    for (size_t g = 0; g < plan_.groups.size(); ++g) {
+        if (fused->state[g].inPlace()) return std::nullopt;
+        GroupState& state = out.groups.emplace_back(fused->state[g].readBefore(plan_.groups[g]));
+        undoRecords(plan_, plan_.groups[g], state);
+    }
+    return out;
+}
+
 void Simulation::load(const SavedState& saved) {
     assert(saved.groups.size() == plan_.groups.size() && "a state of another plan");
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
@@ -34,6 +46,7 @@ void Simulation::load(const SavedState& saved) {
     }
     time_ = saved.time;
     frames_ = saved.frames;
+    disarm();
     lastStep_ = saved.step;
     computeNormals();
 }

@@ -1,0 +1,12 @@
+// watch: once a frame, last. What is fine is discarded and nothing is written: a query tells whether anything was
+// left.
+#include "lib/state.glsl"
+#include "physics/runaway.glsl"
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    uint speed = squareBits(texelFetch(velocities, texel, 0).xyz);
+    uint place = squareBits(texelFetch(positions, texel, 0).xyz);
+    if (isPadding(ownAddress().y) || !isRunaway(speed, place)) discard;
+}

@@ -1,0 +1,100 @@
+#include "simulate/watchdog.h"
+
+#include <cmath>
+
+#include "compile/plan.h"
+#include "simulate/simulation.h"
+
+namespace shoal {
+
+namespace {
+
+// As the shaders see it: the square must be finite as well.
+bool finiteSquare(const glm::vec3& value) {
+    return std::isfinite(glm::dot(value, value));
+}
+
+glm::vec3 anchorShift(const glm::vec3& p) {
+    if (std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && std::abs(p.z) <= 1) return glm::vec3(0);
+    return glm::floor(p * 16.0f + 0.5f) * 0.0625f;
+}
+
+bool isPinned(const Plan& plan, const GroupPlan& group, int vertex) {
+    return plan.topology[size_t(group.topologyBase + group.vertexCount + vertex)].y > 0.5f;
+}
+
+// In world coordinates.
+glm::dvec3 placeOf(const GroupState& state, size_t molecule, size_t vertex) {
+    return glm::dvec3(state.anchors[molecule]) + glm::dvec3(state.positions[vertex]);
+}
+
+bool wasHeld(const Plan& plan, const GroupPlan& group, const GroupState& state, size_t molecule) {
+    for (int v = 0; v < group.vertexCount; ++v) {
+        if (!isPinned(plan, group, v)) continue;
+        const size_t i = molecule * size_t(group.vertexCount) + size_t(v);
+        if (state.velocities[i] != glm::vec3(0) ||
+            placeOf(state, molecule, i) != placeOf(group.start, molecule, i))
+            return false;
+    }
+    return true;
+}
+
+std::string cause(const Alarm& alarm) {
+    if (!alarm.finite)
+        return "the step is too long for something here, or a force is beyond what a float holds";
+    return concat("the limit is ", runawaySpeed,
+                  " m/s: the step is too long for something here, or a field, drag ",
+                  "or start velocity is too large");
+}
+
+std::string describe(const Plan& plan, const Alarm& alarm) {
+    return concat("stopped at frame ", alarm.frame, ", ", alarm.time, " s: group \"",
+                  plan.groups[alarm.group].name, "\", molecule ", alarm.molecule, ", vertex ", alarm.vertex,
+                  alarm.finite ? concat(" moves with ", alarm.speed, " m/s") : " is not finite", "; ",
+                  cause(alarm), ". Try more --substeps, another --solver, or smaller numbers");
+}
+
+}  // namespace
+
+std::string fastestDefine() {
+    return concat("FASTEST_SQUARED ", runawaySpeed * runawaySpeed);
+}
+
+Alarm findAlarm(const SavedState& saved) {
+    Alarm worst;
+    worst.time = saved.time;
+    worst.frame = saved.frames;
+    for (size_t g = 0; g < saved.groups.size(); ++g) {
+        const GroupState& state = saved.groups[g];
+        const size_t vertices = state.positions.size() / state.anchors.size();
+        for (size_t i = 0; i < state.positions.size(); ++i) {
+            const bool finite = finiteSquare(state.positions[i]) && finiteSquare(state.velocities[i]);
+            const double speed = glm::length(glm::dvec3(state.velocities[i]));
+            if (finite && !(speed > worst.speed)) continue;
+            worst.group = g;
+            worst.molecule = int(i / vertices);
+            worst.vertex = int(i % vertices);
+            worst.speed = speed;
+            worst.finite = finite;
+            if (!finite) return worst;
+        }
+    }
+    return worst;
+}
+
+bool runsAway(const Alarm& alarm) {
+    return !alarm.finite || alarm.speed >= runawaySpeed;
+}
+
+Runaway::Runaway(const Plan& plan, const Alarm& alarm)
+    : Error(plan.groups[alarm.group].location, describe(plan, alarm)), alarm_(alarm) {}
+
+void undoRecords(const Plan& plan, const GroupPlan& group, GroupState& state) {
+    const size_t vertices = size_t(group.vertexCount);
+    for (size_t m = 0; m < state.anchors.size(); ++m) {
+        if (group.needs.records) state.anchors[m] -= anchorShift(state.positions[m * vertices]);
+        if (state.released[m] && wasHeld(plan, group, state, m)) state.released[m] = 0;
+    }
+}
+
+}  // namespace shoal

@@ -1,0 +1,257 @@
+// The watchdog notices in the next frame what is not finite or too fast, says who, and leaves healthy runs
+// alone.
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/agreement.h"
+#include "gl/feature_scenes.h"
+#include "support/catch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+struct Way {
+    const char* name;
+    SimulationOptions options;
+};
+
+// Every way to run that the context has.
+std::vector<Way> ways() {
+    std::vector<Way> out;
+    out.push_back({"ping-pong", {.path = Path::pingPong}});
+    if (testContext().info().computeShaders) {
+        out.push_back({"fused", {.path = Path::fused, .lanes = Lanes::molecule}});
+        out.push_back({"fused, a lane a vertex", {.path = Path::fused, .lanes = Lanes::vertex}});
+        out.push_back({"fused, in place", {.path = Path::fused, .inPlace = true}});
+    }
+    return out;
+}
+
+Simulation make(const Plan& plan, const SimulationOptions& options) {
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
+}
+
+// Two groups, of which the second is looked at; quads high in the air.
+Plan manyQuads(int count, SolverKind solver = SolverKind::leapfrog) {
+    Scene scene = swarm(shippedMolecule("quad"), count, solver, {0, 50, 0});
+    scene.groups.push_back(scene.groups[0]);
+    scene.groups[0].count = 3;
+    scene.groups[0].name = "few";
+    scene.groups[1].name = "many";
+    scene.gravity = {0, -9.81, 0};
+    setStableSubsteps(scene);
+    return compile(scene);
+}
+
+std::optional<Alarm> alarmOf(Simulation& simulation, int frames = 1) {
+    try {
+        for (int i = 0; i < frames; ++i)
+            simulation.frame();
+        simulation.check();
+    } catch (const Runaway& runaway) {
+        return runaway.alarm();
+    }
+    return {};
+}
+
+}  // namespace
+
+TEST_CASE("what is not finite is noticed in the next frame, at its vertex", "[watchdog]") {
+    const Plan plan = manyQuads(5000);
+    for (const Way& way : ways()) {
+        Simulation simulation = make(plan, way.options);
+        INFO(way.name);
+        REQUIRE_FALSE(alarmOf(simulation, 2));
+        const SavedState good = simulation.save();
+        for (const float bad :
+             {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity()}) {
+            for (const bool position : {false, true}) {
+                SavedState spoiled = good;
+                GroupState& group = spoiled.groups[1];
+                (position ? group.positions : group.velocities)[4 * 4321 + 2].y = bad;
+                simulation.load(spoiled);
+                const std::optional<Alarm> alarm = alarmOf(simulation);
+                REQUIRE(alarm);
+                CHECK(alarm->group == 1);
+                CHECK(alarm->molecule == 4321);
+                CHECK_FALSE(alarm->finite);
+                // where only the state after the frame is left, springs have carried it to every vertex
+                const bool twoSides = way.options.path == Path::fused && !way.options.inPlace;
+                CHECK(alarm->vertex == (twoSides ? 2 : alarm->vertex));
+                CHECK(alarm->frame == (twoSides ? 2 : 3));
+                CHECK(simulation.frames() == 3);
+                CHECK_THROWS_AS(simulation.frame(), Runaway);  // and it stays so
+                CHECK(simulation.frames() == 3);
+            }
+        }
+        simulation.load(good);
+        CHECK_FALSE(alarmOf(simulation, 2));
+    }
+}
+
+TEST_CASE("a vertex above the limit is noticed, one below is not", "[watchdog]") {
+    const Plan plan = manyQuads(5000);
+    for (const Way& way : ways()) {
+        INFO(way.name);
+        Simulation simulation = make(plan, way.options);
+        const SavedState good = simulation.save();
+        // a whole molecule, which springs do not slow down
+        const auto withSpeed = [&](float speed) {
+            SavedState out = good;
+            for (size_t v = 0; v < 4; ++v)
+                out.groups[1].velocities[4 * 4999 + v] = {-speed, 0, 0};
+            out.groups[1].velocities[4 * 4999 + 3].x *= 1.0001f;
+            return out;
+        };
+        simulation.load(withSpeed(9990));
+        CHECK_FALSE(alarmOf(simulation));
+        simulation.load(withSpeed(10010));
+        const std::optional<Alarm> alarm = alarmOf(simulation);
+        REQUIRE(alarm);
+        CHECK(alarm->molecule == 4999);
+        CHECK(alarm->finite);
+        CHECK(alarm->speed > 1e4);
+        CHECK(alarm->speed < 1.01e4);
+    }
+}
+
+TEST_CASE("the message says who, when and what may help", "[watchdog]") {
+    const Plan plan = manyQuads(100);
+    Simulation simulation = make(plan, {.path = testPath()});
+    run(simulation, 6);
+    SavedState state = simulation.save();
+    state.groups[1].velocities[4 * 17 + 1] = {0, 3e4f, 0};
+    simulation.load(state);
+    std::string message;
+    try {
+        simulation.frame();
+        simulation.frame();
+    } catch (const Runaway& runaway) {
+        message = runaway.what();
+    }
+    for (const char* part : {"group \"many\", molecule 17, vertex 1", " s: ", "m/s", "--substeps", "--solver",
+                             "field, drag", "stopped at frame "})
+        CHECK_THAT(message, Catch::Contains(part));
+}
+
+TEST_CASE("healthy runs raise nothing, whatever their number", "[watchdog]") {
+    for (const Way& way : ways()) {
+        for (const int count : {1, 63, 65, 1023, 1025}) {
+            INFO(way.name << ", " << count);
+            Scene scene = swarm(shippedMolecule("leaf"), count, SolverKind::euler, {0, 1.5, 0});
+            // what the lanes past the last molecule would meet at the origin
+            scene.colliders = {everyCollider()[0], everyCollider()[1]};
+            scene.fields = {test::field(VortexField{.speed = 20, .radius = 0.01})};
+            scene.gravity = {0, -9.81, 0};
+            scene.groups[0].drag = {3, 1};
+            scene.groups[0].velocity = {0, 300, 0};  // fast, but legal
+            setStableSubsteps(scene);
+            const Plan plan = compile(scene);
+            Simulation simulation = make(plan, way.options);
+            CHECK_FALSE(alarmOf(simulation, 200));
+        }
+    }
+}
+
+TEST_CASE("without a watchdog a run goes on, bit for bit the same", "[watchdog]") {
+    const Plan plan = manyQuads(200);
+    for (Way way : ways()) {
+        INFO(way.name);
+        Simulation watched = make(plan, way.options);
+        way.options.watchdog = false;
+        Simulation unwatched = make(plan, way.options);
+        run(watched, 20);
+        run(unwatched, 20);
+        CHECK(watched.hash() == unwatched.hash());
+        SavedState state = unwatched.save();
+        state.groups[0].velocities[0].x = std::numeric_limits<float>::infinity();
+        unwatched.load(state);
+        CHECK_FALSE(alarmOf(unwatched, 3));
+    }
+}
+
+TEST_CASE("the state before the last frame is exactly what it was", "[watchdog]") {
+    if (!canFuse()) return;
+    // anchors that move, pins that let go at random and by force
+    for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
+        Molecule molecule = shippedMolecule("leaf");
+        molecule.vertices[0].pinned = molecule.vertices[2].pinned = true;
+        Scene scene = swarm(molecule, 150, SolverKind::leapfrog, {0, 3, 0});
+        scene.gravity = {0, -9.81, 0};
+        scene.fields = {test::field(UniformField{{60, 0, 10}})};
+        scene.groups[0].drag = {6, 1};
+        scene.groups[0].release = Release{5.0, 2.0, 0.1};
+        setStableSubsteps(scene);
+        const Plan plan = compile(scene);
+        Simulation simulation = make(plan, {.path = Path::fused, .lanes = lanes});
+        CHECK_FALSE(simulation.saveBefore());
+        int releases = 0, moves = 0;
+        SavedState last = simulation.save();
+        for (int frame = 0; frame < 60; ++frame) {
+            simulation.frame();
+            const std::optional<SavedState> before = simulation.saveBefore();
+            REQUIRE(before);
+            INFO(name(lanes) << ", frame " << frame);
+            CHECK(before->groups == last.groups);
+            CHECK(before->time == last.time);
+            CHECK(before->frames == last.frames);
+            CHECK(before->step == last.step);
+            const SavedState now = simulation.save();
+            for (size_t m = 0; m < 150; ++m) {
+                releases += now.groups[0].released[m] != last.groups[0].released[m];
+                moves += now.groups[0].anchors[m] != last.groups[0].anchors[m];
+            }
+            last = now;
+        }
+        CHECK(releases > 50);
+        CHECK(moves > 500);
+    }
+}
+
+TEST_CASE("a run that blows up is stopped before it is lost", "[watchdog]") {
+    const Plan plan = manyQuads(100);
+    for (const Way& way : ways()) {
+        INFO(way.name);
+        Simulation simulation = make(plan, way.options);
+        simulation.parameters.stiffness = 1e4;  // far beyond the stable step
+        const std::optional<Alarm> alarm = alarmOf(simulation, 200);
+        REQUIRE(alarm);
+        const std::optional<SavedState> before = simulation.saveBefore();
+        CHECK(before.has_value() == (way.options.path == Path::fused && !way.options.inPlace));
+        if (!before) continue;
+        CHECK_FALSE(runsAway(findAlarm(*before)));
+        // the same again from there
+        Simulation again = make(plan, way.options);
+        again.parameters = simulation.parameters;
+        again.load(*before);
+        const std::optional<Alarm> second = alarmOf(again);
+        REQUIRE(second);
+        CHECK(second->frame == alarm->frame);
+        CHECK(second->molecule == alarm->molecule);
+        CHECK(second->vertex == alarm->vertex);
+        again.load(*before);
+        again.parameters = parametersOf(plan);
+        again.parameters.substeps *= 4;
+        CHECK_FALSE(alarmOf(again));
+    }
+}
+
+TEST_CASE("watching costs a few bytes of control a frame and none of state", "[watchdog][traffic]") {
+    using Kind = gpu::Traffic::Kind;
+    const Plan plan = manyQuads(300);
+    for (const Way& way : ways()) {
+        Simulation simulation = make(plan, way.options);
+        run(simulation, 2);
+        const gpu::Traffic before = testContext().traffic();
+        run(simulation, 10);
+        const gpu::Traffic traffic = testContext().traffic() - before;
+        CHECK(traffic.total(Kind::state) == 0);
+        CHECK(traffic.total(Kind::parameters) == 0);
+        CHECK(traffic.down(Kind::control) == 40);
+        CHECK(traffic.up(Kind::control) == 0);
+    }
+}
