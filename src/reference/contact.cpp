@@ -1,4 +1,4 @@
-// A step is tried whole. `Events` are looked for between its ends; the earliest is located and the step ends
+// A step is tried whole. Events are looked for between its ends; the earliest is located and the step ends
 // there; what happens is applied, and the rest of the step is tried again.
 #include "reference/contact.h"
 
@@ -13,14 +13,17 @@ namespace shoal::reference {
 
 namespace {
 
-// m, of a distance of 1 m from the origin: closer to a surface is on it.
-constexpr double onSurface = 1e-12;
+// m, and the share of a coordinate: what is closer to a surface is on it.
+constexpr double onSurface = 1e-12, rounding = 1e-15;
 // The share of a step that events are located to.
 constexpr double located = 1e-13;
-// Events are at most so many and so many a step; more do not come to an end.
-constexpr int64_t fewEvents = 20000, eventsPerStep = 4;
-// So many events in a row that take no time are one that repeats itself.
+// Events are at most so many and one a step; more do not come to an end.
+constexpr int64_t fewEvents = 20000;
+// A distance above this, in m, is to nothing.
+constexpr double nothing = 1e20;
+// So many events in a row that take less than this share of a step are one that repeats itself.
 constexpr int mostAtOnce = 200;
+constexpr double atOnceShare = 1e-10;
 
 bool finite(const State& state) {
     glm::dvec3 sum(0);
@@ -30,7 +33,7 @@ bool finite(const State& state) {
 }
 
 double slack(const glm::dvec3& x) {
-    return onSurface * (1 + std::abs(x.x) + std::abs(x.y) + std::abs(x.z));
+    return onSurface + rounding * (std::abs(x.x) + std::abs(x.y) + std::abs(x.z));
 }
 
 // Something that happens to one vertex when `value` falls below 0.
@@ -74,7 +77,7 @@ class ContactIntegrator {
 
     ContactRun run(double duration, int64_t steps) {
         const double begin = state_.time, h = duration / double(steps);
-        budget_ = fewEvents + eventsPerStep * steps;
+        budget_ = fewEvents + steps;
         for (int64_t i = 0; i < steps && isFinite_; ++i) {
             step(h);
             state_.time = begin + double(i + 1) * h;
@@ -113,7 +116,7 @@ class ContactIntegrator {
             if (!event) return;
             apply(*event);
             ++events_;
-            atOnce = until > 10 * located * h ? 0 : atOnce + 1;
+            atOnce = until > atOnceShare * h ? 0 : atOnce + 1;
             left -= until;
         }
     }
@@ -226,6 +229,8 @@ class ContactIntegrator {
             return held_.pressure(i, event.collider, x, v, free_[i]);
         case Change::slip:
             return held_.grip(i, x, free_[i]);
+        case Change::press:
+            return held_.speedOff(i, x, v);
         default:
             return held_.speedAlong(i, v);
         }
@@ -254,9 +259,12 @@ class ContactIntegrator {
         int side = 0;  // that moved last
         for (int i = 0; i < 150 && high - low > close; ++i) {
             const double secant = low + (high - low) * atLow / (atLow - atHigh);
-            const double time = i % 4 == 3 || !(secant > low) || !(secant < high) ? (low + high) / 2 : secant;
+            const bool halve = i % 4 == 3 || atLow > nothing || !(secant > low) || !(secant < high);
+            const double time = halve ? (low + high) / 2 : secant;
             const double now = valueAt(event, time);
-            const bool near = std::abs(now) * (high - low) < close * (atLow - atHigh);
+            // what a straight line to the other end says is left
+            const double other = now < 0 ? atLow : -atHigh;
+            const bool near = other < nothing && std::abs(now) * (high - low) < close * other;
             if (now < 0) {
                 high = time, atHigh = now;
                 if (side > 0) atLow /= 2;
@@ -282,6 +290,11 @@ class ContactIntegrator {
         case Change::impact:
             onto(i, event.collider);
             strike(i);
+            if (!surfaces_.exact(event.collider)) held_.graze(i, event.collider);
+            break;
+        case Change::press:
+            held_.releaseAll(i);
+            holdWhereSlow(i);
             break;
         case Change::release:
             held_.release(i, event.collider);

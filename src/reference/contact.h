@@ -5,7 +5,7 @@
 //
 //   impact    v_n becomes -e v_n; the rest of v loses min(mu (1 + e) |v_n|, itself) along its direction
 //             (Coulomb). Found as an event: where the distance crosses 0 within a step.
-//   rest      a rebound below restSpeed ends bouncing. While the other forces press the vertex into the
+//   rest      a rebound below 1e-8 m/s ends bouncing. While the other forces press the vertex into the
 //   surface
 //             it has no acceleration along n but that of following the surface; N is the force that this
 //             takes.
@@ -21,8 +21,6 @@
 #include "reference/problem.h"
 
 namespace shoal::reference {
-
-constexpr double restSpeed = 1e-8;  // m/s
 
 struct ContactRun {
     State state;

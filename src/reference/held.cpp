@@ -51,8 +51,15 @@ bool Held::holds(size_t vertex, size_t collider) const {
 void Held::hold(size_t vertex, size_t collider) {
     Contacts& c = contacts_[vertex];
     if (c.count == most || holds(vertex, collider)) return;
+    c.grazes = false;
     if (c.count == 0) list_.push_back(vertex);
     c.collider[c.count++] = collider;
+}
+
+void Held::graze(size_t vertex, size_t collider) {
+    if (any(vertex)) return;
+    hold(vertex, collider);
+    contacts_[vertex].grazes = true;
 }
 
 void Held::release(size_t vertex, size_t collider) {
@@ -121,7 +128,8 @@ double Held::pressure(size_t vertex, size_t collider, const glm::dvec3& x, const
     const Contacts& c = contacts_[vertex];
     const Forces f = forces(c, x, v, free);
     for (size_t j = 0; j < c.count; ++j) {
-        if (c.collider[j] == collider && surfaces_->at(collider, x).exists()) return f.pressure[j];
+        if (c.collider[j] == collider && surfaces_->at(collider, x).exists())
+            return c.grazes ? f.shift[j] + restSpeed : f.pressure[j];
     }
     return -1;
 }
@@ -131,6 +139,10 @@ double Held::grip(size_t vertex, const glm::dvec3& x, const glm::dvec3& free) co
     if (c.count > 1) return balanced * glm::length(free) - glm::length(reply(c, x, free).acceleration);
     const glm::dvec3 n = surfaces_->under(c.collider[0], x).normal;
     return -friction(c.collider[0]) * glm::dot(free, n) - glm::length(across(free, n));
+}
+
+double Held::speedOff(size_t vertex, const glm::dvec3& x, const glm::dvec3& v) const {
+    return glm::dot(v, surfaces_->under(contacts_[vertex].collider[0], x).normal);
 }
 
 // ---- how a vertex is held
@@ -166,7 +178,12 @@ void Held::classifySliding(size_t vertex, const glm::dvec3& x, const glm::dvec3&
         const Contacts c = contacts_[vertex];
         const Forces f = forces(c, x, v, free);
         const auto least = std::min_element(f.pressure.begin(), f.pressure.begin() + ptrdiff_t(c.count));
-        if (!(*least < 0)) return;
+        const bool follows = c.count == 1 && !surfaces_->exact(c.collider[0]) && f.shift[0] > -restSpeed;
+        if (c.grazes ? follows : !(*least < 0)) return;
+        if (follows) {
+            contacts_[vertex].grazes = true;
+            return;
+        }
         release(vertex, c.collider[size_t(least - f.pressure.begin())]);
     }
 }
@@ -184,8 +201,9 @@ void Held::constrain(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, gl
     double drag = 0;
     for (size_t j = 0; j < c.count; ++j) {
         if (!f.surface[j].exists()) continue;
-        acceleration += f.pressure[j] * f.surface[j].normal;
         rate += f.shift[j] * f.surface[j].normal;
+        if (c.grazes) return;
+        acceleration += f.pressure[j] * f.surface[j].normal;
         drag += friction(c.collider[j]) * std::max(f.pressure[j], 0.0);
     }
     glm::dvec3 direction = v == glm::dvec3(0) ? c.direction : unit(v);
@@ -200,7 +218,7 @@ void Held::project(size_t vertex, glm::dvec3& x, glm::dvec3& v) const {
         const Surface s = surfaces_->under(c.collider[j], x);
         if (!s.exists()) continue;
         x -= s.distance * s.normal;
-        v -= glm::dot(v, s.normal) * s.normal;
+        if (!c.grazes) v -= glm::dot(v, s.normal) * s.normal;
     }
 }
 

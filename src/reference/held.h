@@ -10,8 +10,10 @@
 
 namespace shoal::reference {
 
+constexpr double restSpeed = 1e-8;  // m/s: slower than this along a normal is not moving
+
 // What can happen to a vertex.
-enum class Change { impact, release, slip, stop };
+enum class Change { impact, release, slip, stop, press };
 
 class Held {
   public:
@@ -23,6 +25,10 @@ class Held {
     bool holds(size_t vertex, size_t collider) const;
 
     void hold(size_t vertex, size_t collider);  // a fourth surface at once is left out
+    // The same for one that is on its way out by the normal, and yet would run into the surface: a height
+    // field's normals are smoother than its cells. It is shifted out and keeps its velocity, as on the GPU,
+    // until it is off the surface or presses into it.
+    void graze(size_t vertex, size_t collider);
     void release(size_t vertex, size_t collider);
     void releaseAll(size_t vertex);
     // Whether it sticks, slides or lets go from now on. `slipped`: friction has just failed to hold it.
@@ -43,26 +49,29 @@ class Held {
     void changes(size_t vertex, See&& see) const {
         const Contacts& c = contacts_[vertex];
         if (c.sticks) return see(Change::slip, c.collider[0]);
+        if (c.grazes) see(Change::press, c.collider[0]);
         for (size_t j = 0; j < c.count; ++j)
             see(Change::release, c.collider[j]);
-        if (rough(c)) see(Change::stop, c.collider[0]);
+        if (rough(c) && !c.grazes) see(Change::stop, c.collider[0]);
     }
-    // Each falls below 0 when its change happens: the force of the surface on a vertex that slides, what
-    // friction could still take of one that sticks, the speed along the direction of sliding.
+    // Each falls below 0 when its change happens: the force of the surface on a vertex that slides (the shift
+    // of one that grazes), what friction could still take of one that sticks, the speed along the direction
+    // of sliding, the speed off the surface of one that grazes.
     double pressure(size_t vertex, size_t collider, const glm::dvec3& x, const glm::dvec3& v,
                     const glm::dvec3& free) const;
     double grip(size_t vertex, const glm::dvec3& x, const glm::dvec3& free) const;
     double speedAlong(size_t vertex, const glm::dvec3& v) const {
         return glm::dot(v, contacts_[vertex].direction);
     }
+    double speedOff(size_t vertex, const glm::dvec3& x, const glm::dvec3& v) const;
 
   private:
     static constexpr size_t most = 3;
     struct Contacts {
         size_t count = 0;
         std::array<size_t, most> collider{};
-        bool sticks = false;
-        glm::dvec3 direction{0};  // unit, of sliding; 0 before it has one
+        bool sticks = false, grazes = false;  // else it slides; only a single surface is grazed
+        glm::dvec3 direction{0};              // unit, of sliding; 0 before it has one
     };
     // The surfaces at a vertex, and the forces along their normals.
     struct Forces {

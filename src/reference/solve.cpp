@@ -143,11 +143,13 @@ double fastestRate(const Problem& problem) {
     return rate;
 }
 
-// Chaos: finer steps that do not bring their changes down would go on not to.
+// Chaos: finer steps that have not brought their changes down go on not to.
 static bool stalled(const std::vector<double>& changes) {
-    constexpr size_t patience = 5;
+    constexpr size_t some = 5, many = 8;
+    constexpr double large = 0.05;  // of the molecule's size
     const size_t count = changes.size();
-    return count > patience && changes[count - 1] > changes[count - 1 - patience] / 2;
+    return (count > some && changes.back() > large) ||
+           (count > many && changes.back() > changes[count - 1 - many] / 2);
 }
 
 Solution solve(const Problem& problem, const State& start, double duration, double tolerance, int halvings) {

@@ -82,6 +82,25 @@ TEST_CASE("free fall with Stokes drag follows its closed form", "[reference]") {
     }
 }
 
+TEST_CASE("an oscillating wind drives what it drags, at a lag", "[reference]") {
+    const Molecule molecule = test::point(3);
+    for (double frequency : {0.5, 8.0, 64.0}) {
+        const double rate = 2, omega = 2 * pi * frequency, phase = 0.4, t = 1;
+        Problem problem{.molecule = &molecule, .drag = {rate, rate}};
+        const glm::dvec3 peak{3, 0, -1};
+        problem.fields.push_back(test::field(OscillatingField{peak, frequency, phase}));
+        const Solution solution = solve(problem, restState(problem), t, 1e-9);
+        REQUIRE(solution.converged);
+        const auto swing = [&](double angle) {
+            return rate / (rate * rate + omega * omega) *
+                   (rate * std::sin(angle + phase) - omega * std::cos(angle + phase));
+        };
+        const glm::dvec3 v = (swing(omega * t) - swing(0) * std::exp(-rate * t)) * peak;
+        INFO("frequency " << frequency);
+        CHECK(glm::length(solution.state.velocity[0] - v) < 1e-8);
+    }
+}
+
 TEST_CASE("directional drag splits at the surface and equals plain drag for equal rates", "[reference]") {
     const Molecule molecule = test::leaf(0, 0);
     Problem problem{.molecule = &molecule, .drag = {9, 2}};

@@ -211,6 +211,43 @@ TEST_CASE("reference: a tilted height field is a plane", "[reference][contact]")
     }
 }
 
+// Without gravity at 50 m/s over ridges: within a step it is past them.
+TEST_CASE("reference: the first of many ridges is hit", "[reference][contact]") {
+    HeightFieldCollider field;
+    field.columns = 81, field.rows = 3;
+    field.low = {0, -1}, field.high = {20, 1};
+    for (int z = 0; z < 3; ++z) {
+        for (int x = 0; x < 81; ++x)
+            field.heights.push_back(x % 16 == 8 ? 1 : 0);  // at 2 m, 6 m ... with flanks of 0.25 m
+    }
+    Point point(collider(field, 0, 0));
+    point.problem.gravity = {};
+    const State state = integrate(point.problem, {0, {{-4, 0.6, 0}}, {{50, 0, 0}}}, 0.4, 2);
+    CHECK(state.velocity[0].y > 5);
+    CHECK(state.velocity[0].x < 45);
+    // it follows the flank and leaves from its top
+    CHECK(state.position[0].y > 1);
+    const State before = integrate(point.problem, {0, {{-4, 0.6, 0}}, {{50, 0, 0}}}, 5.8 / 50, 2);
+    CHECK(before.velocity[0].x == 50);
+}
+
+TEST_CASE("reference: vertices that hit within one step each keep their time", "[reference][contact]") {
+    Molecule molecule = test::pair(1, 1, 0, 0);
+    molecule.springs.clear();
+    molecule.vertices.push_back(molecule.vertices[0]);
+    const Problem problem{.molecule = &molecule, .gravity = down, .colliders = {floor(0.6, 0)}};
+    const double heights[] = {0.9, 0.3, 0.6};
+    State start = restState(problem);
+    for (size_t i = 0; i < 3; ++i)
+        start.position[i].y = heights[i] + thickness;
+    const double time = 0.45;
+    const State state = integrate(problem, start, time, 1);
+    for (size_t i = 0; i < 3; ++i) {
+        const double fall = std::sqrt(2 * heights[i] / g), since = time - fall, up = 0.6 * g * fall;
+        CHECK(state.position[i].y - thickness == Approx(up * since - g / 2 * since * since).margin(1e-11));
+    }
+}
+
 TEST_CASE("reference: rest stays exactly, on one surface and between two", "[reference][contact]") {
     for (double mu : {0.0, 0.5}) {
         Point point(floor(0.5, mu));
