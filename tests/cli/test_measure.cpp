@@ -1,0 +1,173 @@
+// `shoal measure` and --error: what they report, keep and refuse.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+
+#include "cli/shoal_command.h"
+#include "core/file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// Quads that turn in a shear flow: springs, drag and a field that varies, nothing that is chaotic.
+std::string shearScene(const Scratch& scratch, const std::string& more = "") {
+    const std::string text = R"({
+  "format": "shoal-scene-1", "name": "shear", "gravity": [0, -9.81, 0],
+  "fields": [{"type": "shear", "velocity": [2, 0, 0], "gradient": [[0, 0.8, 0], [0, 0, 0.3], [-0.5, 0, 0]]}],
+  "groups": [{"molecule": ")" +
+                             sourceFile("molecules/quad.json") +
+                             R"(", "count": 40, "drag": 1, "spin": [3, -4, 2],
+    "place": {"on": "volume", "box": {"low": [-1, 0, -1], "high": [1, 1, 1]}, "turn": "any"})" +
+                             more + R"(}]
+})";
+    return scratch.write("shear.scene.json", text);
+}
+
+Words quick(const std::string& scene, const Words& more = {}) {
+    Words out = {"measure", scene,         "--solvers", "leapfrog,euler", "--duration",
+                 "0.2",     "--molecules", "2",         "--seconds",      "3"};
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+}
+
+// Where what is found is kept.
+Surroundings cacheIn(const Scratch& scratch) {
+    return {.environment = {{"SHOAL_CACHE", scratch.path("cache")}}};
+}
+
+}  // namespace
+
+TEST_CASE("measure reports every point as JSON and CSV", "[cli]") {
+    const Scratch scratch;
+    const Outcome outcome = runShoal(
+        quick(shearScene(scratch), {"--json", "--csv", scratch.path("points.csv")}), cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("This takes at most about "));
+    const JsonValue report = outcome.json();
+    CHECK_FALSE(member(member(report, "machine"), "processor").text.empty());
+    CHECK_FALSE(member(member(report, "context"), "renderer").text.empty());
+    CHECK(member(report, "duration").number == Approx(0.2));
+    CHECK(member(report, "target").number == 1e-3);
+    CHECK(member(report, "chaotic").kind == JsonValue::Kind::null);
+    CHECK(member(report, "referenceError").number < 1e-5);
+    const JsonValue& group = member(report, "groups").items.at(0);
+    CHECK(member(group, "measuredMolecules").number == 2);
+    CHECK(member(group, "timedMolecules").number == 40);
+
+    const std::vector<JsonValue>& points = member(report, "points").items;
+    int measured = 0, front = 0;
+    double before = 1;  // leapfrog's error must fall
+    for (const JsonValue& point : points) {
+        const std::string solver = member(point, "solver").text;
+        CHECK((solver == "leapfrog" || solver == "euler"));
+        if (member(point, "outcome").text != "measured") {
+            CHECK_FALSE(member(point, "why").text.empty());
+            continue;
+        }
+        ++measured;
+        const JsonValue& error = member(point, "error");
+        const double total = member(error, "total").number;
+        CHECK(total == Approx(std::hypot(member(error, "centroid").number, member(error, "shape").number)));
+        CHECK(member(error, "worst").number >= total);
+        CHECK(member(member(point, "drift"), "energy").number >= 0);
+        front += member(point, "front").boolean;
+        if (member(point, "samples").number > 0)
+            CHECK(member(point, "medianSecondsPerVertexAndSecond").number >=
+                  member(point, "minSecondsPerVertexAndSecond").number);
+        if (solver != "leapfrog" || member(point, "substeps").number > 8 ||
+            member(point, "fieldSampling").text != "vertexSubstep")
+            continue;
+        CHECK(total < before);
+        before = total;
+    }
+    CHECK(measured > 6);
+    CHECK(front > 1);
+    CHECK(before < 1e-3);
+    CHECK(member(member(report, "chosen"), "error").number < 1e-3);
+
+    const std::string csv = readFile(scratch.path("points.csv"));
+    CHECK(size_t(std::count(csv.begin(), csv.end(), '\n')) == points.size() + 1);
+    CHECK(csv.rfind("solver,fieldSampling,substeps,", 0) == 0);
+    CHECK(std::count(csv.begin(), csv.begin() + ptrdiff_t(csv.find('\n')), ',') == 19);
+}
+
+TEST_CASE("measure prints a table, says what it did otherwise, and plots", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch, R"(, "release": {"force": 1})");
+    Words words = quick(scene, {"--samplings", "vertexSubstep"});
+    const bool gnuplot = std::system("gnuplot --version >/dev/null 2>&1") == 0;
+    if (gnuplot) words.insert(words.end(), {"--plot", scratch.path("new/curve.svg")});
+    const Outcome outcome = runShoal(words, cacheIn(scratch));
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("leapfrog, vertexSubstep") && Catch::Contains("median ns") &&
+                                Catch::Contains("an error of 0.001 costs") &&
+                                Catch::Contains("pins are held throughout") && Catch::Contains("chosen"));
+    CHECK_THAT(outcome.out, !Catch::Contains("vertexFrame"));
+    if (gnuplot) CHECK(std::filesystem::file_size(scratch / "new/curve.svg") > 1000);
+}
+
+TEST_CASE("--error finds a method, once", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    const Words words = {"run", scene, "--headless", "--frames", "2", "--json", "--error", "1e-3"};
+    const Outcome first = runShoal(words, cacheIn(scratch));
+    INFO(first.err);
+    REQUIRE(first.code == 0);
+    CHECK_THAT(first.err, Catch::Contains("error 0.001: ") && Catch::Contains("found in "));
+    const Outcome second = runShoal(words, cacheIn(scratch));
+    CHECK_THAT(second.err, Catch::Contains("as found before"));
+    CHECK(member(second.json(), "hash").text == member(first.json(), "hash").text);
+
+    const Outcome explained = runShoal({"explain", scene, "--error", "1e-3", "--json"}, cacheIn(scratch));
+    REQUIRE(explained.code == 0);
+    const JsonValue calibration = member(explained.json(), "calibration");
+    CHECK(member(calibration, "error").number < 1e-3);
+    CHECK(member(calibration, "candidates").items.size() >= 7);
+    CHECK_THAT(runShoal({"explain", scene, "--error", "1e-3"}, cacheIn(scratch)).out,
+               Catch::Contains("as found before") && Catch::Contains("gets there"));
+
+    // narrowed; a kept file that is damaged is measured anew
+    for (const std::string& file : filesIn(scratch.path("cache")))
+        if (file.find("calibrations") != std::string::npos) scratch.write("cache/" + file, "{");
+    const Outcome narrowed = runShoal({"explain", scene, "--error", "1e-2", "--solver", "euler",
+                                       "--field-sampling", "vertexSubstep", "--json"},
+                                      cacheIn(scratch));
+    REQUIRE(narrowed.code == 0);
+    CHECK(member(member(narrowed.json(), "calibration"), "solver").text == "euler");
+    CHECK_THAT(runShoal(words, cacheIn(scratch)).err, Catch::Contains("found in "));
+}
+
+TEST_CASE("--error refuses what cannot be had", "[cli]") {
+    const Scratch scratch;
+    const std::string scene = shearScene(scratch);
+    for (const char* bad : {"0", "-1e-3", "nan", "2"})
+        refusal({"run", scene, "--headless", "--error", bad}, "--error: expected a relative error above 0");
+    refusal({"explain", scene, "--error", "small"}, "--error: expected an error such as 1e-3");
+    const std::string message =
+        refusal({"explain", scene, "--error", "1e-4", "--solver", "euler", "--substeps", "8"},
+                "--error 0.0001 is out of reach: the nearest is euler with 8 substeps", cacheIn(scratch));
+    CHECK_THAT(message, Catch::Contains("which has an error of") && Catch::Contains("shear.scene.json"));
+}
+
+TEST_CASE("measure refuses what it cannot do", "[cli]") {
+    refusal({"measure"}, "measure: expected a scene file, or --report and a folder");
+    refusal({"measure", helloScene(), "--report", "x"}, "measure: expected a scene file, or --report");
+    refusal({"measure", "--report", "x", "--json"}, "--report writes files of its own");
+    refusal({"measure", helloScene(), "--solvers", "eulr"},
+            "--solvers: unknown solver \"eulr\" (did you mean");
+    refusal({"measure", helloScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");
+    refusal({"measure", helloScene(), "--samplings", "vertex"}, "--samplings: unknown sampling \"vertex\"");
+    refusal({"measure", helloScene(), "--duration", "0"}, "--duration: expected a time above 0");
+    refusal({"measure", helloScene(), "--molecules", "0"}, "--molecules: expected 1 to 1024, found 0");
+    refusal({"measure", helloScene(), "--seconds", "nan"}, "--seconds: expected a time above 0");
+    refusal({"measure", helloScene(), "--error", "0"}, "--error: expected a relative error above 0");
+    refusal({"measure", helloScene(), "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png");
+    refusal({"measure", "missing.scene.json"}, "missing.scene.json");
+}
