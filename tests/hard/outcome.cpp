@@ -1,0 +1,142 @@
+#include "hard/outcome.h"
+
+#include <cmath>
+#include <iomanip>
+#include <sstream>
+
+#include "gpu/program_cache.h"
+#include "hard/table.h"
+#include "support/catch.h"
+
+namespace shoal::test {
+
+namespace {
+
+std::string shortly(double value) {
+    std::ostringstream out;
+    out << std::setprecision(2) << value;
+    return out.str();
+}
+
+// With `limit` 0 only 0 passes.
+double share(double value, double limit) {
+    return limit > 0 ? value / limit : value > 0 ? 1e30 : 0;
+}
+
+Outcome outcomeOf(const Solver& solver, const HardCase& hardCase) {
+    Judge judge;
+    try {
+        hardCase(solver, judge);
+        return judge.outcome();
+    } catch (const Runaway& runaway) {
+        const Alarm& alarm = runaway.alarm();
+        if (!alarm.finite) return {Verdict::notFinite, runaway.what()};
+        return {Verdict::fails,
+                concat("ran away: ", shortly(alarm.speed), " m/s at ", shortly(alarm.time), " s")};
+    } catch (const Error& error) {
+        return {Verdict::refuses, error.message()};
+    }
+}
+
+Verdict expectedNow(const std::vector<Verdict>& row, size_t index) {
+    return onPingPong() && solvers()[index].implicit ? Verdict::refuses : row[index];
+}
+
+}  // namespace
+
+const char* word(Verdict verdict) {
+    static constexpr const char* words[] = {"passes", "refuses", "fails", "NOT FINITE"};
+    return words[size_t(verdict)];
+}
+
+void Judge::add(Figure figure) {
+    finite_ = finite_ && std::isfinite(figure.value);
+    for (Figure& known : figures_) {
+        if (known.what != figure.what) continue;
+        if (figure.badness > known.badness) known = std::move(figure);
+        return;
+    }
+    figures_.push_back(std::move(figure));
+}
+
+void Judge::atMost(const std::string& what, double value, double limit) {
+    add({what, value, share(std::abs(value), limit)});
+}
+
+void Judge::near(const std::string& what, double value, double expected, double margin) {
+    add({what, value, share(std::abs(value - expected), margin)});
+}
+
+void Judge::report(const std::string& what, double value) {
+    add({what, value, 0});
+}
+
+void Judge::finite(const Snapshot& snapshot) {
+    finite_ = finite_ && test::finite(snapshot);
+}
+
+// What fails comes alone, so that the table shows it.
+Outcome Judge::outcome() const {
+    bool good = true;
+    for (const Figure& figure : figures_)
+        good = good && figure.badness <= 1;
+    std::string text;
+    for (const Figure& figure : figures_) {
+        if (!good && figure.badness <= 1) continue;
+        text += concat(text.empty() ? "" : ", ", figure.what, " ", shortly(figure.value));
+    }
+    if (!finite_) return {Verdict::notFinite, text};
+    return {good ? Verdict::passes : Verdict::fails, text};
+}
+
+void holds(const std::string& name, const HardCase& hardCase) {
+    const std::vector<Verdict>& expected = expectedOf(name);
+    REQUIRE(expected.size() == solvers().size());  // a new solver: write down what it does
+    for (size_t i = 0; i < solvers().size(); ++i) {
+        const Outcome outcome = outcomeOf(solvers()[i], hardCase);
+        record(name, i, outcome);
+        INFO(name << ", " << solvers()[i].name << ": " << outcome.figure);
+        CHECK(std::string(word(outcome.verdict)) == word(expectedNow(expected, i)));
+    }
+}
+
+bool onPingPong() {
+    if (testPath() != Path::automatic) return testPath() == Path::pingPong;
+    const auto& info = testContext().info();
+    return !limitsOf(info).compute;
+}
+
+Simulation hardSimulation(const Scene& scene, bool drawn) {
+    static gpu::ProgramCache cache(testContext(), gpu::ProgramCache::defaultFolder());
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                      {.drawn = drawn, .path = testPath(), .cache = &cache});
+}
+
+void runChecked(Simulation& simulation, int frames) {
+    run(simulation, frames);
+    simulation.check();
+}
+
+void startFrom(Simulation& simulation, const std::function<void(GroupState&)>& edit) {
+    simulation.restart();
+    SavedState state = simulation.save();
+    for (GroupState& group : state.groups) {
+        group.displacements.clear();
+        group.velocityChanges.clear();
+        edit(group);
+    }
+    simulation.load(state);
+}
+
+double strainOf(const Molecule& molecule, const reference::State& state) {
+    double sum = 0;
+    for (const Spring& spring : molecule.springs) {
+        const double length =
+            glm::length(state.position[size_t(spring.a)] - state.position[size_t(spring.b)]);
+        const double strain = length / molecule.restLength(spring) - 1;
+        sum += strain * strain / double(molecule.springs.size());
+    }
+    return std::sqrt(sum);
+}
+
+}  // namespace shoal::test

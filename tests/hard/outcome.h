@@ -1,0 +1,66 @@
+// A hard case is run by every solver of the table and has an outcome with each: it passes, it refuses (an
+// Error before the first frame says why), or it fails honestly with a finite figure. Which one is written
+// down in expected.cpp; another outcome, better or worse, turns the test red, and so does any value that is
+// not finite.
+//
+// SHOAL_HARD_TABLE=FILE writes the table of all cases that ran as Markdown (docs/hard-cases.md).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "gl/numerics.h"
+
+namespace shoal::test {
+
+enum class Verdict { passes, refuses, fails, notFinite };
+const char* word(Verdict verdict);
+
+struct Outcome {
+    Verdict verdict = Verdict::passes;
+    std::string figure;  // for people: what was measured, or the refusal
+};
+
+// Collects what a case measures. A label may come many times: the worst value is shown.
+class Judge {
+  public:
+    void atMost(const std::string& what, double value, double limit);
+    void near(const std::string& what, double value, double expected, double margin);
+    void report(const std::string& what, double value);  // a figure without a limit, which must be finite
+    void finite(const Snapshot& snapshot);               // every number of it
+    Outcome outcome() const;
+
+  private:
+    struct Figure {
+        std::string what;
+        double value = 0, badness = 0;  // badness: above 1 it fails
+    };
+    void add(Figure figure);
+    std::vector<Figure> figures_;
+    bool finite_ = true;
+};
+
+// Runs the case with one solver, which its scenes must name. Throws what the simulation throws.
+using HardCase = std::function<void(const Solver& solver, Judge& judge)>;
+
+// Runs it with every solver and compares with expected.cpp. `name` is the row there and in the document.
+void holds(const std::string& name, const HardCase& hardCase);
+
+// The row of expected.cpp, one verdict a solver in the order of solvers().
+const std::vector<Verdict>& expectedOf(const std::string& name);
+std::vector<std::string> expectedNames();
+// Simulations of this run take the ping-pong path, on which an implicit solver is refused.
+bool onPingPong();
+
+// numerics.h's, with the programs kept on disk.
+Simulation hardSimulation(const Scene& scene, bool drawn = false);
+// Frames, and what the watchdog says of the last of them.
+void runChecked(Simulation& simulation, int frames);
+// Starts again from the scene's start with `edit` done to it; solvers with history start without any.
+void startFrom(Simulation& simulation, const std::function<void(GroupState&)>& edit);
+
+// RMS over the springs of one molecule of l / L - 1.
+double strainOf(const Molecule& molecule, const reference::State& state);
+
+}  // namespace shoal::test

@@ -1,0 +1,159 @@
+// Long runs, steps far beyond the springs' period, masses far apart, a frame that takes too long.
+#include <cmath>
+
+#include "hard/outcome.h"
+#include "reference/discrete.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using test::at;
+using test::Judge;
+using test::setSteps;
+
+namespace {
+
+// A leaf's highest frequency at stiffness 1 and masses of 1: what a scene's stiffness is scaled by.
+double frequencyOf(const Scene& scene) {
+    Scene other = scene;
+    other.solver.kind = SolverKind::bdf2Xpbd;  // refuses no step
+    return compile(other).groups[0].highestFrequency;
+}
+
+Molecule stretchedPair() {
+    Molecule molecule = test::pair(1, 0.5, 1, 0);
+    molecule.vertices[1].position.x = 1.1;
+    molecule.springs[0].restLength = 1;
+    return molecule;
+}
+
+}  // namespace
+
+// The energy k a^2 / 2 of an undamped spring stays. Symplectic methods keep it within w h / 2 for ever; rk4
+// loses (w h)^6 / 72 a step, 2e-4 in all at w h = 0.05. The double recurrence of the same method says what
+// float adds.
+TEST_CASE("hard: a million steps undamped", "[hard][stiff]") {
+    test::holds("a million steps, undamped", [](const Solver& solver, Judge& judge) {
+        const int frames = 1000, substeps = 1000;
+        const double h = 1 / 60000.0, product = 0.05;
+        Scene scene = test::sceneOf(stretchedPair(), solver.kind);
+        const double w = frequencyOf(scene);
+        scene.groups[0].stiffness = product * product / (h * h * w * w);
+        setSteps(scene, h * substeps, substeps);
+        Simulation simulation = test::hardSimulation(scene);
+        const reference::Problem problem = test::problemOf(scene, 0);
+        reference::State state = test::stateOf(simulation.snapshot(0), 0);
+        const double before = reference::energy(problem, state);
+        test::runChecked(simulation, frames);
+        const double after = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
+        // where in its period the last step ends matters to a method of order 1: w h / 2 = 2.5 % of the
+        // energy
+        judge.atMost("energy drift", after / before - 1, solver.order == 1 ? product / 2 : 5e-3);
+        if (solver.implicit) return;  // damped away: there is nothing to compare
+        reference::frame(problem, state, solver.kind, h * substeps * frames, frames * substeps);
+        judge.atMost("float - double", (after - reference::energy(problem, state)) / before, 5e-3);
+    });
+}
+
+// Leaves that turn, fly and start 10 % too large, with some damping: after 5 s they are finite, whole (rms
+// strain below 0.3) and no faster than they were.
+TEST_CASE("hard: steps beyond the springs' period", "[hard][stiff]") {
+    const auto strain = [](const Solver& solver, Judge& judge, double from, double to) {
+        for (double product = from; product <= to; product *= std::sqrt(10)) {
+            const double h = 1 / 240.0;
+            Scene scene = test::sceneOf(test::leaf(1, 0.02), solver.kind, {at({0, 0, 0}, test::turned())});
+            const double w = frequencyOf(scene), needed = product * product / (h * h * w * w);
+            scene.groups[0].stiffness = needed;
+            scene.groups[0].damping = std::sqrt(needed);
+            scene.groups[0].velocity = {1, 2, 3};
+            scene.groups[0].spin = {3, 1, -2};
+            setSteps(scene, 1 / 60.0, 4);
+            Simulation simulation = test::hardSimulation(scene);
+            test::startFrom(simulation, [](GroupState& start) {
+                for (glm::vec3& x : start.positions)
+                    x *= 1.1f;
+            });
+            const reference::Problem problem = test::problemOf(scene, 0);
+            const double before = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
+            test::runChecked(simulation, 300);
+            const reference::State end = test::stateOf(simulation.snapshot(0), 0);
+            judge.atMost("strain", test::strainOf(scene.groups[0].molecule, end), 0.3);
+            judge.atMost("energy / first", reference::energy(problem, end) / before, 1);
+        }
+    };
+    test::holds("w h 0.1 to 1", [&](const Solver& s, Judge& judge) { strain(s, judge, 0.1, 1.1); });
+    test::holds("w h 10 to 1000", [&](const Solver& s, Judge& judge) { strain(s, judge, 10, 1001); });
+}
+
+// A leaf whose third corner has a millionth of the others' mass, 1 % too large at the start, turning slowly.
+// The centripetal strain is m r w^2 / k = 5e-6 at 0.01 rad/s and k = 10. Damped so that e^-10 of the stretch
+// is left after 5 s; the springs of the light corner with as much damping ratio.
+TEST_CASE("hard: mass ratio 1e6", "[hard][stiff]") {
+    const auto settle = [](const Solver& solver, Judge& judge, int substeps) {
+        Molecule molecule = test::leaf(10, 4);
+        molecule.vertices[2].mass = 1e-6;
+        for (Spring& spring : molecule.springs)
+            if (spring.a == 2 || spring.b == 2) spring.damping = 4e-3;
+        Scene scene = test::sceneOf(molecule, solver.kind, {at({0, 0, 0}, test::turned())});
+        scene.groups[0].spin = {0.005, 0.01, 0};
+        setSteps(scene, 1 / 60.0, substeps);
+        Simulation simulation = test::hardSimulation(scene);
+        test::startFrom(simulation, [](GroupState& start) {
+            for (glm::vec3& x : start.positions)
+                x *= 1.01f;
+        });
+        test::runChecked(simulation, 300);
+        // NUMERICS 5
+        judge.atMost("strain", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)), 1e-5);
+    };
+    test::holds("mass ratio 1e6, w h 0.2", [&](const Solver& s, Judge& judge) { settle(s, judge, 500); });
+    test::holds("mass ratio 1e6, w h 23", [&](const Solver& s, Judge& judge) { settle(s, judge, 4); });
+}
+
+// A frame of 0.5 s with as many substeps as the others, among frames of 1/60 s: w h goes from 0.5 to 15.
+// Finite, and whole again after 5 s. Nothing in a simulation holds the step: what runs one must
+// (docs/hard-cases.md).
+TEST_CASE("hard: a frame hitch", "[hard][stiff]") {
+    test::holds("frame hitch", [](const Solver& solver, Judge& judge) {
+        Scene scene = test::sceneOf(test::leaf(3600, 10), solver.kind, {at({0, 0, 0}, test::turned())});
+        scene.groups[0].velocity = {1, 0, 0};
+        scene.groups[0].spin = {1, 2, 3};
+        setSteps(scene, 1 / 60.0, 4);
+        Simulation simulation = test::hardSimulation(scene);
+        test::runChecked(simulation, 30);
+        simulation.parameters.frameTime = 0.5;
+        test::runChecked(simulation, 1);
+        judge.atMost("strain after it",
+                     test::strainOf(scene.groups[0].molecule, test::stateOf(simulation.snapshot(0), 0)), 1);
+        simulation.parameters.frameTime = 1 / 60.0;
+        test::runChecked(simulation, 300);
+        judge.atMost("strain at the end",
+                     test::strainOf(scene.groups[0].molecule, test::stateOf(simulation.snapshot(0), 0)), 0.3);
+    });
+}
+
+// A square that is stretched by 2 % along x and let go: mirrored at its middle it is itself, and stays so.
+// What the springs' order adds is the asymmetry, in units of the size: 1e-6 is a few roundings of 6e-8 m at
+// 1000 steps.
+TEST_CASE("hard: a symmetric stretch", "[hard][stiff]") {
+    test::holds("symmetric stretch", [](const Solver& solver, Judge& judge) {
+        Molecule molecule = test::leaf(2000, 5);
+        Scene scene = test::sceneOf(molecule, solver.kind);
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::hardSimulation(scene);
+        test::startFrom(simulation, [](GroupState& start) {
+            for (glm::vec3& x : start.positions)
+                x.x *= 1.02f;
+        });
+        for (int i = 0; i < 60; ++i) {
+            test::runChecked(simulation, 1);
+            const Snapshot now = simulation.snapshot(0);
+            for (size_t v = 0; v < 4; ++v) {  // opposite corners: half a turn about y
+                const glm::dvec3 x = now.positions[v], other = now.positions[(v + 2) % 4];
+                judge.atMost("asymmetry", glm::length(x - glm::dvec3(-other.x, other.y, -other.z)), 1e-6);
+            }
+        }
+    });
+}
+
+}  // namespace shoal
