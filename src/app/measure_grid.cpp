@@ -52,12 +52,13 @@ void tellLeft(size_t index, size_t count, const ReportScene& scene, double secon
               << "; all that is left takes about " << roughly(secondsEach * double(count - index)) << "\n";
 }
 
-// Those that have no file yet.
+// Those that are asked for and have no file yet.
 void measureMissing(const Options& options, const std::vector<ReportScene>& all,
                     const AccuracyDevice& device) {
     std::vector<const ReportScene*> missing;
     for (const ReportScene& scene : all)
-        if (!readMeasured(fileOf(options, scene))) missing.push_back(&scene);
+        if (scene.id.find(options.only) != std::string::npos && !readMeasured(fileOf(options, scene)))
+            missing.push_back(&scene);
     const Clock::time_point start = Clock::now();
     for (size_t i = 0; i < missing.size(); ++i) {
         const double passed = std::chrono::duration<double>(Clock::now() - start).count();
@@ -84,15 +85,33 @@ std::string tables(const std::vector<ReportEntry>& entries, double error) {
                   chosenTable(entries));
 }
 
+// The scenes that have been measured, with the places of the others left empty.
 void drawAll(const Options& options, const std::vector<ReportScene>& all,
-             const std::vector<ReportEntry>& entries, const std::string& machine) {
+             const std::vector<std::optional<ReportEntry>>& entries, const std::string& machine) {
     for (const std::string molecule : reportMolecules) {
         std::vector<AccuracyPanel> panels;
-        for (size_t i = 0; i < all.size(); ++i)
-            if (all[i].molecule == molecule) panels.push_back(panelOf(all[i], entries[i]));
-        plotGrid((fs::path(options.report) / (molecule + ".svg")).string(), molecule + "; " + machine,
-                 int(std::size(reportStiffnesses)), panels);
+        bool any = false;
+        for (size_t i = 0; i < all.size(); ++i) {
+            if (all[i].molecule != molecule) continue;
+            panels.push_back(entries[i] ? panelOf(all[i], *entries[i]) : AccuracyPanel{});
+            any |= plottable(panels.back().points);
+        }
+        if (any)
+            plotGrid((fs::path(options.report) / (molecule + ".svg")).string(), molecule + "; " + machine,
+                     int(std::size(reportStiffnesses)), panels);
     }
+}
+
+std::vector<std::optional<ReportEntry>> readAll(const Options& options, const std::vector<ReportScene>& all) {
+    std::vector<std::optional<ReportEntry>> out;
+    for (const ReportScene& scene : all) {
+        std::optional<ReportEntry>& entry = out.emplace_back(readMeasured(fileOf(options, scene)));
+        if (!entry) continue;
+        entry->molecule = scene.molecule;
+        entry->motion = scene.motion;
+        entry->stiffness = scene.stiffness;
+    }
+    return out;
 }
 
 }  // namespace
@@ -107,18 +126,15 @@ int measureReport(const Options& options) {
     const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
     const std::vector<ReportScene> all = reportScenes(count);
     measureMissing(options, all, accuracyDevice(options, context, cache));
-    std::vector<ReportEntry> entries;
-    for (const ReportScene& scene : all) {
-        std::optional<ReportEntry> entry = readMeasured(fileOf(options, scene));
-        if (!entry) throw Error(concat(fileOf(options, scene), ": cannot be read again"));
-        entry->molecule = scene.molecule;
-        entry->motion = scene.motion;
-        entry->stiffness = scene.stiffness;
-        entries.push_back(std::move(*entry));
-    }
+    const std::vector<std::optional<ReportEntry>> entries = readAll(options, all);
+    std::vector<ReportEntry> there;
+    for (const std::optional<ReportEntry>& entry : entries)
+        if (entry) there.push_back(*entry);
+    if (there.empty())
+        throw Error(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
     const std::string machine = processorName() + ", " + context.info().renderer;
     const std::string text =
-        headOf(options, context.info(), count) + tables(entries, options.error.value_or(1e-3));
+        headOf(options, context.info(), count) + tables(there, options.error.value_or(1e-3));
     writeFile(fs::path(options.report) / "tables.md", text);
     drawAll(options, all, entries, machine);
     std::cout << text;

@@ -147,6 +147,8 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--plot", options.plot, "Error against time (.svg or .png)");
     command.add_option("--report", options.report,
                        "Measures the report's own scenes into this folder, and goes on where it was ended");
+    command.add_option("--only", options.only,
+                       "With --report: scenes with this in their name, such as leaf-fall");
     command.add_option("--count", options.count, "Molecules in each group that is placed at random")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
@@ -181,6 +183,7 @@ void checkMeasure(const Options& options) {
         throw Error("measure: expected a scene file, or --report and a folder");
     if (!options.report.empty() && (!options.csv.empty() || !options.plot.empty() || options.json))
         throw Error("--report writes files of its own: leave out --json, --csv and --plot");
+    if (options.report.empty() && !options.only.empty()) throw Error("--only chooses scenes of --report");
     if (!(options.duration > 0 && options.duration <= 100))
         throw Error(concat("--duration: expected a time above 0, at most 100 s, found ", options.duration));
     if (options.molecules < 1 || options.molecules > 1024)

@@ -55,10 +55,11 @@ class Sweep {
         if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
             throw Error(concat("no method can run this scene: ", curves_.front().refused));
         describe();
-        expected_ = elapsed() + reference_->secondsToSolve() + secondsOfErrors() + secondsOfTimes();
+        expected_ = secondsOfErrors() + secondsOfTimes();
         if (options_.seconds) expected_ = std::min(expected_, *options_.seconds);
-        progress_.estimate(expected_);
+        progress_.estimate(expected_ + reference_->secondsToSolve());
         if (!reference_->solve(firstTolerance)) out_.chaotic = reference_->why();
+        measuring_ = Clock::now();
         for (const Step& step : ladder_)
             for (Curve& curve : curves_)
                 level(curve, step);
@@ -177,7 +178,7 @@ class Sweep {
         const std::string refusal = curve.few->refusal(step);
         if (!refusal.empty()) return refuse(curve, step, refusal);
         const double seconds = secondsOf(curve, step);
-        if (options_.seconds && elapsed() + seconds > shareOfErrors * *options_.seconds) {
+        if (options_.seconds && measured() + seconds > shareOfErrors * *options_.seconds) {
             AccuracyPoint& point = add(curve, step);
             point.why = concat("this and what is finer would take ", seconds, " s and more");
             curve.done = true;
@@ -256,7 +257,7 @@ class Sweep {
             }
         }
         std::optional<double> left;
-        if (options_.seconds) left = std::max(0.2, *options_.seconds - elapsed());
+        if (options_.seconds) left = std::max(0.2, *options_.seconds - measured());
         const double before = done_;
         const std::vector<Spread> times = timeInTurn(contenders, left, [&](double seconds) {
             done_ = before + seconds;
@@ -285,11 +286,14 @@ class Sweep {
         }
         markFront(out_.points);
         device_.context->checkErrors("measure");
-        out_.seconds = elapsed();
+        out_.seconds = since(start_);
         return std::move(out_);
     }
 
-    double elapsed() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+    static double since(Clock::time_point start) {
+        return std::chrono::duration<double>(Clock::now() - start).count();
+    }
+    double measured() const { return since(measuring_); }
     double shareDone() const { return std::min(1.0, done_ / std::max(expected_, 1e-9)); }
     void tell(double seconds) {
         done_ += seconds;
@@ -307,8 +311,8 @@ class Sweep {
     std::vector<Curve> curves_;
     std::unique_ptr<ExactEnds> reference_;
     AccuracyReport out_;
-    double expected_ = 0, done_ = 0;  // s
-    Clock::time_point start_ = Clock::now();
+    double expected_ = 0, done_ = 0;                      // s
+    Clock::time_point start_ = Clock::now(), measuring_;  // measuring_: programs and reference are there
 };
 
 }  // namespace

@@ -46,7 +46,8 @@ struct AccuracyOptions {
     bool fine = false;                          // steps by sqrt 2 instead of 2
     std::vector<SolverKind> solvers = {};       // empty: all
     std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
-    std::optional<double> seconds = {};         // of measuring, about; nothing: as long as it takes
+    std::optional<double> seconds = {};         // of measuring, about, beside compiling and the
+                                                // reference; nothing: as long as it takes
     // Frames are made shorter than the scene's, down to this share, while a method's smallest error is above
     // `enough` at the most substeps that a frame may have.
     int mostSplits = 16;
