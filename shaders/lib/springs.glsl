@@ -7,6 +7,10 @@ uniform float dampingFactor;
 uniform float springTime;   // s, for muscles
 uniform float predictTime;  // s: leapfrog's force uses the velocity v + a h/2; 0 at the start of a frame
 
+#ifdef VERLET
+uniform float stepsSquared;  // 1/h^2, 1/s^2: a spring is a distance constraint, see solver/verlet.glsl
+#endif
+
 vec3 predictedVelocity(ivec2 texel)
 {
     vec3 v = texelFetch(velocities, texel, 0).xyz;
@@ -41,8 +45,12 @@ vec3 springForces(int vertex, int molecule)
         vec4 muscle = table(first + 2 * i + 1);
         restLength = actuatedLength(restLength, muscle.x, muscle.y * springTime + muscle.z + constant.z);
 #endif
-        force += springForce(x - texelFetch(positions, other, 0).xyz, relative, spring.y * stiffnessFactor,
-                             spring.z * dampingFactor, restLength);
+        float stiffness = spring.y * stiffnessFactor;
+#ifdef VERLET
+        stiffness = min(stiffness, stepsSquared / (inertia(vertex).x + inertia(int(spring.x)).x));
+#endif
+        force += springForce(x - texelFetch(positions, other, 0).xyz, relative, stiffness, spring.z * dampingFactor,
+                             restLength);
     }
     return force;
 }

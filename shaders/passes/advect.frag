@@ -1,5 +1,6 @@
 // advect: moves every vertex by its velocity, under gravity and drag towards the fields' velocity.
 //   euler      v += exact drag and gravity at x;  x += h v              (after restore added the springs' kick)
+//   verlet     the same, then v = (x' - x) / h
 //   leapfrog   v += a h/2;  x += v h/2;  v += exact drag and gravity at that x;  x += v h/2
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
 #include "lib/state.glsl"
@@ -67,7 +68,13 @@ void main()
     x += (before + v) * halfStep;  // added at once: one rounding, so that contact can take a drift back exactly
 #else
     v = accelerate(v, anchor, x, time, texel);
+#ifdef VERLET
+    vec3 before = x;
     x += v * substep;
+    v = (x - before) / substep;
+#else
+    x += v * substep;
+#endif
 #endif
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);

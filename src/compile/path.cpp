@@ -140,12 +140,13 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
 
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
     if (path == Path::pingPong) {
-        bool acceleration = false, normals = false;
+        bool acceleration = false, normals = false, stages = false;
         for (const GroupPlan& group : plan.groups) {
             acceleration |= group.needs.acceleration;
             normals |= group.needs.normals;
+            stages |= group.solver == SolverKind::rk4;
         }
-        const size_t textures = 4 + (acceleration ? 2 : 0) + (normals ? 1 : 0);
+        const size_t textures = 4 + (acceleration ? 2 : 0) + (stages ? 8 : 0) + (normals ? 1 : 0);
         return (textures * size_t(plan.rows) + 3 * size_t(plan.recordRows)) * stateWidth * sizeof(glm::vec4);
     }
     size_t elements = 0;

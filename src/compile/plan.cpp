@@ -102,12 +102,14 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
                           : "anchors follow what moves");
     if (needs.acceleration)
         add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
-    if (needs.springs && group.solver == SolverKind::euler)
+    const bool stages = group.solver == SolverKind::rk4;
+    if (needs.springs && shoal::solver(group.solver).order == 1)
         add(PassKind::restore, When::substep, "the molecule has springs");
-    if (needs.directionalDrag)
+    if (needs.directionalDrag && !stages)
         add(PassKind::normals, When::substep, "drag differs across and along the surface");
-    add(PassKind::advect, When::substep,
-        concat("moves every vertex", needs.gravity ? " under gravity" : "",
+    add(stages ? PassKind::stage : PassKind::advect, When::substep,
+        concat(stages ? "four times: moves every vertex" : "moves every vertex",
+               needs.gravity ? " under gravity" : "",
                needs.fields ? ", dragged by the fields"
                : needs.drag ? ", with drag"
                             : ""));
@@ -127,7 +129,8 @@ int tableRows(std::vector<glm::vec4>& table) {
 }  // namespace
 
 const char* name(PassKind kind) {
-    static constexpr const char* names[] = {"records", "normals", "restore", "advect", "collide", "watch"};
+    static constexpr const char* names[] = {"records", "normals", "restore", "advect",
+                                            "stage",   "collide", "watch"};
     return names[size_t(kind)];
 }
 

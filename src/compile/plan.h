@@ -61,7 +61,7 @@ struct GroupPlan {
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
 };
 
-enum class PassKind { records, normals, restore, advect, collide, watch };
+enum class PassKind { records, normals, restore, advect, stage, collide, watch };
 const char* name(PassKind kind);
 
 struct PassPlan {

@@ -26,6 +26,11 @@ TextureState::TextureState(gpu::Context& context, const Plan& plan) : context_(&
     position = makeSides(context, groups, plan.rows, "positions");
     velocity = makeSides(context, groups, plan.rows, "velocities");
     if (any(&Needs::acceleration)) acceleration = makeSides(context, groups, plan.rows, "accelerations");
+    const bool stages = std::any_of(plan.groups.begin(), plan.groups.end(),
+                                    [](const GroupPlan& group) { return group.solver == SolverKind::rk4; });
+    for (auto* pair : {&stagePosition, &stageVelocity, &sumVelocity, &sumAcceleration})
+        for (Texture& texture : *pair)
+            if (stages) texture = Texture(context, Format::rgba32f, stateWidth, plan.rows, "stages");
     record = makeSides(context, groups, plan.recordRows, "records");
     if (any(&Needs::normals)) normal = Texture(context, Format::rgba32f, stateWidth, plan.rows, "normals");
     constant = Texture(context, Format::rgba32f, stateWidth, plan.recordRows, "constants");
@@ -103,12 +108,17 @@ std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
 }
 
 const Framebuffer& TextureState::target(const Texture& first, const Texture* second) {
-    const GLuint a = first.id(), b = second ? second->id() : 0;
+    return second ? target({&first, second}) : target({&first});
+}
+
+const Framebuffer& TextureState::target(const std::vector<const Texture*>& colors) {
+    std::vector<GLuint> ids;
+    for (const Texture* color : colors)
+        ids.push_back(color->id());
     for (const Target& target : targets_)
-        if (target.first == a && target.second == b) return target.framebuffer;
-    std::vector<const Texture*> colors{&first};
-    if (second) colors.push_back(second);
-    targets_.push_back({a, b, Framebuffer(*context_, colors, nullptr, first.label().c_str())});
+        if (target.ids == ids) return target.framebuffer;
+    const char* label = colors.front()->label().c_str();
+    targets_.push_back({std::move(ids), Framebuffer(*context_, colors, nullptr, label)});
     return targets_.back().framebuffer;
 }
 

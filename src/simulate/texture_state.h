@@ -48,14 +48,17 @@ class TextureState {
         const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
 
     TwoSided position, velocity, acceleration, record;
+    // rk4: the state of a stage, and the rates added up so far; side s mod 2 is written by stage s.
+    std::array<gpu::Texture, 2> stagePosition, stageVelocity, sumVelocity, sumAcceleration;
     gpu::Texture normal, constant;
 
     // Framebuffer that draws into the given sides (made once per combination).
     const gpu::Framebuffer& target(const gpu::Texture& first, const gpu::Texture* second = nullptr);
+    const gpu::Framebuffer& target(const std::vector<const gpu::Texture*>& colors);
 
   private:
     struct Target {
-        GLuint first, second;
+        std::vector<GLuint> ids;
         gpu::Framebuffer framebuffer;
     };
     gpu::Context* context_;

@@ -14,7 +14,7 @@ constexpr const char* sourceFolder = SHOAL_SOURCE_DIR "/";
 const glm::dvec3 down{0, -9.81, 0};
 
 SolverKind solverOf(size_t number) {
-    return number % 2 == 0 ? SolverKind::euler : SolverKind::leapfrog;
+    return explicitSolvers[number % 4];
 }
 
 Group& groupOf(Scene& scene) {
@@ -35,7 +35,7 @@ void addFields(std::vector<FeatureScene>& out) {
 }
 
 void addPins(std::vector<FeatureScene>& out) {
-    for (const SolverKind solver : bothSolvers) {
+    for (const SolverKind solver : explicitSolvers) {
         Scene held = swarm(shippedMolecule("leaf"), 45, solver);
         held.gravity = down;
         held.fields = everyField();
@@ -60,7 +60,7 @@ void addPins(std::vector<FeatureScene>& out) {
 
 void addContact(std::vector<FeatureScene>& out) {
     const std::vector<Collider> colliders = everyCollider();
-    for (const SolverKind solver : bothSolvers) {
+    for (const SolverKind solver : explicitSolvers) {
         for (size_t kind = 0; kind < colliders.size(); ++kind) {
             Scene scene = swarm(shippedMolecule("quad"), 301, solver);
             scene.gravity = down;
@@ -79,7 +79,7 @@ void addContact(std::vector<FeatureScene>& out) {
 }
 
 void addShapes(std::vector<FeatureScene>& out) {
-    for (const SolverKind solver : bothSolvers) {
+    for (const SolverKind solver : explicitSolvers) {
         Molecule swimmer = shippedMolecule("fish");
         addMuscles(swimmer, 0.2);
         Scene fish = swarm(swimmer, 1030, solver);

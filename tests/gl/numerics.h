@@ -86,6 +86,8 @@ inline bool finite(const Snapshot& snapshot) {
 }
 
 constexpr SolverKind bothSolvers[] = {SolverKind::euler, SolverKind::leapfrog};
+constexpr SolverKind explicitSolvers[] = {SolverKind::euler, SolverKind::leapfrog, SolverKind::verlet,
+                                          SolverKind::rk4};
 
 // All that the tested path runs.
 inline std::vector<SolverKind> solversHere() {

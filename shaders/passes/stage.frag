@@ -1,0 +1,87 @@
+// stage: one of the four evaluations of a Runge-Kutta step (rk4). positions and velocities are the stage's; its rates
+// are added up, and move the start of the substep to the next stage, or after the last one to its end.
+#include "lib/springs.glsl"
+#include "physics/anchor.glsl"
+#ifdef FIELDS
+#include "generated/fields.glsl"
+#endif
+
+uniform sampler2D startPositions;
+uniform sampler2D startVelocities;
+uniform sampler2D sumVelocities;     // of share v
+uniform sampler2D sumAccelerations;  // of share a
+uniform sampler2D vertexNormals;     // at the stage's positions
+uniform float time;       // s, of the stage
+uniform float substep;    // h, s
+uniform float share;      // of this stage in the step
+uniform float ahead;      // s, from the start to the next stage
+uniform int stage;        // 0 to 3
+uniform vec3 gravity;     // m/s^2
+uniform float wind;       // factor on the fields
+uniform vec2 dragRate;    // 1/s, across and along the surface
+uniform int moveAnchors;  // 1 in the first substep
+
+layout(location = 0) out vec4 newPosition;
+layout(location = 1) out vec4 newVelocity;
+layout(location = 2) out vec4 newSumVelocity;
+layout(location = 3) out vec4 newSumAcceleration;
+
+vec3 dragAcceleration(vec3 v, vec3 anchor, vec3 x, ivec2 texel)
+{
+    vec3 u = vec3(0.0);
+#ifdef FIELDS
+    u = wind * fluidVelocity(anchor, x, time);
+#endif
+    vec3 slip = u - v;
+    vec3 a = gravity + slip * dragRate.y;
+#ifdef DIRECTIONAL_DRAG
+    vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
+    a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
+#endif
+    return a;
+}
+
+void main()
+{
+    ivec2 own = ownAddress();
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    newPosition = vec4(0.0);
+    newVelocity = vec4(0.0);
+    newSumVelocity = vec4(0.0);
+    newSumAcceleration = vec4(0.0);
+    if (isPadding(own.y)) return;
+    vec3 start = texelFetch(startPositions, texel, 0).xyz;
+    vec3 shift = vec3(0.0);
+#ifdef RECORDS
+    if (moveAnchors == 1) shift = anchorShift(texelFetch(startPositions, stateTexel(0, own.y), 0).xyz);
+#endif
+    start -= shift;
+    vec4 vertexInertia = inertia(own.x);
+    if (isHeld(vertexInertia, own.y)) {
+        newPosition = vec4(start, 0.0);
+        return;
+    }
+    vec3 x = texelFetch(positions, texel, 0).xyz;
+    if (stage == 0) x -= shift;
+    vec3 v = texelFetch(velocities, texel, 0).xyz;
+    vec3 anchor = vec3(0.0);
+#ifdef FIELDS
+    anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
+#endif
+    vec3 a = dragAcceleration(v, anchor, x, texel);
+#ifdef SPRINGS
+    a += springForces(own.x, own.y) * vertexInertia.x;
+#endif
+    vec3 sumV = v * share;
+    vec3 sumA = a * share;
+    if (stage > 0) {
+        sumV += texelFetch(sumVelocities, texel, 0).xyz;
+        sumA += texelFetch(sumAccelerations, texel, 0).xyz;
+    }
+    vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
+    bool last = stage == 3;
+    newPosition = vec4(start + (last ? sumV * substep : v * ahead), 0.0);
+    newVelocity = vec4(startVelocity + (last ? sumA * substep : a * ahead), 0.0);
+    newSumVelocity = vec4(sumV, 0.0);
+    newSumAcceleration = vec4(sumA, 0.0);
+}
