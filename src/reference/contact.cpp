@@ -339,11 +339,18 @@ class ContactIntegrator {
         held_.releaseAll(i);
         for (size_t c = 0; c < surfaces_.count(); ++c) {
             const Surface s = surfaces_.at(c, x);
-            if (std::abs(s.distance) > 10 * slack(x) || glm::dot(v, s.normal) > restSpeed) continue;
+            if (std::abs(s.distance) > 10 * slack(x) || glm::dot(v, s.normal) > slow(c, s, x, v)) continue;
             v -= glm::dot(v, s.normal) * s.normal;
             held_.hold(i, c);
         }
         if (glm::length(v) < restSpeed && held_.any(i)) v = glm::dvec3(0);
+    }
+
+    // m/s: a rebound below this is none. On a height field, the speed at which the vertex and the cell part
+    // because normals are smoother than cells: it would hop without end.
+    double slow(size_t c, const Surface& s, const glm::dvec3& x, const glm::dvec3& v) const {
+        if (surfaces_.exact(c)) return restSpeed;
+        return restSpeed + std::abs(surfaces_.following(c, s, x, v - glm::dot(v, s.normal) * s.normal).shift);
     }
 
     // At the start: onto the surfaces that it is inside of, as an impact if it moves further in.
