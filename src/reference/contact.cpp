@@ -69,6 +69,7 @@ class ContactIntegrator {
           held_(surfaces_, start.position.size()),
           state_(start),
           trial_(start) {
+        equations_.everything(state_.position, state_.velocity, state_.time, free_);
         for (size_t i = 0; i < state_.position.size(); ++i) {
             if (!equations_.pinned(i)) putOutside(i);
         }
@@ -254,7 +255,9 @@ class ContactIntegrator {
         }
         if (event.kind == Change::release || event.kind == Change::slip)
             equations_.everything(state_.position, state_.velocity, state_.time, free_);
-        double atLow = std::max(value(event, state_), 0.0);
+        double atLow = value(event, state_);
+        // from a 0 at the start (just off the surface) the way to the next is not a straight line
+        if (atLow < std::max(1e-9 * -atHigh, slack(state_.position[event.vertex]))) atLow = 0;
         const double close = located * until;
         int side = 0;  // that moved last
         for (int i = 0; i < 150 && high - low > close; ++i) {
@@ -264,7 +267,8 @@ class ContactIntegrator {
             const double now = valueAt(event, time);
             // what a straight line to the other end says is left
             const double other = now < 0 ? atLow : -atHigh;
-            const bool near = other < nothing && std::abs(now) * (high - low) < close * other;
+            const bool near =
+                other < nothing && !(atLow == 0 && now < 0) && std::abs(now) * (high - low) < close * other;
             if (now < 0) {
                 high = time, atHigh = now;
                 if (side > 0) atLow /= 2;
@@ -286,6 +290,7 @@ class ContactIntegrator {
 
     void apply(const Event& event) {
         const size_t i = event.vertex;
+        equations_.everything(state_.position, state_.velocity, state_.time, free_);
         switch (event.kind) {
         case Change::impact:
             onto(i, event.collider);
@@ -339,18 +344,22 @@ class ContactIntegrator {
         held_.releaseAll(i);
         for (size_t c = 0; c < surfaces_.count(); ++c) {
             const Surface s = surfaces_.at(c, x);
-            if (std::abs(s.distance) > 10 * slack(x) || glm::dot(v, s.normal) > slow(c, s, x, v)) continue;
+            if (std::abs(s.distance) > 10 * slack(x) || glm::dot(v, s.normal) > slow(i, c, s)) continue;
             v -= glm::dot(v, s.normal) * s.normal;
             held_.hold(i, c);
         }
         if (glm::length(v) < restSpeed && held_.any(i)) v = glm::dvec3(0);
     }
 
-    // m/s: a rebound below this is none. On a height field, the speed at which the vertex and the cell part
-    // because normals are smoother than cells: it would hop without end.
-    double slow(size_t c, const Surface& s, const glm::dvec3& x, const glm::dvec3& v) const {
-        if (surfaces_.exact(c)) return restSpeed;
-        return restSpeed + std::abs(surfaces_.following(c, s, x, v - glm::dot(v, s.normal) * s.normal).shift);
+    // m/s: a rebound below this is none. It would not rise by what a position can tell apart. On a height
+    // field it is also the speed at which the vertex and the cell part because normals are smoother than
+    // cells: it would hop without end.
+    double slow(size_t i, size_t c, const Surface& s) const {
+        const glm::dvec3 &x = state_.position[i], &v = state_.velocity[i];
+        const double press = std::max(-glm::dot(free_[i], s.normal), 0.0);
+        const double low = std::max(restSpeed, std::sqrt(2 * press * slack(x) / 10));
+        if (surfaces_.exact(c)) return low;
+        return low + std::abs(surfaces_.following(c, s, x, v - glm::dot(v, s.normal) * s.normal).shift);
     }
 
     // At the start: onto the surfaces that it is inside of, as an impact if it moves further in.

@@ -5,8 +5,8 @@
 //
 //   impact    v_n becomes -e v_n; the rest of v loses min(mu (1 + e) |v_n|, itself) along its direction
 //             (Coulomb). Found as an event: where the distance crosses 0 within a step.
-//   rest      a rebound below 1e-8 m/s ends bouncing. While the other forces press the vertex into the
-//   surface
+//   rest      a rebound below 1e-8 m/s, or of less than 1e-13 m, ends bouncing. While the other forces press
+//   the vertex into the surface
 //             it has no acceleration along n but that of following the surface; N is the force that this
 //             takes.
 //   stick     at speed 0 it stays where it is while the other forces along the surface are within mu N.

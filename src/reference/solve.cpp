@@ -158,7 +158,8 @@ Solution solve(const Problem& problem, const State& start, double duration, doub
     ContactRun coarse = run(problem, start, duration, steps);
     Solution out{std::move(coarse.state), duration / double(steps), 0, false};
     std::vector<double> changes;
-    for (int i = 0; i < halvings && !out.converged && !stalled(changes); ++i) {
+    int unsettled = 0;  // runs in a row
+    for (int i = 0; i < halvings && !out.converged && !stalled(changes) && unsettled < 5; ++i) {
         steps *= 2;
         ContactRun finer = run(problem, start, duration, steps);
         if (!finite(finer.state)) break;
@@ -167,6 +168,7 @@ Solution solve(const Problem& problem, const State& start, double duration, doub
         out.converged = coarse.settled && finer.settled && out.error <= tolerance;
         out.state = std::move(finer.state);
         coarse.settled = finer.settled;
+        unsettled = finer.settled ? 0 : unsettled + 1;
         changes.push_back(out.error);
     }
     return out;

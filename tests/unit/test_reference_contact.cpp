@@ -260,6 +260,15 @@ TEST_CASE("reference: rest stays exactly, on one surface and between two", "[ref
         CHECK(groove.position[0].x == Approx(0).margin(1e-7));
         CHECK(groove.position[0].y == Approx(thickness / std::cos(40 * degree)).margin(1e-7));
         CHECK(glm::length(groove.velocity[0]) < 1e-7);
+        // what happens does not depend on the step
+        const State start{0, {{0.4, 1, 0}}, {{0, 0, 0}}};
+        const int64_t events = integrateWithContact(point.problem, start, 6, 8).events;
+        CHECK(events > 10);
+        for (int steps : {50, 300, 2000}) {
+            const ContactRun run = integrateWithContact(point.problem, start, 6, steps);
+            CHECK(run.settled);
+            CHECK(run.events == events);
+        }
     }
 }
 
