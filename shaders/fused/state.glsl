@@ -38,6 +38,7 @@ uniform float givenStageEta;
 uniform vec2 givenStageDecay;
 uniform vec2 givenStagePhi;
 uniform int givenRestarts;
+uniform int givenSlips;
 
 // The same where the step reads them. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser: it fetches a uniform lane by
 // lane, in every turn of a loop again, and a plain copy is a uniform to it; an operation that changes nothing makes a
@@ -60,6 +61,7 @@ vec2 dragRate;  // gamma, 1/s, across and along the surface
 float stageEta;  // s, of an implicit stage
 vec2 stageDecay;  // gamma eta / (1 + gamma eta) across and along the surface
 vec2 stagePhi;  // eta / (1 + gamma eta)
+int slips;  // not 0: drag is so heavy that positions drift by the new velocity alone
 int restarts;  // not 0: what is known of the last substep does not count
 
 #ifdef UNIFORMS_IN_REGISTERS
@@ -97,6 +99,7 @@ void loadUniforms()
     stageDecay = inRegister(givenStageDecay);
     stagePhi = inRegister(givenStagePhi);
     restarts = inRegister(givenRestarts);
+    slips = inRegister(givenSlips);
 }
 
 #ifdef SHARED_MOLECULE

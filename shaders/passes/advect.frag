@@ -17,6 +17,7 @@ uniform vec3 gravity;     // m/s^2
 uniform float wind;       // factor on the fields
 uniform vec2 decay;       // 1 - exp(-gamma h) across and along the surface
 uniform vec2 phi;         // decay / gamma, h where gamma = 0
+uniform int slips;        // 1: drag is so heavy that positions drift by the new velocity alone
 uniform int moveAnchors;  // 1 in the first substep
 
 layout(location = 0) out vec4 newPosition;
@@ -65,7 +66,7 @@ void main()
 #endif
     vec3 before = v;
     v = accelerate(v, anchor, x + before * halfStep, time + halfStep, texel);
-    x += (before + v) * halfStep;  // added at once: one rounding, so that contact can take a drift back exactly
+    x += ((slips == 1 ? v : before) + v) * halfStep;  // added at once: one rounding, so that contact can take a drift back exactly
 #else
     v = accelerate(v, anchor, x, time, texel);
 #ifdef VERLET

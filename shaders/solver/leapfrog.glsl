@@ -55,7 +55,7 @@ void advance(int step)
             vec3 before = v[i];
             v[i] = dragged(v[i], fluid[i], normal[i]);
             // added at once: one rounding, so that contact can take a drift back exactly
-            x[i] += (before + v[i]) * halfStep;
+            x[i] += ((slips != 0 ? v[i] : before) + v[i]) * halfStep;
         }
 #ifdef COMING_KICK
         comingKick[i] = acceleration[i] * halfStep;

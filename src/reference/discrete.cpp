@@ -11,19 +11,19 @@ namespace shoal::reference {
 namespace {
 
 // The linear part, dv/dt = g + gamma (u - v), solved over h along one direction or all.
-glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& gravity, double rate,
-                   double h) {
+glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& gravity, double rate, double h,
+                   bool slips) {
     if (rate == 0) return v + h * gravity;
-    const double decay = -std::expm1(-rate * h);
+    const double decay = slips ? rate * h / (1 + rate * h) : -std::expm1(-rate * h);
     return v + decay * (u - v) + decay / rate * gravity;
 }
 
 // The same with a rate along the unit normal n and another across it.
 glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
                       double h) {
-    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h);
+    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h, slips(problem, h));
     if (!problem.drag.directional()) return plain;
-    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h);
+    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h, slips(problem, h));
     return plain + glm::dot(across - plain, n) * n;
 }
 
@@ -46,6 +46,10 @@ void add(const Problem& problem, Vectors& to, const Vectors& rate, double h) {
 }
 
 }  // namespace
+
+bool slips(const Problem& problem, double h) {
+    return std::min(problem.drag.normal, problem.drag.tangent) * h > slipFrom;
+}
 
 void eulerStep(const Problem& problem, State& state, double h) {
     add(problem, state.velocity, springAcceleration(problem, state.position, state.velocity, state.time), h);
@@ -72,9 +76,11 @@ void verletStep(const Problem& problem, State& state, double h) {
 
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h) {
     add(problem, state.velocity, springs, h / 2);
+    const Vectors start = state.position;
     add(problem, state.position, state.velocity, h / 2);
     applyLinearPart(problem, state.velocity, state.position, state.time + h / 2, h);
-    add(problem, state.position, state.velocity, h / 2);
+    if (slips(problem, h)) state.position = start;
+    add(problem, state.position, state.velocity, slips(problem, h) ? h : h / 2);
     state.time += h;
     Vectors predicted = state.velocity;
     add(problem, predicted, springs, h / 2);

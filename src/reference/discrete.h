@@ -8,6 +8,10 @@
 
 namespace shoal::reference {
 
+// Whether drag is so heavy that velocities slip: then exp(-gamma h) above becomes 1 / (1 + gamma h), and
+// leapfrog's positions drift by the new velocity alone (simulate/step.h says why).
+bool slips(const Problem& problem, double h);
+
 // v += h F(x, v, t) / m;  exact drag and gravity with u(x, t) and the normal at x;  x += h v.
 void eulerStep(const Problem& problem, State& state, double h);
 

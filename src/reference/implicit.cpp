@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "reference/discrete.h"
 #include "reference/fields.h"
 
 namespace shoal::reference {
@@ -39,8 +40,18 @@ Rates ratesOf(const Drag& drag, const Function& function) {
     return {function(drag.normal), function(drag.tangent)};
 }
 
-double exactPhi(double gamma, double h) {
-    return gamma == 0 ? h : -std::expm1(-gamma * h) / gamma;
+// Of drag over a whole step.
+struct Flight {
+    Rates decay, phi;
+};
+
+Flight flightOf(const Problem& problem, double h) {
+    const bool slip = slips(problem, h);
+    const auto decay = [&](double gamma) {
+        return slip ? gamma * h / (1 + gamma * h) : -std::expm1(-gamma * h);
+    };
+    return {ratesOf(problem.drag, decay),
+            ratesOf(problem.drag, [&](double gamma) { return gamma == 0 ? h : decay(gamma) / gamma; })};
 }
 
 Vectors fluidAt(const Problem& problem, const Vectors& position, double time) {
@@ -187,8 +198,7 @@ bool improve(const Problem& problem, const State& state, Stage& stage) {
 void xpbdStep(const Problem& problem, State& state, double h) {
     const size_t count = state.position.size();
     const Vectors u = fluidAt(problem, state.position, state.time), n = surfaceAt(problem, state.position);
-    const Rates phi = ratesOf(problem.drag, [h](double gamma) { return exactPhi(gamma, h); });
-    const Rates decay = ratesOf(problem.drag, [h](double gamma) { return -std::expm1(-gamma * h); });
+    const auto [decay, phi] = flightOf(problem, h);
     Stage stage{h, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
                 std::vector<glm::dmat3>(count, glm::dmat3(0))};
     for (size_t i = 0; i < count; ++i) {
@@ -218,12 +228,10 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
     }
     const Vectors u = fluidAt(problem, ahead, state.time + h), n = surfaceAt(problem, ahead);
     if (fresh) {
-        const Rates flightDecay =
-            ratesOf(problem.drag, [h](double gamma) { return -std::expm1(-gamma * h); });
-        const Rates flightPhi = ratesOf(problem.drag, [h](double gamma) { return exactPhi(gamma, h); });
+        const Flight flight = flightOf(problem, h);
         for (size_t i = 0; i < count; ++i) {
             const glm::dvec3 v = state.velocity[i];
-            const glm::dvec3 change = relaxed(problem, v, u[i], n[i], flightDecay, flightPhi) - v;
+            const glm::dvec3 change = relaxed(problem, v, u[i], n[i], flight.decay, flight.phi) - v;
             history.velocityChange.push_back(change);
             history.displacement.push_back(h * v - h / 2 * change);
         }

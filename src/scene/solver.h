@@ -9,6 +9,9 @@
 
 namespace shoal {
 
+// Drag rate times substep beyond which velocities slip (simulate/step.h).
+constexpr double slipFrom = 20;
+
 enum class SolverKind { euler, verlet, leapfrog, rk4, xpbd, bdf2Xpbd, bdf2Corotated };
 
 struct Solver {

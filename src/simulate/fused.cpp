@@ -119,12 +119,13 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenWind", float(parameters.wind));
     program.set("givenDecay", drag.decay);
     program.set("givenPhi", drag.phi);
+    program.set("givenSlips", int(drag.slips));
     program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
     program.set("givenDampingFactor", float(group.damping * parameters.damping));
     const ReleaseLimits release = releaseLimits(group, frame);
     program.set("givenReleaseForce", release.force);
     program.set("givenReleaseChance", release.chance);
-    program.set("givenDriftOfStep", driftOf(group.solver, frame.h));
+    program.set("givenDriftOfStep", driftOf(group.solver, frame.h, drag.slips));
     program.set("givenDragRate", glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag));
     const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
     program.set("givenStageEta", stage.eta);

@@ -246,6 +246,7 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     program.set("wind", float(step.frame.parameters.wind));
     program.set("decay", drag.decay);
     program.set("phi", drag.phi);
+    program.set("slips", int(drag.slips));
     program.set("moveAnchors", int(step.first && group.needs.records));
     drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
     state.position.flip(index);
@@ -295,7 +296,8 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
 void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::collide, group, index);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
-    program.set("drift", driftOf(group.solver, step.h));
+    const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
+    program.set("drift", driftOf(group.solver, step.h, drag.slips));
     drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
     state.position.flip(index);
     state.velocity.flip(index);

@@ -6,10 +6,13 @@
 namespace shoal {
 
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
-    const auto decay = [h](double gamma) { return -std::expm1(-gamma * h); };
-    const auto phi = [&](double gamma) { return std::abs(gamma * h) < 1e-12 ? h : decay(gamma) / gamma; };
     const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
-    return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along))};
+    const bool slips = std::min(across, along) * h > slipFrom;
+    const auto decay = [&](double gamma) {
+        return slips ? gamma * h / (1 + gamma * h) : -std::expm1(-gamma * h);
+    };
+    const auto phi = [&](double gamma) { return std::abs(gamma * h) < 1e-12 ? h : decay(gamma) / gamma; };
+    return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along)), slips};
 }
 
 StageCoefficients stageCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
@@ -28,9 +31,9 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
     return {float(may ? group.release.force.value_or(never) : never), float(may ? chance : 0)};
 }
 
-glm::vec3 driftOf(SolverKind solver, double h) {
+glm::vec3 driftOf(SolverKind solver, double h, bool slips) {
     // the others of order 1 drift by the velocity that the step ends with
-    const bool first = shoal::solver(solver).order == 1;
+    const bool first = shoal::solver(solver).order == 1 || (slips && solver == SolverKind::leapfrog);
     return glm::vec3(h, first ? h : h / 2, first ? h / 2 : 0);
 }
 

@@ -18,8 +18,14 @@ struct Frame {
 
 // Exact drag over h across (x) and along (y) the surface: decay = 1 - exp(-gamma h), phi = decay / gamma (h
 // where gamma = 0); in double, where the difference to h still counts.
+//
+// Beyond gamma h = slipFrom (both rates) a substep cannot follow the velocity on its way to the fluid's, and
+// need not: decay = gamma h / (1 + gamma h), phi = h / (1 + gamma h), and the position drifts by the new
+// velocity alone. Then v tends to the slip velocity u + (g - Du/Dt) / gamma, exactly where Du/Dt is steady,
+// and springs move what they pull on by h f / (m gamma), as they should.
 struct DragCoefficients {
     glm::vec2 decay{0}, phi{0};
+    bool slips = false;
 };
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
 
@@ -39,6 +45,6 @@ struct ReleaseLimits {
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
 
 // Step, kickDrift and lag of shaders/physics/collide.glsl.
-glm::vec3 driftOf(SolverKind solver, double h);
+glm::vec3 driftOf(SolverKind solver, double h, bool slips);
 
 }  // namespace shoal
