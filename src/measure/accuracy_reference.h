@@ -44,7 +44,7 @@ class ExactEnds {
     double secondsToSolve() const;
     // Solves all molecules to a tolerance, each in at most so many seconds, unless that has been done. False:
     // halving the step does not settle one of them; what was there before stays, and why() says which.
-    bool solve(double tolerance, double secondsAMolecule = 30);
+    bool solve(double tolerance, double secondsAMolecule = 10);
     const std::string& why() const { return why_; }
     double error() const { return error_; }  // of the last solution that settled: a bound
 

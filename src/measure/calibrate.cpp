@@ -18,7 +18,8 @@ using Clock = std::chrono::steady_clock;
 // A sampling other than the exact one is tried for solvers within this factor of the best: reading fields
 // less often does not save more.
 constexpr double worthSampling = 10;
-constexpr double closeEnough = 1.12;  // of the fewest substeps that do
+constexpr double closeEnough = 1.12;    // of the fewest substeps that do
+constexpr double secondsAMolecule = 3;  // of the reference
 constexpr int fewOnGpu = 4096, fewOnCpu = 32;
 // Enough to fill the device, few enough to be quick.
 constexpr int manyOnGpu = 16384, manyOnCpu = 2048;
@@ -102,14 +103,20 @@ class Search {
         return {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, maxSubsteps};
     }
 
+    // Where the motion is chaotic over the whole time, over a shorter one.
     void solveReference(MethodRunner& runner) {
         runner.restart();
-        reference_ = std::make_unique<ExactEnds>(few_, runner.simulation().plan(), runner.snapshots(),
-                                                 frames_ / few_.frameRate, device_.cores, options_.molecules);
-        if (!reference_->solve(0.01 * options_.error))
-            throw Error(
-                Location{few_.file, 0, 0, {}},
-                concat("--error: the motion is chaotic, so that no error can be given: ", reference_->why()));
+        const std::vector<Snapshot> starts = runner.snapshots();
+        for (const int least = std::max(1, frames_ / 8);; frames_ = std::max(least, frames_ / 2)) {
+            reference_ =
+                std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
+                                            frames_ / few_.frameRate, device_.cores, options_.molecules);
+            if (reference_->solve(0.01 * options_.error, secondsAMolecule)) return;
+            if (frames_ == least)
+                throw Error(Location{few_.file, 0, 0, {}},
+                            concat("--error: the motion is chaotic, so that no error can be given: ",
+                                   reference_->why()));
+        }
     }
 
     // Cheapest substeps first, so that the dear ones meet a good bound.
@@ -199,8 +206,8 @@ class Search {
     bool canWin(Run& run, int substeps) {
         const double expected = perVertex(run, run.frame.of({substeps, 1})), best = bestCost();
         if (expected < best) return true;
-        run.candidate.why =
-            concat("cannot win: already ", substeps, " substeps cost ", expected / best, " times the best");
+        run.candidate.why = concat("cannot win: at ", substeps, substeps == 1 ? " substep" : " substeps",
+                                   " it costs ", std::round(100 * expected / best) / 100, " times the best");
         return false;
     }
 
@@ -239,6 +246,9 @@ class Search {
         }
         out.why = others > 0 ? concat("the cheapest of ", others + 1, " that get there")
                              : "the only one that gets there, or the first that nothing else can beat";
+        out.duration = frames_ / few_.frameRate;
+        if (out.duration < 0.9 * options_.duration)
+            out.why += concat("; over ", out.duration, " s only, after which the motion is chaotic");
         device_.context->checkErrors("calibrate");
         return out;
     }

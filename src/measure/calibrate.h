@@ -20,7 +20,7 @@ struct CalibrationOptions {
     std::vector<SolverKind> solvers = {};
     std::vector<FieldSampling> samplings = {};
     std::optional<int> substeps = {};
-    double duration = 1;      // s of simulated time
+    double duration = 1;      // s of simulated time; less where the motion is chaotic by then, to an eighth
     int molecules = 4;        // of each group
     std::string version;      // of the program
     std::string folder = {};  // where results are kept; empty: nowhere
@@ -40,8 +40,9 @@ struct Calibration {
     double target = 0;
     Method method;
     int substeps = 0;
-    double error = 0;  // measured
-    double cost = 0;   // s per vertex and simulated second
+    double error = 0;     // measured
+    double cost = 0;      // s per vertex and simulated second
+    double duration = 0;  // s, after which the error was taken
     std::string why;
     std::vector<Candidate> candidates;
     bool kept = false;   // was found before

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int layoutVersion = 1;
+constexpr int layoutVersion = 2;
 
 // FNV-1a over the bytes of what it is given.
 class Hash {
@@ -155,6 +155,7 @@ JsonValue asJson(const Calibration& one) {
         .add("substeps", JsonValue::makeNumber(one.substeps))
         .add("error", JsonValue::makeNumber(one.error))
         .add("secondsPerVertexAndSecond", JsonValue::makeNumber(one.cost))
+        .add("duration", JsonValue::makeNumber(one.duration))
         .add("why", JsonValue::makeString(one.why))
         .add("seconds", JsonValue::makeNumber(one.seconds))
         .add("candidates", std::move(candidates));
@@ -174,6 +175,7 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
         reader.need("substeps", out.substeps, Range::between(1, maxSubsteps));
         reader.need("error", out.error);
         reader.need("secondsPerVertexAndSecond", out.cost);
+        reader.need("duration", out.duration);
         reader.need("why", out.why);
         reader.need("seconds", out.seconds);
         for (JsonReader& candidate : reader.objects("candidates"))
