@@ -267,8 +267,7 @@ class ContactIntegrator {
             const double now = valueAt(event, time);
             // what a straight line to the other end says is left
             const double other = now < 0 ? atLow : -atHigh;
-            const bool near =
-                other < nothing && !(atLow == 0 && now < 0) && std::abs(now) * (high - low) < close * other;
+            const bool near = other < nothing && std::abs(now) * (high - low) < close * other;
             if (now < 0) {
                 high = time, atHigh = now;
                 if (side > 0) atLow /= 2;

@@ -84,7 +84,7 @@ TEST_CASE("free fall with Stokes drag follows its closed form", "[reference]") {
 
 TEST_CASE("an oscillating wind drives what it drags, at a lag", "[reference]") {
     const Molecule molecule = test::point(3);
-    for (double frequency : {0.5, 8.0, 64.0}) {
+    for (double frequency : {0.5, 8.0, 1024.0}) {  // the last: the same at all times of long steps
         const double rate = 2, omega = 2 * pi * frequency, phase = 0.4, t = 1;
         Problem problem{.molecule = &molecule, .drag = {rate, rate}};
         const glm::dvec3 peak{3, 0, -1};
