@@ -6,8 +6,9 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, or when the substep has changed - it is that of a free
-// flight: dv from drag and gravity over h, dx = h v - h/2 dv. The springs are not in it: stiff ones would be noise.
+// Where there is no history - at the start, after a contact, or when the substep has changed - z and w are such that
+// the step is exact for free flight in a fluid of that velocity, however heavy the drag. The springs are not in it:
+// stiff ones would be noise.
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
@@ -48,11 +49,11 @@ void predict(int step)
     sampleSubstep(frameTime + float(step + 1) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
-        vec3 flight = dragged(v[i], fluid[i], normal[i]) - v[i];
-        dv[i] = restart ? flight : dv[i];
-        dx[i] = restart ? (v[i] - flight * 0.5) * substep : dx[i];
-        z[i] = held ? vec3(0.0) : dx[i] * third;
-        q[i] = held ? vec3(0.0) : z[i] + stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]) * stageEta;
+        vec3 flown = dragged(v[i], fluid[i], normal[i]);
+        vec3 before = restart ? flown - dragAcceleration(flown, fluid[i], normal[i]) * stageEta : v[i] + dv[i] * third;
+        vec3 known = restart ? flight(v[i], fluid[i], normal[i]) - flown * stageEta : dx[i] * third;
+        z[i] = held ? vec3(0.0) : known;
+        q[i] = held ? vec3(0.0) : known + stageDragged(before, fluid[i], normal[i]) * stageEta;
         weight[i] = held ? 0.0 : inverseMass[i] * (stageEta * stagePhi.y);
     }
     restart = false;

@@ -39,6 +39,7 @@ uniform vec2 givenStageDecay;
 uniform vec2 givenStagePhi;
 uniform int givenRestarts;
 uniform int givenSlips;
+uniform vec2 givenFlightBend;
 
 // The same where the step reads them. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser: it fetches a uniform lane by
 // lane, in every turn of a loop again, and a plain copy is a uniform to it; an operation that changes nothing makes a
@@ -61,6 +62,7 @@ vec2 dragRate;  // gamma, 1/s, across and along the surface
 float stageEta;  // s, of an implicit stage
 vec2 stageDecay;  // gamma eta / (1 + gamma eta) across and along the surface
 vec2 stagePhi;  // eta / (1 + gamma eta)
+vec2 flightBend;  // (h - phi) / gamma, s^2, across and along the surface
 int slips;  // not 0: drag is so heavy that positions drift by the new velocity alone
 int restarts;  // not 0: what is known of the last substep does not count
 
@@ -100,6 +102,7 @@ void loadUniforms()
     stagePhi = inRegister(givenStagePhi);
     restarts = inRegister(givenRestarts);
     slips = inRegister(givenSlips);
+    flightBend = inRegister(givenFlightBend);
 }
 
 #ifdef SHARED_MOLECULE

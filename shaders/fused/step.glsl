@@ -101,3 +101,14 @@ vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 n)
 #endif
     return a;
 }
+
+// How far drag and gravity carry over a substep, exactly.
+vec3 flight(vec3 velocity, vec3 u, vec3 n)
+{
+    vec3 a = dragAcceleration(velocity, u, n);
+    vec3 bend = a * flightBend.y;
+#ifdef DIRECTIONAL_DRAG
+    bend += n * (dot(a, n) * (flightBend.x - flightBend.y));
+#endif
+    return velocity * substep + bend;
+}

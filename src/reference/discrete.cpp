@@ -20,22 +20,22 @@ glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& g
 
 // The same with a rate along the unit normal n and another across it.
 glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
-                      double h) {
-    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h, slips(problem, h));
+                      double h, bool slips) {
+    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h, slips);
     if (!problem.drag.directional()) return plain;
-    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h, slips(problem, h));
+    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h, slips);
     return plain + glm::dot(across - plain, n) * n;
 }
 
 void applyLinearPart(const Problem& problem, Vectors& velocity, const Vectors& position, double time,
-                     double h) {
+                     double h, bool slips = false) {
     Vectors normal(position.size(), glm::dvec3(0));
     if (problem.drag.directional()) normal = normals(problem, position);
     for (size_t i = 0; i < position.size(); ++i) {
         if (problem.pinned(i)) continue;
         glm::dvec3 u(0);
         if (problem.drag.any()) u = fluidVelocity(problem.fields, position[i], time);
-        velocity[i] = linearPart(problem, velocity[i], u, normal[i], h);
+        velocity[i] = linearPart(problem, velocity[i], u, normal[i], h, slips);
     }
 }
 
@@ -46,10 +46,6 @@ void add(const Problem& problem, Vectors& to, const Vectors& rate, double h) {
 }
 
 }  // namespace
-
-bool slips(const Problem& problem, double h) {
-    return std::min(problem.drag.normal, problem.drag.tangent) * h > slipFrom;
-}
 
 void eulerStep(const Problem& problem, State& state, double h) {
     add(problem, state.velocity, springAcceleration(problem, state.position, state.velocity, state.time), h);
@@ -75,12 +71,13 @@ void verletStep(const Problem& problem, State& state, double h) {
 }
 
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h) {
+    const bool slips = std::min(problem.drag.normal, problem.drag.tangent) * h > slipFrom;
     add(problem, state.velocity, springs, h / 2);
     const Vectors start = state.position;
     add(problem, state.position, state.velocity, h / 2);
-    applyLinearPart(problem, state.velocity, state.position, state.time + h / 2, h);
-    if (slips(problem, h)) state.position = start;
-    add(problem, state.position, state.velocity, slips(problem, h) ? h : h / 2);
+    applyLinearPart(problem, state.velocity, state.position, state.time + h / 2, h, slips);
+    if (slips) state.position = start;
+    add(problem, state.position, state.velocity, slips ? h : h / 2);
     state.time += h;
     Vectors predicted = state.velocity;
     add(problem, predicted, springs, h / 2);

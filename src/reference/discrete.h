@@ -8,16 +8,13 @@
 
 namespace shoal::reference {
 
-// Whether drag is so heavy that velocities slip: then exp(-gamma h) above becomes 1 / (1 + gamma h), and
-// leapfrog's positions drift by the new velocity alone (simulate/step.h says why).
-bool slips(const Problem& problem, double h);
-
 // v += h F(x, v, t) / m;  exact drag and gravity with u(x, t) and the normal at x;  x += h v.
 void eulerStep(const Problem& problem, State& state, double h);
 
 // v1 = v + a h/2;  x1 = x + v1 h/2;  v2 = exact drag and gravity over h with u(x1, t + h/2) and the normal at
 // x1; x' = x1 + v2 h/2;  a' = F(x', v2 + a h/2, t + h) / m;  v' = v2 + a' h/2. `springs` is a on entry and a'
-// on return.
+// on return. Where both drag rates times h are beyond slipFrom, exp(-gamma h) becomes 1 / (1 + gamma h) and
+// x' = x + v2 h (simulate/step.h says why).
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h);
 
 // As eulerStep, with every spring no stiffer than what moves its ends to its rest length at once, and v from

@@ -4,7 +4,6 @@
 
 #include <Eigen/Dense>
 
-#include "reference/discrete.h"
 #include "reference/fields.h"
 
 namespace shoal::reference {
@@ -42,16 +41,16 @@ Rates ratesOf(const Drag& drag, const Function& function) {
 
 // Of drag over a whole step.
 struct Flight {
-    Rates decay, phi;
+    Rates decay, phi, bend;  // bend: (h - phi) / gamma
 };
 
 Flight flightOf(const Problem& problem, double h) {
-    const bool slip = slips(problem, h);
-    const auto decay = [&](double gamma) {
-        return slip ? gamma * h / (1 + gamma * h) : -std::expm1(-gamma * h);
+    const auto decay = [&](double gamma) { return -std::expm1(-gamma * h); };
+    const auto phi = [&](double gamma) { return gamma == 0 ? h : decay(gamma) / gamma; };
+    const auto bend = [&](double gamma) {
+        return gamma * h < 1e-5 ? h * h * (0.5 - gamma * h / 6) : (h - phi(gamma)) / gamma;
     };
-    return {ratesOf(problem.drag, decay),
-            ratesOf(problem.drag, [&](double gamma) { return gamma == 0 ? h : decay(gamma) / gamma; })};
+    return {ratesOf(problem.drag, decay), ratesOf(problem.drag, phi), ratesOf(problem.drag, bend)};
 }
 
 Vectors fluidAt(const Problem& problem, const Vectors& position, double time) {
@@ -198,13 +197,13 @@ bool improve(const Problem& problem, const State& state, Stage& stage) {
 void xpbdStep(const Problem& problem, State& state, double h) {
     const size_t count = state.position.size();
     const Vectors u = fluidAt(problem, state.position, state.time), n = surfaceAt(problem, state.position);
-    const auto [decay, phi] = flightOf(problem, h);
+    const Flight flight = flightOf(problem, h);
     Stage stage{h, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
                 std::vector<glm::dmat3>(count, glm::dmat3(0))};
     for (size_t i = 0; i < count; ++i) {
         if (problem.pinned(i)) continue;
-        stage.moved[i] = h * relaxed(problem, state.velocity[i], u[i], n[i], decay, phi);
-        stage.weight[i] = h / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
+        stage.moved[i] = h * relaxed(problem, state.velocity[i], u[i], n[i], flight.decay, flight.phi);
+        stage.weight[i] = h / problem.molecule->vertices[i].mass * byDirection(n[i], flight.phi);
     }
     sweep(problem, state, stage, false);
     for (size_t i = 0; i < count; ++i) {
@@ -227,15 +226,7 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
             fresh ? h * v : history.displacement[i] / 3.0 + eta * (v + history.velocityChange[i] / 3.0);
     }
     const Vectors u = fluidAt(problem, ahead, state.time + h), n = surfaceAt(problem, ahead);
-    if (fresh) {
-        const Flight flight = flightOf(problem, h);
-        for (size_t i = 0; i < count; ++i) {
-            const glm::dvec3 v = state.velocity[i];
-            const glm::dvec3 change = relaxed(problem, v, u[i], n[i], flight.decay, flight.phi) - v;
-            history.velocityChange.push_back(change);
-            history.displacement.push_back(h * v - h / 2 * change);
-        }
-    }
+    const Flight flight = flightOf(problem, h);
     const Rates phi = ratesOf(problem.drag, [eta](double gamma) { return eta / (1 + gamma * eta); });
     const Rates decay =
         ratesOf(problem.drag, [eta](double gamma) { return gamma * eta / (1 + gamma * eta); });
@@ -243,12 +234,27 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
                 std::vector<glm::dmat3>(count, glm::dmat3(0))};
     for (size_t i = 0; i < count; ++i) {
         if (problem.pinned(i)) continue;
-        stage.known[i] = history.displacement[i] / 3.0;
-        const glm::dvec3 w = state.velocity[i] + history.velocityChange[i] / 3.0;
+        const glm::dvec3 v = state.velocity[i];
+        glm::dvec3 w;
+        if (fresh) {
+            // exact for free flight: v' = flown, and q = the distance flown
+            const glm::dvec3 flown = relaxed(problem, v, u[i], n[i], flight.decay, flight.phi);
+            const auto pull = [&](const glm::dvec3& now) {
+                return problem.gravity +
+                       byDirection(n[i], {problem.drag.normal, problem.drag.tangent}) * (u[i] - now);
+            };
+            w = flown - eta * pull(flown);
+            stage.known[i] = h * v + byDirection(n[i], flight.bend) * pull(v) - eta * flown;
+        } else {
+            w = v + history.velocityChange[i] / 3.0;
+            stage.known[i] = history.displacement[i] / 3.0;
+        }
         stage.moved[i] = stage.known[i] + eta * relaxed(problem, w, u[i], n[i], decay, phi);
         stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
     }
     if (!corotated || !improve(problem, state, stage)) sweep(problem, state, stage, true);
+    history.displacement.resize(count);
+    history.velocityChange.resize(count);
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 velocity = (stage.moved[i] - stage.known[i]) / eta;
         history.velocityChange[i] = velocity - state.velocity[i];

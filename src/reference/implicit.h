@@ -20,9 +20,9 @@ struct History {
     Vectors displacement, velocityChange;
 };
 
-// BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history that of a free
-// flight: dv from exact drag and gravity over h, dx = h v - h/2 dv, with the field where the stage reads it.
-// `corotated`: quasi-Newton steps, guarded as the shader is; else two sweeps, there and back.
+// BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history, z and w are such
+// that the step is exact for free flight in the fluid where the stage reads it. `corotated`: quasi-Newton
+// steps, guarded as the shader is; else two sweeps, there and back.
 void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated);
 
 }  // namespace shoal::reference

@@ -9,8 +9,8 @@
 
 namespace shoal {
 
-// Drag rate times substep beyond which velocities slip (simulate/step.h).
-constexpr double slipFrom = 20;
+// Drag rate times substep beyond which leapfrog lets velocities slip (simulate/step.h).
+constexpr double slipFrom = 1;
 
 enum class SolverKind { euler, verlet, leapfrog, rk4, xpbd, bdf2Xpbd, bdf2Corotated };
 

@@ -120,6 +120,7 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenDecay", drag.decay);
     program.set("givenPhi", drag.phi);
     program.set("givenSlips", int(drag.slips));
+    program.set("givenFlightBend", drag.bend);
     program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
     program.set("givenDampingFactor", float(group.damping * parameters.damping));
     const ReleaseLimits release = releaseLimits(group, frame);

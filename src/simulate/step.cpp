@@ -7,20 +7,27 @@ namespace shoal {
 
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
     const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
-    const bool slips = std::min(across, along) * h > slipFrom;
+    const bool slips = group.solver == SolverKind::leapfrog && std::min(across, along) * h > slipFrom;
     const auto decay = [&](double gamma) {
         return slips ? gamma * h / (1 + gamma * h) : -std::expm1(-gamma * h);
     };
     const auto phi = [&](double gamma) { return std::abs(gamma * h) < 1e-12 ? h : decay(gamma) / gamma; };
-    return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along)), slips};
+    // its series where the difference would be left with rounding
+    const auto bend = [&](double gamma) {
+        const double x = gamma * h;
+        return std::abs(x) < 1e-3 ? h * h * (0.5 - x / 6 + x * x / 24) : (h - phi(gamma)) / gamma;
+    };
+    return {glm::vec2(decay(across), decay(along)), glm::vec2(phi(across), phi(along)), slips,
+            glm::vec2(bend(across), bend(along))};
 }
 
 StageCoefficients stageCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
     const double eta = 2 * h / 3;
     const auto phi = [eta](double gamma) { return eta / (1 + gamma * eta); };
     const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
-    return {float(eta),
-            {glm::vec2(across * phi(across), along * phi(along)), glm::vec2(phi(across), phi(along))}};
+    return {
+        float(eta),
+        {glm::vec2(across * phi(across), along * phi(along)), glm::vec2(phi(across), phi(along)), false, {}}};
 }
 
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
@@ -33,7 +40,7 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
 
 glm::vec3 driftOf(SolverKind solver, double h, bool slips) {
     // the others of order 1 drift by the velocity that the step ends with
-    const bool first = shoal::solver(solver).order == 1 || (slips && solver == SolverKind::leapfrog);
+    const bool first = shoal::solver(solver).order == 1 || slips;
     return glm::vec3(h, first ? h : h / 2, first ? h / 2 : 0);
 }
 

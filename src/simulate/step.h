@@ -19,13 +19,15 @@ struct Frame {
 // Exact drag over h across (x) and along (y) the surface: decay = 1 - exp(-gamma h), phi = decay / gamma (h
 // where gamma = 0); in double, where the difference to h still counts.
 //
-// Beyond gamma h = slipFrom (both rates) a substep cannot follow the velocity on its way to the fluid's, and
-// need not: decay = gamma h / (1 + gamma h), phi = h / (1 + gamma h), and the position drifts by the new
-// velocity alone. Then v tends to the slip velocity u + (g - Du/Dt) / gamma, exactly where Du/Dt is steady,
-// and springs move what they pull on by h f / (m gamma), as they should.
+// Beyond gamma h = slipFrom (both rates) leapfrog does not follow the velocity on its way to the fluid's:
+// decay = gamma h / (1 + gamma h), phi = h / (1 + gamma h), and the position drifts by the new velocity
+// alone. Then v tends to the slip velocity u + (g - Du/Dt) / gamma, exactly where Du/Dt is steady, the way
+// covered while it does is right, and springs move what they pull on by h f / (m gamma). The exact decay,
+// split from the drift, lags by h/2.
 struct DragCoefficients {
     glm::vec2 decay{0}, phi{0};
     bool slips = false;
+    glm::vec2 bend{0};  // (h - phi) / gamma, s^2: how far an acceleration now carries in the step
 };
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
 
