@@ -1,11 +1,12 @@
 // `shoal measure --report`: the report's own scenes, one JSON each, then pictures and tables of all:
 //
 //   <folder>/<molecule>-<motion>-<stiffness>.json    what `shoal measure --json` says
-//   <folder>/<molecule>.svg                          a row a motion, a column a stiffness
+//   <folder>/<molecule>.png                          a row a motion, a column a stiffness
 //   <folder>/tables.md                               speed-ups, costs, what is chosen
 //
 // A scene whose file is there is not measured again, so that a run goes on where it was ended.
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 
@@ -36,7 +37,7 @@ std::string fileOf(const Options& options, const ReportScene& scene) {
 
 AccuracyPanel panelOf(const ReportScene& scene, const ReportEntry& entry) {
     AccuracyPanel out;
-    out.title = concat(scene.motion, ", k = ", scene.stiffness,
+    out.title = concat(scene.motion, ", k = 1e", std::lround(std::log10(scene.stiffness)),
                        entry.accuracy.chaotic.empty() ? "" : ": chaotic, no error");
     out.points = entry.accuracy.points;
     for (const AccuracyPoint& point : out.points)
@@ -97,7 +98,7 @@ void drawAll(const Options& options, const std::vector<ReportScene>& all,
             any |= plottable(panels.back().points);
         }
         if (any)
-            plotGrid((fs::path(options.report) / (molecule + ".svg")).string(), molecule + "; " + machine,
+            plotGrid((fs::path(options.report) / (molecule + ".png")).string(), molecule + "; " + machine,
                      int(std::size(reportStiffnesses)), panels);
     }
 }

@@ -51,15 +51,23 @@ std::string methodWords(const Method& method) {
     return out;
 }
 
+// Why a solver has no cost at an error.
+std::string notReached(const std::vector<AccuracyPoint>& points, std::optional<SolverKind> kind) {
+    for (const AccuracyPoint& point : points)
+        if (point.outcome == Outcome::leftOut && (!kind || point.method.solver == *kind))
+            return "not reached in the time given";
+    return "not reached";
+}
+
 // "leapfrog 58×": ≥ where the cheaper one could take larger steps than a frame has, ≤ where euler could.
 std::string speedUp(const ReportEntry& entry, double error) {
     if (!entry.accuracy.chaotic.empty()) return "chaotic";
     const std::vector<AccuracyPoint>& points = entry.accuracy.points;
     const std::optional<BestOf> best = cheapest(points, error);
-    if (!best) return "not reached";
+    if (!best) return notReached(points, {});
     const std::optional<BestOf> euler = bestOf(points, SolverKind::euler, error);
     const std::string words = methodWords(best->method);
-    if (!euler) return words + "; euler does not get there";
+    if (!euler) return concat(words, "; euler ", notReached(points, SolverKind::euler));
     if (best->method.solver == SolverKind::euler) return words;
     const bool least = best->cost.atLargestStep, most = euler->cost.atLargestStep;
     return concat(words, " ",
@@ -123,7 +131,7 @@ std::string costTable(const std::vector<ReportEntry>& entries, double error) {
         for (const Solver& solver : solvers()) {
             const std::optional<BestOf> one = bestOf(entry.accuracy.points, solver.kind, error);
             cells.push_back(one ? concat(one->cost.atLargestStep ? "≤ " : "", nanoseconds(one->cost.time))
-                                : "not reached");
+                                : notReached(entry.accuracy.points, solver.kind));
         }
         out += row(cells);
     }
