@@ -128,6 +128,33 @@ void startFrom(Simulation& simulation, const std::function<void(GroupState&)>& e
     simulation.load(state);
 }
 
+glm::dvec3 placeOf(const GroupState& state, size_t vertex) {
+    const size_t vertices = state.positions.size() / state.anchors.size();
+    return glm::dvec3(state.anchors[vertex / vertices]) + glm::dvec3(state.positions[vertex]);
+}
+
+void moveTo(GroupState& state, size_t vertex, const glm::dvec3& position) {
+    const size_t vertices = state.positions.size() / state.anchors.size();
+    state.positions[vertex] = glm::vec3(position - glm::dvec3(state.anchors[vertex / vertices]));
+}
+
+void scaleMolecules(GroupState& state, const glm::dvec3& factors) {
+    const size_t vertices = state.positions.size() / state.anchors.size();
+    for (size_t i = 0; i < state.positions.size(); ++i) {
+        const glm::dvec3 first = placeOf(state, i / vertices * vertices);
+        moveTo(state, i, first + factors * (placeOf(state, i) - first));
+    }
+}
+
+Molecule tetrahedron(double stiffness, double damping) {
+    Molecule out = leaf(stiffness, damping);
+    out.name = "tetrahedron";
+    const glm::dvec3 corners[] = {{0, 0, 0}, {0.5, 0, 0}, {0.25, 0, -0.4}, {0.25, 0.45, -0.15}};
+    for (size_t i = 0; i < 4; ++i)
+        out.vertices[i].position = corners[i];
+    return out;
+}
+
 double strainOf(const Molecule& molecule, const reference::State& state) {
     double sum = 0;
     for (const Spring& spring : molecule.springs) {

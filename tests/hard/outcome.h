@@ -60,6 +60,14 @@ void runChecked(Simulation& simulation, int frames);
 // Starts again from the scene's start with `edit` done to it; solvers with history start without any.
 void startFrom(Simulation& simulation, const std::function<void(GroupState&)>& edit);
 
+// Where a vertex lies in a state that startFrom edits, in world coordinates.
+glm::dvec3 placeOf(const GroupState& state, size_t vertex);
+void moveTo(GroupState& state, size_t vertex, const glm::dvec3& position);
+void scaleMolecules(GroupState& state, const glm::dvec3& factors);  // each about its first vertex
+
+// Half a metre wide, on one of its faces, all six pairs sprung: no soft mode, and it stands.
+Molecule tetrahedron(double stiffness, double damping);
+
 // RMS over the springs of one molecule of l / L - 1.
 double strainOf(const Molecule& molecule, const reference::State& state);
 

@@ -32,7 +32,8 @@ Molecule stretchedPair() {
 // The energy k a^2 / 2 of an undamped spring stays. Symplectic methods keep it within w h / 2 for ever; rk4
 // loses (w h)^6 / 72 a step, 2e-4 in all at w h = 0.05. The double recurrence of the same method says what
 // float adds.
-TEST_CASE("hard: a million steps undamped", "[hard][stiff]") {
+// [fused]: the ping-pong path takes 0.1 ms a step, which is minutes.
+TEST_CASE("hard: a million steps undamped", "[hard][stiff][fused]") {
     test::holds("a million steps, undamped", [](const Solver& solver, Judge& judge) {
         const int frames = 1000, substeps = 1000;
         const double h = 1 / 60000.0, product = 0.05;
@@ -44,8 +45,11 @@ TEST_CASE("hard: a million steps undamped", "[hard][stiff]") {
         const reference::Problem problem = test::problemOf(scene, 0);
         reference::State state = test::stateOf(simulation.snapshot(0), 0);
         const double before = reference::energy(problem, state);
-        test::runChecked(simulation, frames);
-        const double after = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
+        double after = before;
+        for (int i = 0; i < frames && after > 0.5 * before; i += 100) {  // half of it lost is enough to know
+            test::runChecked(simulation, 100);
+            after = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
+        }
         // where in its period the last step ends matters to a method of order 1: w h / 2 = 2.5 % of the
         // energy
         judge.atMost("energy drift", after / before - 1, solver.order == 1 ? product / 2 : 5e-3);
@@ -69,10 +73,8 @@ TEST_CASE("hard: steps beyond the springs' period", "[hard][stiff]") {
             scene.groups[0].spin = {3, 1, -2};
             setSteps(scene, 1 / 60.0, 4);
             Simulation simulation = test::hardSimulation(scene);
-            test::startFrom(simulation, [](GroupState& start) {
-                for (glm::vec3& x : start.positions)
-                    x *= 1.1f;
-            });
+            test::startFrom(simulation,
+                            [](GroupState& start) { test::scaleMolecules(start, glm::dvec3(1.1)); });
             const reference::Problem problem = test::problemOf(scene, 0);
             const double before = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
             test::runChecked(simulation, 300);
@@ -85,56 +87,58 @@ TEST_CASE("hard: steps beyond the springs' period", "[hard][stiff]") {
     test::holds("w h 10 to 1000", [&](const Solver& s, Judge& judge) { strain(s, judge, 10, 1001); });
 }
 
-// A leaf whose third corner has a millionth of the others' mass, 1 % too large at the start, turning slowly.
-// The centripetal strain is m r w^2 / k = 5e-6 at 0.01 rad/s and k = 10. Damped so that e^-10 of the stretch
-// is left after 5 s; the springs of the light corner with as much damping ratio.
+// A tetrahedron one of whose corners has a millionth of the others' mass, 1 % too large at the start. Its
+// heavy modes are damped at 1.5 /s and more, its light ones (of damping ratio 0.005) at 25 /s: at most e^-7.5
+// of the stretch, 5e-6, is left after 5 s. Float adds its part: a vertex moves only while v h is half a
+// rounding of x, so that at 3000 steps a second it stops at 1e-4 m/s, c v / k L = 7e-6 short of its place.
 TEST_CASE("hard: mass ratio 1e6", "[hard][stiff]") {
     const auto settle = [](const Solver& solver, Judge& judge, int substeps) {
-        Molecule molecule = test::leaf(10, 4);
+        Molecule molecule = test::tetrahedron(10, 3);
         molecule.vertices[2].mass = 1e-6;
         for (Spring& spring : molecule.springs)
-            if (spring.a == 2 || spring.b == 2) spring.damping = 4e-3;
+            if (spring.a == 2 || spring.b == 2) spring.damping = 3e-5;
         Scene scene = test::sceneOf(molecule, solver.kind, {at({0, 0, 0}, test::turned())});
-        scene.groups[0].spin = {0.005, 0.01, 0};
         setSteps(scene, 1 / 60.0, substeps);
         Simulation simulation = test::hardSimulation(scene);
-        test::startFrom(simulation, [](GroupState& start) {
-            for (glm::vec3& x : start.positions)
-                x *= 1.01f;
-        });
+        test::startFrom(simulation, [](GroupState& start) { test::scaleMolecules(start, glm::dvec3(1.01)); });
         test::runChecked(simulation, 300);
         // NUMERICS 5
         judge.atMost("strain", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)), 1e-5);
     };
-    test::holds("mass ratio 1e6, w h 0.2", [&](const Solver& s, Judge& judge) { settle(s, judge, 500); });
-    test::holds("mass ratio 1e6, w h 23", [&](const Solver& s, Judge& judge) { settle(s, judge, 4); });
+    test::holds("mass ratio 1e6, w h 1.5", [&](const Solver& s, Judge& judge) { settle(s, judge, 50); });
+    test::holds("mass ratio 1e6, w h 19", [&](const Solver& s, Judge& judge) { settle(s, judge, 4); });
 }
 
-// A frame of 0.5 s with as many substeps as the others, among frames of 1/60 s: w h goes from 0.5 to 15.
-// Finite, and whole again after 5 s. Nothing in a simulation holds the step: what runs one must
-// (docs/hard-cases.md).
+// A frame of 0.5 s among frames of 1/60 s, with as many substeps: w h goes from 0.5 to 15. Finite, and whole
+// again after 5 s. Nothing in a simulation holds the step (docs/hard-cases.md): what runs one asks
+// substepsNeeded.
 TEST_CASE("hard: a frame hitch", "[hard][stiff]") {
-    test::holds("frame hitch", [](const Solver& solver, Judge& judge) {
+    const auto hitch = [](const Solver& solver, Judge& judge, bool asks) {
         Scene scene = test::sceneOf(test::leaf(3600, 10), solver.kind, {at({0, 0, 0}, test::turned())});
+        const Molecule& molecule = scene.groups[0].molecule;
         scene.groups[0].velocity = {1, 0, 0};
         scene.groups[0].spin = {1, 2, 3};
         setSteps(scene, 1 / 60.0, 4);
         Simulation simulation = test::hardSimulation(scene);
         test::runChecked(simulation, 30);
         simulation.parameters.frameTime = 0.5;
+        if (asks) simulation.parameters.substeps = substepsNeeded(simulation.plan(), 0.5, 1, 1, 4);
         test::runChecked(simulation, 1);
-        judge.atMost("strain after it",
-                     test::strainOf(scene.groups[0].molecule, test::stateOf(simulation.snapshot(0), 0)), 1);
+        // an ill-timed step may stretch springs, not tear them
+        judge.atMost("strain after it", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)),
+                     1);
         simulation.parameters.frameTime = 1 / 60.0;
+        simulation.parameters.substeps = 4;
         test::runChecked(simulation, 300);
-        judge.atMost("strain at the end",
-                     test::strainOf(scene.groups[0].molecule, test::stateOf(simulation.snapshot(0), 0)), 0.3);
-    });
+        judge.atMost("at the end", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)), 0.3);
+    };
+    test::holds("frame hitch, same substeps", [&](const Solver& s, Judge& judge) { hitch(s, judge, false); });
+    test::holds("frame hitch, substepsNeeded", [&](const Solver& s, Judge& judge) { hitch(s, judge, true); });
 }
 
 // A square that is stretched by 2 % along x and let go: mirrored at its middle it is itself, and stays so.
-// What the springs' order adds is the asymmetry, in units of the size: 1e-6 is a few roundings of 6e-8 m at
-// 1000 steps.
+// What the springs' order adds is the asymmetry, in units of the size: 1e-6 is 160 roundings of 6e-8 m at
+// random.
 TEST_CASE("hard: a symmetric stretch", "[hard][stiff]") {
     test::holds("symmetric stretch", [](const Solver& solver, Judge& judge) {
         Molecule molecule = test::leaf(2000, 5);
@@ -142,10 +146,10 @@ TEST_CASE("hard: a symmetric stretch", "[hard][stiff]") {
         setSteps(scene, 1 / 60.0, 8);
         Simulation simulation = test::hardSimulation(scene);
         test::startFrom(simulation, [](GroupState& start) {
-            for (glm::vec3& x : start.positions)
-                x.x *= 1.02f;
+            for (size_t v = 0; v < 4; ++v)
+                test::moveTo(start, v, glm::dvec3(1.02, 1, 1) * test::placeOf(start, v));
         });
-        for (int i = 0; i < 60; ++i) {
+        for (int i = 0; i < 20; ++i) {
             test::runChecked(simulation, 1);
             const Snapshot now = simulation.snapshot(0);
             for (size_t v = 0; v < 4; ++v) {  // opposite corners: half a turn about y
