@@ -132,12 +132,13 @@ class Script {
 
 std::string terminal(const std::string& output, int width, int height, int font) {
     const bool svg = lowerExtension(output) == ".svg";
-    return concat("set encoding utf8\n",
-                  svg ? concat("set terminal svg size ", width, ",", height, " dynamic font 'DejaVu Sans,",
-                               font, "' background rgb 'white'\n")
-                      : concat("set terminal pngcairo size ", width * 3 / 2, ",", height * 3 / 2,
-                               " font 'DejaVu Sans,", font, "' fontscale 1.5 linewidth 1.5 pointscale 1.5\n"),
-                  "set output ", quoted(output), "\n");
+    return concat(
+        "set encoding utf8\n",
+        svg ? concat("set terminal svg size ", width, ",", height, " dynamic font 'DejaVu Sans,", font,
+                     "' background rgb 'white'\n")
+            : concat("set terminal pngcairo size ", width * 3 / 2, ",", height * 3 / 2, " font 'DejaVu Sans,",
+                     font, "' fontscale ", font < 14 ? 1.25 : 1.5, " linewidth 1.5 pointscale 1.5\n"),
+        "set output ", quoted(output), "\n");
 }
 
 const char* axes =
@@ -158,7 +159,7 @@ std::string key(const std::vector<AccuracyPanel>& panels) {
     std::ostringstream out;
     out << "unset title\nunset xlabel\nunset ylabel\nunset border\nunset tics\nunset grid\nunset logscale\n"
         << "set xrange [0:1]\nset yrange [0:1]\n"
-        << "set key center center horizontal Left reverse samplen 2.5 width 1 maxrows 3\n"
+        << "set key center center horizontal Left reverse samplen 2.5 width 1 maxrows 7 font ',10'\n"
         << "plot NaN title 'Pareto front' with lines linewidth 5 linecolor rgb '#F3E3A1'";
     for (const auto& [method, used] : methods) {
         const Stroke& stroke = strokes[size_t(method.sampling)];
@@ -173,13 +174,13 @@ std::string key(const std::vector<AccuracyPanel>& panels) {
 std::string gridScript(const std::string& output, const std::string& title, int columns,
                        const std::vector<AccuracyPanel>& panels) {
     const int rows = (int(panels.size()) + columns - 1) / columns;
-    constexpr int cell = 300, head = 46, foot = 120;
+    constexpr int cell = 300, head = 46, foot = 150;
     const int width = cell * columns + 60, height = cell * rows + head + foot;
     std::ostringstream out;
     out << terminal(output, width, height, 11) << "set multiplot\n"
         << "set label 1 " << quoted(title) << " at screen 0.5," << 1 - 0.45 * head / height
         << " center font ',15' noenhanced\n"
-        << axes << "unset key\n";
+        << axes << "set xtics add ('' 10, '' 1e4, '' 1e6)\nunset key\n";
     Limits all;
     for (const AccuracyPanel& panel : panels)
         all.add(panel.points);
@@ -195,7 +196,7 @@ std::string gridScript(const std::string& output, const std::string& title, int 
             << double(cell) / height << "\nset lmargin 7\nset rmargin 1\nset tmargin 2\nset bmargin 3\n"
             << "set title " << quoted(panels[i].title) << " noenhanced offset 0,-0.6\n"
             << (column == 0 ? "set ylabel 'relative error' offset 1.5\n" : "unset ylabel\n")
-            << (row + 1 == rows ? "set xlabel 'time a vertex and simulated second' offset 0,0.5\n"
+            << (row + 1 == rows ? "set xlabel 'time per vertex and simulated second' offset 0,0.5\n"
                                 : "unset xlabel\n")
             << plot << "unset label 1\n";
     }
