@@ -24,6 +24,10 @@ namespace {
 #include "physics/field.glsl"
 #include "physics/normal.glsl"
 #include "physics/random.glsl"
+#include "physics/relaxation.glsl"
+#define FASTEST_SQUARED 1e8
+#include "physics/runaway.glsl"
+#undef FASTEST_SQUARED
 #include "physics/spring.glsl"
 // clang-format on
 

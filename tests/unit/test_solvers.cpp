@@ -1,0 +1,181 @@
+// The table of solvers, how a group comes to one, and the pure parts of the implicit ones.
+#include <cmath>
+#include <set>
+
+#include "compile/corotated.h"
+#include "compile/path.h"
+#include "compile/plan.h"
+#include "molecule/molecule_file.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/shader_physics.h"
+#include "support/shapes.h"
+
+namespace shoal {
+
+
+namespace {
+
+Scene sceneOf(Molecule molecule, std::optional<SolverKind> kind = {}) {
+    Scene scene;
+    scene.solver.kind = kind;
+    Group group;
+    group.molecule = std::move(molecule);
+    group.count = 2;
+    scene.groups.push_back(std::move(group));
+    return scene;
+}
+
+Molecule fish() {
+    return readMolecule(SHOAL_SOURCE_DIR "/molecules/fish.json");
+}
+
+glm::dmat3 block(const std::vector<glm::vec4>& factors, int number) {
+    glm::dmat3 out;
+    for (int k = 0; k < 9; ++k)
+        out[k / 3][k % 3] = double(factors[size_t((9 * number + k) / 4)][(9 * number + k) % 4]);
+    return out;
+}
+
+using Vectors = std::vector<glm::dvec3>;
+
+// What generated/corotated.glsl does with the blocks.
+Vectors solve(const CorotatedPattern& pattern, const std::vector<glm::vec4>& factors, Vectors x) {
+    const auto at = [&](size_t place) -> glm::dvec3& { return x[size_t(pattern.order[place])]; };
+    for (size_t p = 0; p < pattern.order.size(); ++p)
+        for (size_t n = 0; n < pattern.below[p].size(); ++n)
+            at(size_t(pattern.below[p][n])) -= block(factors, pattern.block[p][n]) * at(p);
+    for (size_t p = pattern.order.size(); p-- > 0;) {
+        at(p) = block(factors, pattern.diagonal[p]) * at(p);
+        for (size_t n = 0; n < pattern.below[p].size(); ++n)
+            at(p) -= glm::transpose(block(factors, pattern.block[p][n])) * at(size_t(pattern.below[p][n]));
+    }
+    return x;
+}
+
+// A x, spring by spring.
+Vectors times(const Molecule& molecule, const CorotatedStage& stage, const Vectors& x) {
+    Vectors out;
+    const double beta = 1 / (stage.eta * stage.eta) + stage.drag / stage.eta;
+    for (size_t v = 0; v < x.size(); ++v)
+        out.push_back(beta * molecule.vertices[v].mass * x[v]);
+    for (const Spring& spring : molecule.springs) {
+        const size_t a = size_t(spring.a), b = size_t(spring.b);
+        const glm::dvec3 n = glm::normalize(molecule.vertices[a].position - molecule.vertices[b].position);
+        const glm::dvec3 pull =
+            (stage.stiffness * spring.stiffness + stage.damping * spring.damping / stage.eta) *
+            glm::dot(n, x[a] - x[b]) * n;
+        out[a] += pull;
+        out[b] -= pull;
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("the table of solvers is in the order of its kinds and its names lead back", "[solvers]") {
+    std::set<std::string> names;
+    for (size_t i = 0; i < solvers().size(); ++i) {
+        const Solver& one = solvers()[i];
+        CHECK(size_t(one.kind) == i);
+        CHECK(solverOf(one.name) == one.kind);
+        CHECK(names.insert(one.name).second);
+        CHECK((one.order == 1 || one.order == 2 || one.order == 4));
+    }
+    CHECK(solverOf("auto") == std::nullopt);
+    CHECK_THAT(messageOf([] { solverOf("bdf2-xpdb"); }), Catch::Contains("did you mean \"bdf2-xpbd\""));
+}
+
+TEST_CASE("a group takes leapfrog while the substep resolves its springs, bdf2-xpbd beyond", "[solvers]") {
+    const Plan soft = compile(sceneOf(test::leaf(1e3, 0.5)));
+    CHECK(soft.groups[0].solver == SolverKind::leapfrog);
+    const Plan stiff = compile(sceneOf(test::leaf(1e7, 0.5)));
+    CHECK(stiff.groups[0].solver == SolverKind::bdf2Xpbd);
+    CHECK_THAT(stiff.groups[0].solverWhy, Catch::Contains("stiff"));
+    CHECK(compile(sceneOf(test::point(1))).groups[0].solver == SolverKind::leapfrog);
+    // whatever deforms the molecule: from one solver to the other there is no stiffness that is refused
+    for (double stiffness = 1; stiffness < 1e9; stiffness *= 1.7)
+        CHECK_NOTHROW(compile(sceneOf(test::leaf(stiffness, 0.05 * std::sqrt(stiffness)))));
+    // groups choose for themselves
+    Scene both = sceneOf(test::leaf(1e7, 0.5));
+    both.groups.push_back(sceneOf(test::leaf(1e3, 0.5)).groups[0]);
+    const Plan mixed = compile(both);
+    CHECK(mixed.groups[0].solver == SolverKind::bdf2Xpbd);
+    CHECK(mixed.groups[1].solver == SolverKind::leapfrog);
+}
+
+TEST_CASE("every explicit solver refuses a step beyond its limit and names what would do", "[solvers]") {
+    for (const Solver& one : solvers()) {
+        Scene scene = sceneOf(test::leaf(1e6, 20), one.kind);
+        const std::string message = messageOf([&] { compile(scene); });
+        INFO(one.name);
+        if (one.implicit) {
+            CHECK(message.empty());
+            continue;
+        }
+        REQUIRE_THAT(message, Catch::Contains(std::string(one.name) + " is stable"));
+        scene.solver.substeps = std::stoi(message.substr(message.find("use at least ") + 13));
+        CHECK_NOTHROW(compile(scene));
+        --scene.solver.substeps;
+        CHECK_THROWS_AS(compile(scene), Error);
+    }
+    Scene dragged = sceneOf(test::leaf(100, 0), SolverKind::rk4);
+    dragged.groups[0].drag = {2000, 2000};
+    const std::string message = messageOf([&] { compile(dragged); });
+    REQUIRE_THAT(message, Catch::Contains("rk4 takes drag up to"));
+    dragged.solver.substeps = std::stoi(message.substr(message.find("use at least ") + 13));
+    CHECK_NOTHROW(compile(dragged));
+}
+
+TEST_CASE("implicit solvers are refused where a molecule does not fit a lane, and off the fused path",
+          "[solvers]") {
+    const Plan plan = compile(sceneOf(test::leaf(1e7, 1), SolverKind::bdf2Xpbd));
+    CHECK(choosePath(plan, Path::automatic, {}).path == Path::fused);
+    CHECK_THAT(messageOf([&] { choosePath(plan, Path::pingPong, {}); }),
+               Catch::Contains("bdf2-xpbd") && Catch::Contains("needs the fused path"));
+    CHECK_THAT(messageOf([&] { chooseLanes(plan.groups[0], Lanes::vertex, {}); }),
+               Catch::Contains("keeps a molecule in one lane"));
+    Molecule chain;
+    for (int i = 0; i < 65; ++i)
+        chain.vertices.push_back({{0.1 * i, 0, 0}, {}, 1, false});
+    for (int i = 1; i < 65; ++i)
+        chain.springs.push_back({i - 1, i, 1e7, 1, {}, {}});
+    const Plan large = compile(sceneOf(chain, SolverKind::xpbd));
+    CHECK_THAT(messageOf([&] { choosePath(large, Path::fused, {}); }),
+               Catch::Contains("at most 64 vertices"));
+}
+
+TEST_CASE("the relaxation of one spring solves its implicit equation", "[solvers][physics]") {
+    const float k = 300, d = 40, weight = 0.02f, stretch = 0.03f, parted = -0.01f;
+    const float lambda = shader::relaxation(stretch, parted, 0, weight, k, d);
+    // the ends part by weight * lambda: the force at the new length and speed is lambda itself
+    CHECK(lambda == Approx(-(k * (stretch + weight * lambda) + d * (parted + weight * lambda))));
+    CHECK(shader::relaxation(stretch + weight * lambda, parted + weight * lambda, lambda, weight, k, d) ==
+          Approx(0).margin(1e-6));
+    CHECK(shader::relaxation(0.1f, 0, 0, 0.5f, 0, 0) == 0);  // no stiffness, no force
+    // rigid: the whole way at once
+    CHECK(weight * shader::relaxation(stretch, 0, 0, weight, 1e12f, 0) == Approx(-stretch).epsilon(1e-5));
+}
+
+TEST_CASE("the factors of the corotated matrix solve it, pinned or free", "[solvers]") {
+    Molecule molecule = fish();
+    molecule.vertices[5].mass *= 7;
+    const CorotatedStage stage{0.003, 4, 1.5, 0.5};
+    for (const bool held : {false, true}) {
+        molecule.vertices[3].pinned = molecule.vertices[11].pinned = true;
+        const CorotatedPattern pattern = corotatedPattern(molecule, held);
+        const std::vector<glm::vec4> factors = corotatedFactors(molecule, pattern, stage);
+        CHECK(int(factors.size()) == pattern.elements());
+        CHECK(pattern.order.size() == (held ? 22 : 24));
+        CHECK(pattern.blocks < 24 * 25 / 2);  // sparser than a full matrix
+        Vectors right;
+        for (int v = 0; v < 24; ++v)
+            right.emplace_back(std::sin(3.0 * v), std::cos(1.7 * v), std::sin(0.4 * v + 1));
+        if (held) right[3] = right[11] = glm::dvec3(0);
+        const Vectors back = times(molecule, stage, solve(pattern, factors, right));
+        for (size_t v = 0; v < 24; ++v)
+            if (!held || (v != 3 && v != 11)) CHECK(glm::length(back[v] - right[v]) < 2e-4);
+    }
+}
+
+}  // namespace shoal
