@@ -51,10 +51,7 @@ void MethodRunner::set(Step step) {
         options.lanes = device_.lanes;
         options.inPlace = device_.inPlace;
         options.cache = device_.cache;
-        // what blows up is an outcome here
-        [](auto& own) {
-            if constexpr (requires { own.watchdog; }) own.watchdog = false;
-        }(options);
+        options.watchdog = false;  // what blows up is an outcome here
         simulation_ =
             std::make_unique<Simulation>(*device_.context, device_.shaderRoot, compile(at(step)), options);
     }
