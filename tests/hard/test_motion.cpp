@@ -122,9 +122,9 @@ TEST_CASE("hard: ABC advection", "[hard][motion]") {
         for (int m = 0; m < start.count; ++m)
             exact.push_back(
                 reference::solve(test::problemOf(scene, m), test::stateOf(start, m), 1, 1e-9).state);
-        // gamma h 0.12 and 0.06, errors of 1e-2 m to 4e-5; rk4 at 1 and 0.5, before it falls to float's floor
-        // of 1e-6
-        const int steps = solver.order == 4 ? 2 : 16;
+        // h of 0.0125 s and half of it, errors of 5e-3 m to 1e-5; rk4 with 0.1 s, before float's floor of
+        // 1e-6 m
+        const int steps = solver.order == 4 ? 1 : 8;
         const double coarse = carriedError(scene, steps, exact), fine = carriedError(scene, 2 * steps, exact);
         judge.near("order", std::log2(coarse / fine), solver.order, 0.15);
         judge.report("error", fine);
