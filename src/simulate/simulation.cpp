@@ -91,7 +91,7 @@ void Simulation::disarm() {
 }
 
 void Simulation::check() const {
-    if (!alarmed()) return;
+    if (!before_ || !alarmed()) return;
     // what was wrong before the last frame is where it began: springs spread it over the molecule
     const std::optional<SavedState> before = saveBefore();
     const Alarm first = before ? findAlarm(*before) : Alarm{};

@@ -141,8 +141,8 @@ TEST_CASE("a scene has the passes that it needs", "[cli]") {
                       wind = R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )";
     SECTION("held by its pins, with springs") {
         const std::string scene = writeScene(scratch, whole, drag, wind);
-        CHECK(passes(scene) == Set{"restore", "advect!", "restore!", "normals"});
-        CHECK(passes(scene, {"--solver", "euler"}) == Set{"restore!", "advect!", "normals"});
+        CHECK(passes(scene) == Set{"restore", "advect!", "restore!", "normals", "watch"});
+        CHECK(passes(scene, {"--solver", "euler"}) == Set{"restore!", "advect!", "normals", "watch"});
     }
     SECTION("colliders") {
         CHECK(passes(writeScene(scratch, whole, drag, plane)).contains("collide!"));
@@ -150,11 +150,11 @@ TEST_CASE("a scene has the passes that it needs", "[cli]") {
     }
     SECTION("without springs nothing restores") {
         CHECK(passes(writeScene(scratch, std::string(vertices) + triangles, drag, wind)) ==
-              Set{"advect!", "normals"});
+              Set{"advect!", "normals", "watch"});
     }
     SECTION("without triangles there are no normals") {
         CHECK(passes(writeScene(scratch, std::string(vertices) + springs, drag, wind)) ==
-              Set{"restore", "advect!", "restore!"});
+              Set{"restore", "advect!", "restore!", "watch"});
     }
     SECTION("records run for what flies or may come to fly") {
         CHECK(passes(writeScene(scratch, whole, R"(, "held": false)", "")).contains("records"));

@@ -244,7 +244,7 @@ TEST_CASE("pictures and timings do not change the result", "[cli]") {
 
 TEST_CASE("each pass of a path is timed", "[cli]") {
     const std::map<std::string, std::set<std::string>> expected{
-        {"fused", {"fused"}}, {"ping-pong", {"advect", "collide", "normals", "records", "restore"}}};
+        {"fused", {"fused"}}, {"ping-pong", {"advect", "collide", "normals", "records", "restore", "watch"}}};
     for (const auto& [path, all] : expected) {
         const JsonValue timed = report({"--timings", "--path", path});
         std::set<std::string> passes;

@@ -1,5 +1,7 @@
 // The watchdog notices in the next frame what is not finite or too fast, says who, and leaves healthy runs
 // alone.
+#include <algorithm>
+#include <ctime>
 #include <limits>
 #include <optional>
 #include <string>
@@ -7,6 +9,7 @@
 
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
+#include "gpu/gl.h"
 #include "support/catch.h"
 
 using namespace shoal;
@@ -133,7 +136,7 @@ TEST_CASE("the message says who, when and what may help", "[watchdog]") {
     } catch (const Runaway& runaway) {
         message = runaway.what();
     }
-    for (const char* part : {"group \"many\", molecule 17, vertex 1", " s: ", "m/s", "--substeps", "--solver",
+    for (const char* part : {"group \"many\", molecule 17, vertex ", " s: ", "m/s", "--substeps", "--solver",
                              "field, drag", "stopped at frame "})
         CHECK_THAT(message, Catch::Contains(part));
 }
@@ -253,5 +256,45 @@ TEST_CASE("watching costs a few bytes of control a frame and none of state", "[w
         CHECK(traffic.total(Kind::parameters) == 0);
         CHECK(traffic.down(Kind::control) == 40);
         CHECK(traffic.up(Kind::control) == 0);
+    }
+}
+
+// Reports, and fails on nothing: shoal-gl "[watchdog-cost]". Processor time, because others may use the
+// machine.
+TEST_CASE("what watching costs", "[.watchdog-cost]") {
+    Scene scene = swarm(shippedMolecule("quad"), 131072, SolverKind::euler);
+    scene.groups[0].place.box = {{-20, 0.2, -20}, {20, 6, 20}};
+    scene.groups[0].place.scale = {1, 1};
+    scene.gravity = {0, -9.81, 0};
+    scene.groups[0].drag = {1, 1};
+    scene.fields = {test::field(UniformField{{2, 0, 0.5}})};
+    scene.colliders.resize(1);
+    scene.solver.substeps = 4;
+    const Plan plan = compile(scene);
+    for (const Way& way : ways()) {
+        if (way.options.lanes == Lanes::vertex) continue;
+        const int frames = way.options.path == Path::pingPong ? 1 : 20;
+        SimulationOptions options[2] = {way.options, way.options};
+        options[0].watchdog = false;
+        options[0].drawn = options[1].drawn = false;
+        Simulation without = make(plan, options[0]), with = make(plan, options[1]);
+        Simulation* const both[2] = {&without, &with};
+        std::vector<double> times[2];
+        for (int round = 0; round < 2 * 40; ++round) {
+            const size_t one = size_t(round + round / 2) % 2;
+            if (round % 8 == 0) without.restart(), with.restart();
+            glFinish();
+            const std::clock_t start = std::clock();
+            run(*both[one], frames);
+            glFinish();
+            times[one].push_back(double(std::clock() - start) / CLOCKS_PER_SEC / frames / 131072 * 1e9);
+        }
+        for (std::vector<double>& all : times)
+            std::sort(all.begin(), all.end());
+        const auto of = [&](size_t i) {
+            return concat(times[i].front(), " / ", times[i][times[i].size() / 2]);
+        };
+        WARN(way.name << ", ns of the processor a quad and frame, minimum / median: without " << of(0)
+                      << ", with " << of(1));
     }
 }

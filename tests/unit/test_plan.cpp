@@ -51,29 +51,29 @@ std::string passes(const Plan& plan) {
 
 TEST_CASE("a bare point is only advected", "[plan]") {
     const Plan plan = compile(sceneWith("point"));
-    CHECK(passes(plan) == "records|advect|");
+    CHECK(passes(plan) == "records|advect|watch");
     CHECK(plan.fieldSource.empty());
     CHECK(plan.collideSource.empty());
 }
 
 TEST_CASE("each need brings its pass and no other", "[plan]") {
     Scene scene = sceneWith("quad");
-    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals watch");
 
     scene.solver.kind = SolverKind::euler;
-    CHECK(passes(compile(scene)) == "records|restore advect|normals");
+    CHECK(passes(compile(scene)) == "records|restore advect|normals watch");
     scene.solver.kind = SolverKind::leapfrog;
 
     scene.colliders.push_back(collider(PlaneCollider{}));
-    CHECK(passes(compile(scene)) == "records restore|advect collide restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|advect collide restore|normals watch");
     scene.groups[0].collide = false;
-    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals watch");
     CHECK(compile(scene).collideSource.empty());
 
     scene.groups[0].drag = {4, 1};
-    CHECK(passes(compile(scene)) == "records restore|normals advect restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|normals advect restore|normals watch");
     scene.groups[0].drag = {2, 2};
-    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals watch");
 }
 
 TEST_CASE("fields are read only where there is drag", "[plan]") {
@@ -89,13 +89,13 @@ TEST_CASE("fields are read only where there is drag", "[plan]") {
 
 TEST_CASE("what hangs on pins for good keeps no records pass", "[plan]") {
     Scene scene = sceneWith("leaf");
-    CHECK(passes(compile(scene)) == "restore|advect restore|normals");
+    CHECK(passes(compile(scene)) == "restore|advect restore|normals watch");
     scene.groups[0].release = Release{0.1, std::nullopt, 0};
-    CHECK(passes(compile(scene)) == "records restore|advect restore|normals");
+    CHECK(passes(compile(scene)) == "records restore|advect restore|normals watch");
     scene.groups[0].release.reset();
     scene.groups[0].held = false;
     const Plan plan = compile(scene);
-    CHECK(passes(plan) == "records restore|advect restore|normals");
+    CHECK(passes(plan) == "records restore|advect restore|normals watch");
     CHECK_FALSE(plan.groups[0].needs.pins);
 }
 

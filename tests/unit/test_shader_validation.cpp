@@ -12,6 +12,7 @@
 #include "compile/generate.h"
 #include "gpu/shader_source.h"
 #include "simulate/fused_kernel.h"
+#include "simulate/watchdog.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
@@ -222,6 +223,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     }
     for (const Defines& set : combinations({"AHEAD", "SPRINGS"}))
         validator.addBoth("passes/normals.frag", set);
+    validator.addBoth("passes/watch.frag", {fastestDefine()});
     CHECK(validator.count() > 80);
     validator.check();
 }
@@ -285,6 +287,7 @@ TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
                     options.groupVote = (bits & 1) != 0;
                     options.software = (bits & 2) != 0;
                     options.normals = (bits & 4) != 0;
+                    options.watch = options.normals;
                     validator.addKernel(plan, options);
                     options.onlyNormals = options.normals;
                     validator.addKernel(plan, options);
