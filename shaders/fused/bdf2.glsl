@@ -6,22 +6,23 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, or when the substep has changed - z and w are such that
-// the step is exact for free flight in a fluid of that velocity, however heavy the drag. The springs are not in it:
-// stiff ones would be noise.
+// Where there is no history - at the start, after a contact, or when the substep has changed - a step is exact for free
+// flight in a fluid of that velocity, however heavy the drag, and takes the springs by backward Euler:
+//
+//   z = flight - h flown,  q = flight without springs,  eta = h
+//
+// where flown and flight are the velocity and the way after h. A molecule that lies in contact does so in every step.
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
 bool restart;
+float eta;  // s, of this step
 
 const float third = 1.0 / 3.0;
 
 void beginHistory()
 {
     restart = restarts != 0 || dx[0].x > 0.5 * NO_HISTORY;
-#ifdef DIRECTIONAL_DRAG
-    acrossLess = 1.0 - stagePhi.x / stagePhi.y;
-#endif
 }
 
 // For a contact: the step after it starts anew.
@@ -39,6 +40,11 @@ void endHistory()
 void predict(int step)
 {
     releasePins(step);
+    eta = restart ? substep : stageEta;
+    vec2 stepPhi = restart ? phi : stagePhi;
+#ifdef DIRECTIONAL_DRAG
+    acrossLess = 1.0 - stepPhi.x / stepPhi.y;
+#endif
     for (int i = 0; i < VERTICES; ++i) {
         vec3 ahead = restart ? v[i] * substep : dx[i] * third + (v[i] + dv[i] * third) * stageEta;
         probe[i] = x[i] + (isHeld(pinned[i]) ? vec3(0.0) : ahead);
@@ -50,22 +56,22 @@ void predict(int step)
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         vec3 flown = dragged(v[i], fluid[i], normal[i]);
-        vec3 before = restart ? flown - dragAcceleration(flown, fluid[i], normal[i]) * stageEta : v[i] + dv[i] * third;
-        vec3 known = restart ? flight(v[i], fluid[i], normal[i]) - flown * stageEta : dx[i] * third;
+        vec3 velocity = restart ? flown : stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]);
+        vec3 known = restart ? flight(v[i], fluid[i], normal[i]) - flown * substep : dx[i] * third;
         z[i] = held ? vec3(0.0) : known;
-        q[i] = held ? vec3(0.0) : known + stageDragged(before, fluid[i], normal[i]) * stageEta;
-        weight[i] = held ? 0.0 : inverseMass[i] * (stageEta * stagePhi.y);
+        q[i] = held ? vec3(0.0) : known + velocity * eta;
+        weight[i] = held ? 0.0 : inverseMass[i] * (eta * stepPhi.y);
     }
-    restart = false;
 }
 
 void accept()
 {
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 velocity = (q[i] - z[i]) / stageEta;
+        vec3 velocity = (q[i] - z[i]) / eta;
         dv[i] = velocity - v[i];
         dx[i] = q[i];
         v[i] = velocity;
         x[i] += q[i];
     }
+    restart = false;
 }

@@ -18,18 +18,9 @@ float lambda[SPRING_COUNT];  // N
 float acrossLess;  // 1 - (weight across the surface) / (weight along it)
 #endif
 
-// The step that an impulse along n makes on a vertex.
-vec3 weighted(float along, vec3 n, vec3 surfaceNormal)
-{
-#ifdef DIRECTIONAL_DRAG
-    return along * (n - surfaceNormal * (acrossLess * dot(surfaceNormal, n)));
-#else
-    return along * n;
-#endif
-}
-
 #define RELAXED(a, b) q[a], q[b], x[a] - x[b], z[a] - z[b], weight[a], weight[b], normal[a], normal[b]
 
+// One spring; n is d / |d|, and nothing moves where ends coincide.
 void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, float alongB, vec3 normalA,
            vec3 normalB, inout float pushed, float stiffness, float dampingRate, float restLength)
 {
@@ -37,14 +28,23 @@ void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, f
     vec3 d = apart + moved;
     float squared = dot(d, d);
     float inverse = 1.0 / sqrt(max(squared, 1e-24));
-    vec3 n = d * inverse;
-    vec3 stepA = weighted(alongA, n, normalA);
-    vec3 stepB = weighted(alongB, n, normalB);
-    float change = relaxation(squared * inverse - restLength, dot(n, moved - known), pushed, dot(n, stepA + stepB),
-                              stiffness, dampingRate);
+    float stretch = squared * inverse - restLength;
+    float parted = dot(d, moved - known) * inverse;
+#ifdef DIRECTIONAL_DRAG
+    float offA = dot(normalA, d) * inverse;
+    float offB = dot(normalB, d) * inverse;
+    float reach = alongA * (1.0 - acrossLess * offA * offA) + alongB * (1.0 - acrossLess * offB * offB);
+    float change = relaxation(stretch, parted, pushed, reach, stiffness, dampingRate);
+    vec3 impulse = d * (inverse * change);
+    qa += (impulse - normalA * (acrossLess * offA * change)) * alongA;
+    qb -= (impulse - normalB * (acrossLess * offB * change)) * alongB;
+#else
+    float change = relaxation(stretch, parted, pushed, alongA + alongB, stiffness, dampingRate);
+    vec3 impulse = d * (inverse * change);
+    qa += impulse * alongA;
+    qb -= impulse * alongB;
+#endif
     pushed += change;
-    qa += stepA * change;
-    qb -= stepB * change;
 }
 
 // Whether pins let go, from the springs' forces at the start of the frame.

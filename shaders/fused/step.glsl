@@ -35,8 +35,11 @@ void sampleFrame()
 {
 #if defined(FIELDS) && !defined(SAMPLE_SUBSTEPS)
     float middle = frameTime + 0.5 * frameDuration;
+#ifdef HISTORY
+    middle += 0.5 * substep;  // substeps ask for the field at their ends
+#endif
     for (int i = 0; i < VERTICES; ++i) {
-        probe[i] = x[i] + v[i] * (0.5 * frameDuration);
+        probe[i] = x[i] + v[i] * (middle - frameTime);
     }
 #ifdef SAMPLE_MOLECULE
     meet();

@@ -7,5 +7,6 @@
 
 float relaxation(float stretch, float parted, float lambda, float weight, float stiffness, float dampingRate)
 {
-    return -(stiffness * stretch + dampingRate * parted + lambda) / ((stiffness + dampingRate) * weight + 1.0f);
+    // a reciprocal, which does not depend on the step where drag has no direction: compilers take it out of the loop
+    return (stiffness * stretch + dampingRate * parted + lambda) * (-1.0f / ((stiffness + dampingRate) * weight + 1.0f));
 }

@@ -6,7 +6,7 @@
 // Every molecule of a type shares the factors of A: computed on the CPU in double (compile/corotated.h), the block Factors of
 // generated/factors.glsl. R turns the rest shape onto the predicted one (Mueller, Bender, Chentanez, Macklin 2016).
 // Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
-// step is not much smaller than the first, or once pins have let go, two sweeps solve the stage as in bdf2-xpbd.
+// step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps solve the stage as in bdf2-xpbd.
 
 mat3 turn;  // of the rest shape
 vec3 start[VERTICES];     // m, q without springs
@@ -68,7 +68,7 @@ float improve(float time)
     for (int i = 0; i < VERTICES; ++i) {
         force[i] = vec3(0.0);
     }
-    stageForces(time, 1.0 / stageEta);
+    stageForces(time, 1.0 / eta);
     for (int i = 0; i < VERTICES; ++i) {
         vec3 gone = q[i] - start[i];
 #ifdef DIRECTIONAL_DRAG
@@ -98,7 +98,7 @@ void advance(int step)
 {
     predict(step);
     float time = frameTime + float(step + 1) * substep;
-    bool sweeps = fit(step == 0 ? 8 : 3) || (released && SHARED_PINS);
+    bool sweeps = fit(step == 0 ? 8 : 3) || (released && SHARED_PINS) || restart;
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];
     }
@@ -113,8 +113,8 @@ void advance(int step)
         for (int i = 0; i < VERTICES; ++i) {
             q[i] = start[i];
         }
-        relaxForward(time, 1.0 / stageEta);
-        relaxBackward(time, 1.0 / stageEta);
+        relaxForward(time, 1.0 / eta);
+        relaxBackward(time, 1.0 / eta);
     }
     accept();
 }

@@ -11,8 +11,8 @@ void advance(int step)
     predict(step);
 #ifdef SPRINGS
     float time = frameTime + float(step + 1) * substep;
-    relaxForward(time, 1.0 / stageEta);
-    relaxBackward(time, 1.0 / stageEta);
+    relaxForward(time, 1.0 / eta);
+    relaxBackward(time, 1.0 / eta);
 #endif
     accept();
 }

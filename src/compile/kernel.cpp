@@ -78,8 +78,9 @@ std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward
     std::string out =
         concat("\nvoid relax", forward ? "Forward" : "Backward", "(float time, float inverseEta)\n{\n");
     const size_t count = molecule.springs.size();
+    const std::vector<size_t> order = sweepOrder(molecule);
     for (size_t i = 0; i < count; ++i) {
-        const size_t index = forward ? i : count - 1 - i;
+        const size_t index = order[forward ? i : count - 1 - i];
         const Spring& spring = molecule.springs[index];
         const std::string damping =
             spring.damping > 0 ? concat(glslLiteral(spring.damping), " * dampingFactor * inverseEta") : "0.0";
@@ -203,6 +204,21 @@ std::string packingText(const Molecule& molecule, const Needs& needs, bool histo
 }
 
 }  // namespace
+
+std::vector<size_t> sweepOrder(const Molecule& molecule) {
+    std::vector<size_t> out;
+    std::vector<bool> done(molecule.springs.size());
+    while (out.size() < done.size()) {
+        std::vector<bool> taken(molecule.vertices.size());
+        for (size_t s = 0; s < done.size(); ++s) {
+            const size_t a = size_t(molecule.springs[s].a), b = size_t(molecule.springs[s].b);
+            if (done[s] || taken[a] || taken[b]) continue;
+            taken[a] = taken[b] = done[s] = true;
+            out.push_back(s);
+        }
+    }
+    return out;
+}
 
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
     KernelText text;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "compile/needs.h"
 #include "molecule/molecule.h"
@@ -19,6 +20,10 @@ struct KernelText {
 };
 
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
+
+// The order of a sweep over the springs: in rounds whose springs share no vertex, so that a processor works
+// on several at once (a greedy colouring of the edges).
+std::vector<size_t> sweepOrder(const Molecule& molecule);
 
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {

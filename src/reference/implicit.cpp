@@ -4,6 +4,7 @@
 
 #include <Eigen/Dense>
 
+#include "compile/kernel.h"
 #include "reference/fields.h"
 
 namespace shoal::reference {
@@ -82,12 +83,12 @@ void relax(const Problem& problem, const State& state, Stage& stage, size_t inde
 }
 
 void sweep(const Problem& problem, const State& state, Stage& stage, bool back) {
-    const size_t count = problem.molecule->springs.size();
-    std::vector<double> pushed(count, 0);
-    for (size_t i = 0; i < count; ++i)
+    const std::vector<size_t> order = sweepOrder(*problem.molecule);
+    std::vector<double> pushed(order.size(), 0);
+    for (const size_t i : order)
         relax(problem, state, stage, i, pushed[i]);
-    for (size_t i = count; back && i-- > 0;)
-        relax(problem, state, stage, i, pushed[i]);
+    for (size_t i = order.size(); back && i-- > 0;)
+        relax(problem, state, stage, order[i], pushed[order[i]]);
 }
 
 Eigen::Vector3d toEigen(const glm::dvec3& v) {
@@ -215,44 +216,36 @@ void xpbdStep(const Problem& problem, State& state, double h) {
 
 void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated) {
     const size_t count = state.position.size();
-    const double eta = 2 * h / 3;
     const bool fresh = history.displacement.empty();
-    Vectors ahead(count);
+    const double eta = fresh ? h : 2 * h / 3;
+    Vectors ahead = state.position;
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 v = state.velocity[i];
-        ahead[i] = state.position[i];
         if (problem.pinned(i)) continue;
         ahead[i] +=
             fresh ? h * v : history.displacement[i] / 3.0 + eta * (v + history.velocityChange[i] / 3.0);
     }
     const Vectors u = fluidAt(problem, ahead, state.time + h), n = surfaceAt(problem, ahead);
     const Flight flight = flightOf(problem, h);
-    const Rates phi = ratesOf(problem.drag, [eta](double gamma) { return eta / (1 + gamma * eta); });
-    const Rates decay =
-        ratesOf(problem.drag, [eta](double gamma) { return gamma * eta / (1 + gamma * eta); });
+    const Rates phi =
+        fresh ? flight.phi : ratesOf(problem.drag, [eta](double gamma) { return eta / (1 + gamma * eta); });
+    const Rates decay{problem.drag.normal * phi.across, problem.drag.tangent * phi.along};
     Stage stage{eta, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
                 std::vector<glm::dmat3>(count, glm::dmat3(0))};
     for (size_t i = 0; i < count; ++i) {
         if (problem.pinned(i)) continue;
         const glm::dvec3 v = state.velocity[i];
-        glm::dvec3 w;
-        if (fresh) {
-            // exact for free flight: v' = flown, and q = the distance flown
-            const glm::dvec3 flown = relaxed(problem, v, u[i], n[i], flight.decay, flight.phi);
-            const auto pull = [&](const glm::dvec3& now) {
-                return problem.gravity +
-                       byDirection(n[i], {problem.drag.normal, problem.drag.tangent}) * (u[i] - now);
-            };
-            w = flown - eta * pull(flown);
-            stage.known[i] = h * v + byDirection(n[i], flight.bend) * pull(v) - eta * flown;
-        } else {
-            w = v + history.velocityChange[i] / 3.0;
-            stage.known[i] = history.displacement[i] / 3.0;
-        }
-        stage.moved[i] = stage.known[i] + eta * relaxed(problem, w, u[i], n[i], decay, phi);
+        const glm::dvec3 w = fresh ? v : v + history.velocityChange[i] / 3.0;
+        const glm::dvec3 velocity = relaxed(problem, w, u[i], n[i], decay, phi);
+        stage.known[i] = fresh ? h * v - eta * velocity : history.displacement[i] / 3.0;
+        if (fresh)
+            stage.known[i] += byDirection(n[i], flight.bend) *
+                              (problem.gravity +
+                               byDirection(n[i], {problem.drag.normal, problem.drag.tangent}) * (u[i] - v));
+        stage.moved[i] = stage.known[i] + eta * velocity;
         stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
     }
-    if (!corotated || !improve(problem, state, stage)) sweep(problem, state, stage, true);
+    if (fresh || !corotated || !improve(problem, state, stage)) sweep(problem, state, stage, true);
     history.displacement.resize(count);
     history.velocityChange.resize(count);
     for (size_t i = 0; i < count; ++i) {

@@ -12,7 +12,8 @@
 
 namespace shoal::reference {
 
-// q = h v after exact drag and gravity at x, t;  one sweep, in the springs' order;  v = q / h;  x += q.
+// q = h v after exact drag and gravity at x, t;  one sweep, in the order of compile/kernel.h;  v = q / h;  x
+// += q.
 void xpbdStep(const Problem& problem, State& state, double h);
 
 // The changes of the last step; empty: none.
@@ -20,9 +21,9 @@ struct History {
     Vectors displacement, velocityChange;
 };
 
-// BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history, z and w are such
-// that the step is exact for free flight in the fluid where the stage reads it. `corotated`: quasi-Newton
-// steps, guarded as the shader is; else two sweeps, there and back.
+// BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history: exact for free
+// flight in the fluid where the stage reads it, and the springs by backward Euler, eta = h. `corotated`:
+// quasi-Newton steps, guarded as the shader is; else two sweeps, there and back.
 void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated);
 
 }  // namespace shoal::reference
