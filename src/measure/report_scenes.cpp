@@ -128,6 +128,7 @@ Molecule moleculeOf(const std::string& name, double stiffness) {
 Scene sceneOf(const std::string& molecule, const std::string& motion, double stiffness, int count) {
     Scene scene;
     scene.name = concat(molecule, ", ", motion, ", k = 1e", std::lround(std::log10(stiffness)));
+    scene.frameRate = reportFrameRate;
     Group& group = scene.groups.emplace_back();
     group.name = molecule;
     group.molecule = moleculeOf(molecule, stiffness);
