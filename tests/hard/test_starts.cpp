@@ -127,6 +127,33 @@ TEST_CASE("hard: starts of a fish", "[hard][starts]") {
     judgeStarts("fish, w h 30", {fish, 30, 0.05});
 }
 
+// A molecule 10 times too large at rest has no angular momentum, and springs give it none: every force is
+// along a line between two vertices. In units of what it would be if all of the energy were rotation at arm's
+// length; 1e-5 is what 2400 roundings of 6e-8 leave at worst, some of them at a tenth of that size. The leaf
+// is the same from both sides.
+TEST_CASE("hard: angular momentum of a stretched molecule", "[hard][starts]") {
+    const auto turn = [](const Solver& solver, Judge& judge, const Molecule& molecule) {
+        Scene scene = test::sceneOf(molecule, solver.kind);
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::hardSimulation(scene);
+        test::startFrom(simulation, [](GroupState& start) { test::scaleMolecules(start, glm::dvec3(10)); });
+        const reference::Problem problem = test::problemOf(scene, 0);
+        const auto momentum = [&] {
+            return angularMomentum(problem, test::stateOf(simulation.snapshot(0), 0));
+        };
+        const double energy = reference::energy(problem, test::stateOf(simulation.snapshot(0), 0));
+        const double most =
+            10 * molecule.size() / 2 * std::sqrt(2 * energy * double(molecule.vertices.size()));
+        test::runChecked(simulation, 300);
+        judge.atMost("share", glm::length(momentum()) / most, 1e-5);
+        judge.report("strain", test::strainOf(molecule, test::stateOf(simulation.snapshot(0), 0)));
+    };
+    test::holds("angular momentum, stretched leaf",
+                [&](const Solver& s, Judge& judge) { turn(s, judge, test::leaf(5000, 3.5)); });
+    test::holds("angular momentum, stretched tetrahedron",
+                [&](const Solver& s, Judge& judge) { turn(s, judge, test::tetrahedron(5000, 3.5)); });
+}
+
 // Where ends coincide there is no direction, where a triangle has no area no normal: finite at every frame,
 // with unit normals (to float's rounding of a square root).
 TEST_CASE("hard: degenerate shapes", "[hard][starts]") {
