@@ -17,6 +17,7 @@ vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HIS
 vec3 dv[VERTICES];  // m/s, its change of velocity
 bool restart;
 float eta;  // s, of this step
+vec3 unsprung[VERTICES];  // m/s, the velocity without springs
 
 const float third = 1.0 / 3.0;
 
@@ -56,10 +57,10 @@ void predict(int step)
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         vec3 flown = dragged(v[i], fluid[i], normal[i]);
-        vec3 velocity = restart ? flown : stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]);
+        unsprung[i] = restart ? flown : stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]);
         vec3 known = restart ? flight(v[i], fluid[i], normal[i]) - flown * substep : dx[i] * third;
         z[i] = held ? vec3(0.0) : known;
-        q[i] = held ? vec3(0.0) : known + velocity * eta;
+        q[i] = held ? vec3(0.0) : known + unsprung[i] * eta;
         weight[i] = held ? 0.0 : inverseMass[i] * (eta * stepPhi.y);
     }
 }
@@ -67,7 +68,9 @@ void predict(int step)
 void accept()
 {
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 velocity = (q[i] - z[i]) / eta;
+        // from what the springs have moved: (q - z) / eta would round every velocity, the same way in every step
+        bool held = isHeld(pinned[i]);
+        vec3 velocity = held ? vec3(0.0) : unsprung[i] + (q[i] - (z[i] + unsprung[i] * eta)) / eta;
         dv[i] = velocity - v[i];
         dx[i] = q[i];
         v[i] = velocity;

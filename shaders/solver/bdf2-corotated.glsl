@@ -4,7 +4,8 @@
 //   A = beta M + sum (k + c/eta) n n^T over the springs at rest;   q += R A^-1 R^T (f(x + q, (q - z)/eta) - beta M (q - q0))
 //
 // Every molecule of a type shares the factors of A: computed on the CPU in double (compile/corotated.h), the block Factors of
-// generated/factors.glsl. R turns the rest shape onto the predicted one (Mueller, Bender, Chentanez, Macklin 2016).
+// generated/factors.glsl. R turns the rest shape onto the predicted one, and for the second step onto
+// what the first has made of it (Mueller, Bender, Chentanez, Macklin 2016).
 // Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
 // step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps solve the stage as in bdf2-xpbd.
 
@@ -106,9 +107,10 @@ void advance(int step)
     float second = 0.0;
     for (int n = 0; n < 2; ++n) {
         first = second;
+        if (n > 0) fit(2);
         second = improve(time);
     }
-    sweeps = sweeps || !(second < 0.1 * first || second < SETTLED * scale * scale);
+    sweeps = sweeps || !(second < 0.25 * first || second < SETTLED * scale * scale);
     if (sweeps) {
         for (int i = 0; i < VERTICES; ++i) {
             q[i] = start[i];

@@ -28,8 +28,8 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
     follow(parameters.stiffness, stiffness);
     follow(parameters.damping, damping);
     // explicit solvers stay within their limit: stiffer springs take more substeps
-    parameters.substeps =
-        substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping, substeps);
+    parameters.substeps = substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping,
+                                         parameters.drag, substeps);
 }
 
 Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)

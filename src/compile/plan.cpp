@@ -199,12 +199,15 @@ Plan compile(const Scene& scene) {
 }
 
 int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor,
-                   int substeps) {
+                   double dragFactor, int substeps) {
     // Frequencies grow as sqrt(stiffness); the damped limit shrinks no faster than either factor does alone.
     const double factor = std::max({1.0, std::sqrt(stiffnessFactor), dampingFactor});
     double needed = substeps;
-    for (const GroupPlan& group : plan.groups)
+    for (const GroupPlan& group : plan.groups) {
+        const double drag = std::max(group.drag.normal, group.drag.tangent) * dragFactor;
+        needed = std::max(needed, std::ceil(frameTime * drag / solver(group.solver).mostDragged));
         if (group.needs.springs) needed = std::max(needed, std::ceil(frameTime * factor / group.stableStep));
+    }
     return int(std::min(needed, 1e6));
 }
 

@@ -104,9 +104,9 @@ struct Plan {
 // explicit solver holds stable (located at the solver, else at the group), and how many substeps would do.
 Plan compile(const Scene& scene);
 
-// How many substeps of a frame the solver needs when stiffness and damping are scaled by these factors; at
-// least `substeps`.
+// How many substeps of a frame the solvers need when stiffness, damping and drag are scaled by these factors;
+// at least `substeps`.
 int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, double dampingFactor,
-                   int substeps);
+                   double dragFactor, int substeps);
 
 }  // namespace shoal

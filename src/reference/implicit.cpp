@@ -157,13 +157,13 @@ Eigen::MatrixXd restMatrix(const Problem& problem, const Stage& stage) {
 
 // Whether two quasi-Newton steps have solved the stage.
 bool improve(const Problem& problem, const State& state, Stage& stage) {
-    const Fit rotation = fit(problem, state, stage);
-    if (rotation.furthest > 0.03) return false;
+    if (fit(problem, state, stage).furthest > 0.03) return false;
     const Eigen::LDLT<Eigen::MatrixXd> matrix(restMatrix(problem, stage));
     const Vectors start = stage.moved;
     const size_t count = start.size();
     double before = 0, now = 0;
     for (int step = 0; step < 2; ++step) {
+        const Fit rotation = fit(problem, state, stage);
         Vectors position(count), velocity(count);
         for (size_t i = 0; i < count; ++i) {
             position[i] = state.position[i] + stage.moved[i];
@@ -188,7 +188,7 @@ bool improve(const Problem& problem, const State& state, Stage& stage) {
         }
     }
     const double size = problem.scale * problem.molecule->size();
-    if (now < 0.1 * before || now < 1e-12 * size * size) return true;
+    if (now < 0.25 * before || now < 1e-12 * size * size) return true;
     stage.moved = start;
     return false;
 }

@@ -161,7 +161,8 @@ Parameters parametersNow(const Head& head, const Plan& plan) {
     out.substeps = follow(stood.substeps, was.substeps, is.substeps);
     // as the sliders do: the step stays stable
     if (out.stiffness != 1 || out.damping != 1)
-        out.substeps = substepsNeeded(plan, out.frameTime, out.stiffness, out.damping, out.substeps);
+        out.substeps =
+            substepsNeeded(plan, out.frameTime, out.stiffness, out.damping, out.drag, out.substeps);
     return out;
 }
 

@@ -191,7 +191,7 @@ Scene swarm(const Molecule& molecule, int count, SolverKind solver, const glm::d
 
 void setStableSubsteps(Scene& scene) {
     scene.solver.substeps = maxSubsteps;
-    scene.solver.substeps = 1 + substepsNeeded(compile(scene), 1 / scene.frameRate, 1, 1, 3);
+    scene.solver.substeps = 1 + substepsNeeded(compile(scene), 1 / scene.frameRate, 1, 1, 1, 3);
 }
 
 std::vector<Field> everyField() {

@@ -100,7 +100,7 @@ TEST_CASE("a slider that was moved stays, what the scene says now goes before it
     CHECK(changed.frameTime == 1.0 / 120);
 
     saved.parameters.stiffness = 900;  // as the slider does, with substeps enough
-    saved.parameters.substeps = substepsNeeded(plan, 1 / plan.frameRate, 900, 1, plan.substeps);
+    saved.parameters.substeps = substepsNeeded(plan, 1 / plan.frameRate, 900, 1, 1, plan.substeps);
     REQUIRE(saved.parameters.substeps > plan.substeps);
     writeCheckpoint(file, plan, saved);
     CHECK(readCheckpoint(file, plan).parameters.substeps == saved.parameters.substeps);

@@ -192,8 +192,8 @@ TEST_CASE("a step beyond the solver's limit is refused with the substeps that wo
 
 TEST_CASE("sliders ask for the substeps that a stiffer or more damped molecule needs", "[plan]") {
     const Plan plan = compile(sceneWith("quad"));
-    CHECK(substepsNeeded(plan, 1.0 / 60, 1, 1, 4) == 4);
-    const int stiff = substepsNeeded(plan, 1.0 / 60, 100, 1, 4);
+    CHECK(substepsNeeded(plan, 1.0 / 60, 1, 1, 1, 4) == 4);
+    const int stiff = substepsNeeded(plan, 1.0 / 60, 100, 1, 1, 4);
     CHECK(stiff > 4);
     CHECK(1.0 / 60 / stiff * 10 <= plan.groups[0].stableStep);
 }

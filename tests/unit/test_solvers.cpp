@@ -13,7 +13,6 @@
 
 namespace shoal {
 
-
 namespace {
 
 Scene sceneOf(Molecule molecule, std::optional<SolverKind> kind = {}) {
@@ -125,6 +124,11 @@ TEST_CASE("every explicit solver refuses a step beyond its limit and names what 
     REQUIRE_THAT(message, Catch::Contains("rk4 takes drag up to"));
     dragged.solver.substeps = std::stoi(message.substr(message.find("use at least ") + 13));
     CHECK_NOTHROW(compile(dragged));
+    // and so does a slider
+    const Plan plan = compile(dragged);
+    const int more = substepsNeeded(plan, 1 / plan.frameRate, 1, 1, 10, plan.substeps);
+    CHECK(more >= 9 * plan.substeps);
+    CHECK(10 * 2000 / plan.frameRate / more <= solver(SolverKind::rk4).mostDragged);
 }
 
 TEST_CASE("implicit solvers are refused where a molecule does not fit a lane, and off the fused path",
