@@ -34,6 +34,44 @@ TEST_CASE("a window shows the scene and the panel", "[.window]") {
     CHECK(brightness(image, 20, 14, 90, 10) < 160);
 }
 
+TEST_CASE("a window saves when it closes, and goes on from there", "[.window]") {
+    const Scratch scratch;
+    const std::string first = scratch.path("first.shoal"), second = scratch.path("second.shoal");
+    const auto window = [](const Words& more) {
+        Words words{"run", helloScene(), "--context", "window", "--size", "320x240", "--frames", "3"};
+        words.insert(words.end(), more.begin(), more.end());
+        const Outcome outcome = runShoal(words);
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        return outcome;
+    };
+    CHECK_THAT(window({"--save", first}).out, Catch::Contains("saved: " + first));
+    window({"--resume", first, "--save", second});
+    const auto hash = [](const Words& more) {
+        Words words{"run", helloScene(), "--headless", "--json"};
+        words.insert(words.end(), more.begin(), more.end());
+        return member(runShoal(words).json(), "hash").text;
+    };
+    CHECK(hash({"--frames", "2", "--resume", second}) == hash({"--frames", "8"}));
+}
+
+TEST_CASE("a run that blows up leaves the window open and says so", "[.window]") {
+    const Scratch scratch;
+    const std::string scene = scratch.write("storm.scene.json", R"({
+  "format": "shoal-scene-1",
+  "fields": [{"type": "uniform", "velocity": [1e15, 0, 0]}],
+  "groups": [{"molecule": ")" + sourceFile("molecules/point.json") + R"(", "count": 3, "drag": 1000,
+    "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]
+})");
+    const Outcome outcome =
+        runShoal({"run", scene, "--context", "window", "--size", "640x480", "--frames", "9"},
+                 {.folder = scratch.path("")});
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.err, Catch::Contains("shoal: warning: ") && Catch::Contains("stopped at frame 1"));
+    CHECK(outcome.messages().size() == 1);
+    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"storm.scene.json", "storm.watchdog.shoal"});
+}
+
 TEST_CASE("a scene that does not load opens no window", "[.window]") {
     refusal({"run", "missing.scene.json", "--context", "window"}, "no such file");
 }
