@@ -25,8 +25,11 @@ class Bar {
     AccuracyProgress progress() {
         AccuracyProgress out;
         out.estimate = [this](double seconds) {
-            std::cerr << "This takes at most about " << roughly(seconds) << ".\n";
+            std::cerr << "This takes about " << roughly(seconds) << ".\n";
             bar_ = std::make_unique<Progress>("per cent", 100);
+        };
+        out.stage = [this](const char* words) {
+            if (bar_) bar_->rename(concat(words, ", per cent"));
         };
         out.tell = [this](double share) { show(int(100 * share)); };
         return out;
@@ -96,6 +99,7 @@ CalibrationOptions calibrationOptions(const Options& options) {
     out.substeps = options.substeps;
     out.duration = options.duration;
     out.version = SHOAL_VERSION;
+    out.processor = processorName();
     out.folder = gpu::ProgramCache::defaultFolder();
     return out;
 }
@@ -129,9 +133,13 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
     report.cores = device.cores;
     report.context = device.context->info();
     report.target = options.error.value_or(1e-3);
-    choose(scene, options, device, report);
     AccuracyOptions wanted = accuracyOptions(options);
-    if (report.chosen) wanted.extra = {{report.chosen->method, {report.chosen->substeps, 1}}};
+    wanted.extra = [&] {
+        choose(scene, options, device, report);
+        std::vector<std::pair<Method, Step>> out;
+        if (report.chosen) out.push_back({report.chosen->method, {report.chosen->substeps, 1}});
+        return out;
+    };
     Bar bar;
     report.accuracy = measureAccuracy(scene, wanted, device, bar.progress());
     bar.end();

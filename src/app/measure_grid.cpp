@@ -4,7 +4,9 @@
 //   <folder>/<molecule>.png                          a row a motion, a column a stiffness
 //   <folder>/tables.md                               speed-ups, costs, what is chosen
 //
-// A scene whose file is there is not measured again, so that a run goes on where it was ended.
+// A scene whose file is there is not measured again, so that a run goes on where it was ended; unless it was
+// measured with something else than this run would (app/measure_read.h).
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -38,7 +40,9 @@ std::string fileOf(const Options& options, const ReportScene& scene) {
 AccuracyPanel panelOf(const ReportScene& scene, const ReportEntry& entry) {
     AccuracyPanel out;
     out.title = concat(scene.motion, ", k = 1e", std::lround(std::log10(scene.stiffness)),
-                       entry.accuracy.chaotic.empty() ? "" : ": chaotic, no error");
+                       !entry.accuracy.chaotic.empty()    ? ": chaotic, no error"
+                       : !entry.accuracy.tooStiff.empty() ? ": too stiff, no error"
+                                                          : "");
     out.points = entry.accuracy.points;
     for (const AccuracyPoint& point : out.points)
         if (entry.chosen && point.method == entry.chosen->method &&
@@ -53,12 +57,48 @@ void tellLeft(size_t index, size_t count, const ReportScene& scene, double secon
               << "; all that is left takes about " << roughly(secondsEach * double(count - index)) << "\n";
 }
 
-// Those that are asked for and have no file yet.
+// What `measureScene` would write of itself.
+MeasuredWith withWhat(const Options& options, const ReportScene& scene, const AccuracyDevice& device) {
+    const gpu::ContextInfo& info = device.context->info();
+    MeasuredWith out;
+    out.processor = processorName();
+    out.cores = device.cores;
+    out.renderer = info.renderer;
+    out.context = gpu::name(info.kind);
+    out.opengl = info.version;
+    if (options.path != Path::automatic) out.path = name(options.path);
+    out.scene = scene.scene.name;
+    out.frameRate = scene.scene.frameRate;
+    out.duration = std::max(1.0, std::round(scene.duration * out.frameRate)) / out.frameRate;
+    out.target = options.error.value_or(out.target);
+    for (const Group& group : scene.scene.groups) {
+        out.molecules.emplace_back(std::min(group.count, options.molecules),
+                                   std::min(group.count, AccuracyOptions().timedMolecules));
+        out.shapes.emplace_back(group.molecule.vertices.size(), group.molecule.springs.size());
+    }
+    for (const Solver& solver : solvers())
+        if (options.solvers.empty() ||
+            std::count(options.solvers.begin(), options.solvers.end(), solver.kind))
+            out.solvers.insert(solver.name);
+    for (const FieldSampling sampling : options.samplings)
+        out.samplings.insert(name(sampling));
+    return out;
+}
+
+bool isMissing(const Options& options, const ReportScene& scene, const AccuracyDevice& device) {
+    const std::optional<Measured> found = readMeasured(fileOf(options, scene));
+    if (!found) return true;
+    const std::string differs = difference(found->with, withWhat(options, scene, device));
+    if (!differs.empty()) std::cerr << scene.id << ": measured again, because " << differs << " differs\n";
+    return !differs.empty();
+}
+
+// Those that are asked for and have no file yet, or one of another measurement.
 void measureMissing(const Options& options, const std::vector<ReportScene>& all,
                     const AccuracyDevice& device) {
     std::vector<const ReportScene*> missing;
     for (const ReportScene& scene : all)
-        if (scene.id.find(options.only) != std::string::npos && !readMeasured(fileOf(options, scene)))
+        if (scene.id.find(options.only) != std::string::npos && isMissing(options, scene, device))
             missing.push_back(&scene);
     const Clock::time_point start = Clock::now();
     for (size_t i = 0; i < missing.size(); ++i) {
@@ -72,10 +112,21 @@ void measureMissing(const Options& options, const std::vector<ReportScene>& all,
     }
 }
 
-std::string headOf(const Options& options, const gpu::ContextInfo& info, int count) {
-    return concat("Machine: ", processorName(), ". Context: ", info.renderer, " (", gpu::name(info.kind),
-                  "), OpenGL ", info.version, ". ", count, " molecules timed, ", options.molecules,
-                  " measured.\n\n");
+// Of the files: with --only, others may have been measured elsewhere.
+std::string headOf(const std::vector<Measured>& there) {
+    std::vector<std::string> heads;
+    for (const Measured& one : there) {
+        const MeasuredWith& with = one.with;
+        const auto [measured, timed] = with.molecules.at(0);
+        const std::string head =
+            concat("Machine: ", with.processor, ". Context: ", with.renderer, " (", with.context,
+                   "), OpenGL ", with.opengl, ". ", timed, " molecules timed, ", measured, " measured.\n\n");
+        if (std::find(heads.begin(), heads.end(), head) == heads.end()) heads.push_back(head);
+    }
+    std::string out;
+    for (const std::string& head : heads)
+        out += head;
+    return out;
 }
 
 std::string tables(const std::vector<ReportEntry>& entries, double error) {
@@ -103,16 +154,37 @@ void drawAll(const Options& options, const std::vector<ReportScene>& all,
     }
 }
 
-std::vector<std::optional<ReportEntry>> readAll(const Options& options, const std::vector<ReportScene>& all) {
-    std::vector<std::optional<ReportEntry>> out;
+std::vector<std::optional<Measured>> readAll(const Options& options, const std::vector<ReportScene>& all) {
+    std::vector<std::optional<Measured>> out;
     for (const ReportScene& scene : all) {
-        std::optional<ReportEntry>& entry = out.emplace_back(readMeasured(fileOf(options, scene)));
-        if (!entry) continue;
-        entry->molecule = scene.molecule;
-        entry->motion = scene.motion;
-        entry->stiffness = scene.stiffness;
+        std::optional<Measured>& one = out.emplace_back(readMeasured(fileOf(options, scene)));
+        if (!one) continue;
+        one->entry.molecule = scene.molecule;
+        one->entry.motion = scene.motion;
+        one->entry.stiffness = scene.stiffness;
     }
     return out;
+}
+
+// The pictures and tables of what is there.
+void tellAll(const Options& options, const std::vector<ReportScene>& all) {
+    const std::vector<std::optional<Measured>> found = readAll(options, all);
+    std::vector<Measured> there;
+    std::vector<ReportEntry> entries;
+    std::vector<std::optional<ReportEntry>> places(found.size());
+    for (size_t i = 0; i < found.size(); ++i) {
+        if (!found[i]) continue;
+        there.push_back(*found[i]);
+        entries.push_back(found[i]->entry);
+        places[i] = found[i]->entry;
+    }
+    if (there.empty())
+        throw Error(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
+    const std::string text = headOf(there) + tables(entries, options.error.value_or(1e-3));
+    writeFile(fs::path(options.report) / "tables.md", text);
+    const MeasuredWith& first = there.front().with;
+    drawAll(options, all, places, first.processor + ", " + first.renderer);
+    std::cout << text;
 }
 
 }  // namespace
@@ -130,18 +202,7 @@ int measureReport(const Options& given) {
     const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
     const std::vector<ReportScene> all = reportScenes(count);
     measureMissing(options, all, accuracyDevice(options, context, cache));
-    const std::vector<std::optional<ReportEntry>> entries = readAll(options, all);
-    std::vector<ReportEntry> there;
-    for (const std::optional<ReportEntry>& entry : entries)
-        if (entry) there.push_back(*entry);
-    if (there.empty())
-        throw Error(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
-    const std::string machine = processorName() + ", " + context.info().renderer;
-    const std::string text =
-        headOf(options, context.info(), count) + tables(there, options.error.value_or(1e-3));
-    writeFile(fs::path(options.report) / "tables.md", text);
-    drawAll(options, all, entries, machine);
-    std::cout << text;
+    tellAll(options, all);
     return 0;
 }
 

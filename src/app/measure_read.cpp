@@ -1,5 +1,7 @@
 #include "app/measure_read.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/options.h"
@@ -46,6 +48,7 @@ ReportEntry entryOf(const JsonValue& value) {
     out.accuracy.scene = at(value, "scene").text;
     out.accuracy.seconds = at(value, "seconds").number;
     out.accuracy.chaotic = at(value, "chaotic").text;
+    if (const JsonValue* tooStiff = value.find("tooStiff")) out.accuracy.tooStiff = tooStiff->text;
     for (const JsonValue& point : at(value, "points").items)
         out.accuracy.points.push_back(pointOf(point));
     const JsonValue& chosen = at(value, "chosen");
@@ -58,15 +61,61 @@ ReportEntry entryOf(const JsonValue& value) {
     return out;
 }
 
+MeasuredWith withOf(const JsonValue& value) {
+    const JsonValue &machine = at(value, "machine"), &context = at(value, "context");
+    MeasuredWith out;
+    out.processor = at(machine, "processor").text;
+    out.cores = int(at(machine, "cores").number);
+    out.renderer = at(context, "renderer").text;
+    out.context = at(context, "kind").text;
+    out.opengl = at(context, "version").text;
+    out.path = at(value, "path").text;
+    out.scene = at(value, "scene").text;
+    out.frameRate = at(value, "frameRate").number;
+    out.duration = at(value, "duration").number;
+    out.target = at(value, "target").number;
+    for (const JsonValue& group : at(value, "groups").items) {
+        out.molecules.emplace_back(at(group, "measuredMolecules").number, at(group, "timedMolecules").number);
+        out.shapes.emplace_back(at(group, "vertices").number, at(group, "springs").number);
+    }
+    for (const JsonValue& point : at(value, "points").items) {
+        out.solvers.insert(at(point, "solver").text);
+        out.samplings.insert(at(point, "fieldSampling").text);
+    }
+    return out;
+}
+
+bool alike(double a, double b) {
+    return std::abs(a - b) <= 1e-6 * std::max(std::abs(a), std::abs(b));
+}
+
 }  // namespace
 
-std::optional<ReportEntry> readMeasured(const std::string& file) {
+std::string difference(const MeasuredWith& found, const MeasuredWith& wanted) {
+    const std::pair<const char*, bool> same[] = {
+        {"the processor", found.processor == wanted.processor && found.cores == wanted.cores},
+        {"the renderer", found.renderer == wanted.renderer && found.context == wanted.context &&
+                             found.opengl == wanted.opengl},
+        {"the path", wanted.path.empty() || found.path == wanted.path},
+        {"the scene", found.scene == wanted.scene && found.shapes == wanted.shapes &&
+                          alike(found.frameRate, wanted.frameRate)},
+        {"the duration", alike(found.duration, wanted.duration)},
+        {"the number of molecules", found.molecules == wanted.molecules},
+        {"the error wanted", alike(found.target, wanted.target)},
+        {"the solvers", found.solvers == wanted.solvers},
+        {"the field samplings", found.samplings == wanted.samplings}};
+    for (const auto& [what, is] : same)
+        if (!is) return what;
+    return {};
+}
+
+std::optional<Measured> readMeasured(const std::string& file) {
     std::error_code none;
     if (!std::filesystem::exists(file, none)) return std::nullopt;
     try {
         const JsonValue value = readJson(file);
         if (at(value, "version").text != SHOAL_VERSION) return std::nullopt;
-        return entryOf(value);
+        return Measured{entryOf(value), withOf(value)};
     } catch (const Error&) {
         return std::nullopt;
     }

@@ -44,7 +44,9 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         out << "  " << group.name << ": " << group.vertices << " vertices, " << group.springs
             << " springs, up to " << number("%.3g", group.highestFrequency) << " rad/s; error of "
             << group.measured << ", time of " << grouped(group.timed) << "\n";
-    if (!a.chaotic.empty())
+    if (!a.tooStiff.empty())
+        out << "too stiff, so that no errors are given: " << a.tooStiff << "\n";
+    else if (!a.chaotic.empty())
         out << "chaotic, so that no errors are given: " << a.chaotic << "\n";
     else
         out << "the reference is good to " << exponent(a.referenceError) << "\n";
@@ -278,7 +280,8 @@ JsonValue asJson(const MeasureReport& report) {
         .add("seconds", JsonValue::makeNumber(a.seconds))
         .add("groups", std::move(groups))
         .add("chaotic", a.chaotic.empty() ? JsonValue() : JsonValue::makeString(a.chaotic))
-        .add("referenceError", a.chaotic.empty() ? JsonValue::makeNumber(a.referenceError) : JsonValue())
+        .add("tooStiff", a.tooStiff.empty() ? JsonValue() : JsonValue::makeString(a.tooStiff))
+        .add("referenceError", a.hasErrors() ? JsonValue::makeNumber(a.referenceError) : JsonValue())
         .add("target", JsonValue::makeNumber(report.target))
         .add("chosen", report.chosen ? asJson(*report.chosen) : JsonValue());
     if (!report.chosen) out.add("notChosen", JsonValue::makeString(report.notChosen));

@@ -190,6 +190,14 @@ void checkMeasure(const Options& options) {
         throw Error(concat("--molecules: expected 1 to 1024, found ", options.molecules));
 }
 
+// The report's scenes have their own.
+void checkReport(const Options& options, const CLI::App& measure) {
+    if (options.report.empty()) return;
+    for (const char* own : {"--duration", "--seed"})
+        if (measure.count(own) > 0)
+            throw Error(concat("--report: its scenes have their own times and seeds: leave out ", own));
+}
+
 // All long option names of a command, for suggestions.
 std::vector<std::string> optionNames(CLI::App& command) {
     std::vector<std::string> names;
@@ -353,6 +361,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     parseSize(texts.size, options);
     checkRanges(options);
     checkMeasure(options);
+    checkReport(options, *measure);
     return options;
 }
 

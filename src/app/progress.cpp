@@ -30,6 +30,12 @@ void Progress::step() {
     }
 }
 
+void Progress::rename(std::string what) {
+    if (terminal_) what.resize(std::max(what.size(), what_.size()), ' ');  // over what is longer
+    what_ = std::move(what);
+    if (terminal_ && done_ > 0) print();
+}
+
 void Progress::print() {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     const double left = seconds / done_ * (total_ - done_);

@@ -11,6 +11,7 @@ class Progress {
     Progress(std::string what, int total);
     ~Progress();
     void step();
+    void rename(std::string what);  // the rest of the same whole is something else
 
   private:
     void print();

@@ -55,17 +55,24 @@ class Sweep {
         if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
             throw Error(concat("no method can run this scene: ", curves_.front().refused));
         describe();
-        expected_ = secondsOfErrors() + secondsOfTimes();
-        if (options_.seconds) expected_ = std::min(expected_, *options_.seconds);
-        progress_.estimate(expected_ + reference_->secondsToSolve());
-        if (!reference_->solve(firstTolerance)) out_.chaotic = reference_->why();
+        estimate();
+        stage("calibration", expectedOfExtra_);
+        std::vector<std::pair<Method, Step>> extras;
+        if (options_.extra) extras = options_.extra();
+        stage("reference", reference_->secondsToSolve());
+        solveReference();
         measuring_ = Clock::now();
+        stage("errors", 0);
         for (const Step& step : ladder_)
             for (Curve& curve : curves_)
                 level(curve, step);
-        for (const auto& [method, step] : options_.extra)
+        for (const auto& [method, step] : extras)
             extra(method, step);
+        stage("reference", 0);
+        const Clock::time_point tightening = Clock::now();
         tighten();
+        measuring_ += Clock::now() - tightening;
+        stage("times", 0);
         time();
         return finish();
     }
@@ -135,6 +142,27 @@ class Sweep {
         }
     }
 
+    void estimate() {
+        double sweep = secondsOfErrors() + secondsOfTimes();
+        if (options_.extra) expectedOfExtra_ = reference_->secondsToSolve(3) + 0.5 * secondsOfErrors();
+        if (options_.seconds) sweep = std::min(sweep, *options_.seconds);
+        expected_ = sweep + expectedOfExtra_ + reference_->secondsToSolve();
+        progress_.estimate(expected_);
+    }
+
+    // Ends the stage before, whatever it took, as what it was expected to take.
+    void stage(const char* words, double expected) {
+        tell(expectedOfStage_);
+        expectedOfStage_ = expected;
+        progress_.stage(words);
+    }
+
+    void solveReference() {
+        settled_ = reference_->solve(firstTolerance);
+        if (settled_ == Settled::chaotic) out_.chaotic = reference_->why();
+        if (settled_ == Settled::tooStiff) out_.tooStiff = reference_->why();
+    }
+
     double secondsOf(const Curve& curve, const Step& step) const {
         return curve.fewCost.of(step) * frames_ * step.split;
     }
@@ -171,7 +199,7 @@ class Sweep {
     void level(Curve& curve, const Step& step) {
         if (curve.done) return;
         // beyond the most substeps of a frame only who needs them
-        if (step.split > 1 && (curve.best <= options_.enough || !out_.chaotic.empty())) {
+        if (step.split > 1 && (curve.best <= options_.enough || !out_.hasErrors())) {
             curve.done = true;
             return;
         }
@@ -191,7 +219,7 @@ class Sweep {
     void measure(Curve& curve, const Step& step) {
         AccuracyPoint& point = add(curve, step);
         curve.few->set(step);
-        if (!out_.chaotic.empty()) {
+        if (!out_.hasErrors()) {
             point.outcome = Outcome::measured;
             return;
         }
@@ -229,11 +257,14 @@ class Sweep {
 
     // The reference must be much nearer than the nearest method.
     void tighten() {
-        if (!out_.chaotic.empty()) return;
+        if (!out_.hasErrors()) return;
         double smallest = 1e30;
         for (const Curve& curve : curves_)
             smallest = std::min(smallest, curve.best);
-        if (!reference_->solve(shareOfError * smallest))
+        // what ran out of time once would do so again
+        const bool near = reference_->error() <= shareOfError * smallest;
+        if (!near && settled_ == Settled::yes) settled_ = reference_->solve(shareOfError * smallest);
+        if (!near && settled_ != Settled::yes)
             out_.notes.push_back(concat("errors below ", reference_->error() / shareOfError,
                                         " are uncertain: ", reference_->why()));
         out_.referenceError = reference_->error();
@@ -311,7 +342,9 @@ class Sweep {
     std::vector<Curve> curves_;
     std::unique_ptr<ExactEnds> reference_;
     AccuracyReport out_;
+    Settled settled_ = Settled::yes;                      // the reference
     double expected_ = 0, done_ = 0;                      // s
+    double expectedOfExtra_ = 0, expectedOfStage_ = 0;    // s
     Clock::time_point start_ = Clock::now(), measuring_;  // measuring_: programs and reference are there
 };
 

@@ -32,7 +32,7 @@ struct AccuracyPoint {
     double stepsPerSecond = 0;  // of simulated time
     Outcome outcome = Outcome::leftOut;
     std::string why;                  // of a refusal, or what was left out
-    std::optional<ErrorParts> error;  // nothing in a chaotic scene
+    std::optional<ErrorParts> error;  // nothing in a scene that is chaotic or too stiff for a reference
     std::optional<Drift> drift;
     Spread time;            // s per vertex and simulated second; no samples: not timed
     size_t stateBytes = 0;  // on the device, of all timed molecules
@@ -46,13 +46,14 @@ struct AccuracyOptions {
     bool fine = false;                          // steps by sqrt 2 instead of 2
     std::vector<SolverKind> solvers = {};       // empty: all
     std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
-    std::optional<double> seconds = {};         // of measuring, about, beside compiling and the
-                                                // reference; nothing: as long as it takes
+    std::optional<double> seconds = {};         // of errors and times, about, beside compiling, `extra` and
+                                                // the reference; nothing: as long as it takes
     // Frames are made shorter than the scene's, down to this share, while a method's smallest error is above
     // `enough` at the most substeps that a frame may have.
     int mostSplits = 16;
     double enough = 1e-3;
-    std::vector<std::pair<Method, Step>> extra = {};  // beside the ladder, such as what a calibration chose
+    // Asked for after the estimate: points beside the ladder, such as what a calibration chooses.
+    std::function<std::vector<std::pair<Method, Step>>()> extra = {};
 };
 
 // What was measured of a group.
@@ -71,15 +72,19 @@ struct AccuracyReport {
     Path path = Path::fused;
     std::vector<AccuracyGroup> groups;
     std::vector<AccuracyPoint> points;  // curve by curve, by growing steps per second
-    std::string chaotic;                // why there are no errors; empty: there are
+    std::string chaotic, tooStiff;      // why there are no errors; both empty: there are
     double referenceError = 0;          // relative, a bound
     std::vector<std::string> notes;     // for people
     double seconds = 0;                 // that the measurement took
+
+    bool hasErrors() const { return chaotic.empty() && tooStiff.empty(); }
 };
 
 struct AccuracyProgress {
-    std::function<void(double seconds)> estimate = [](double) {};  // once, before the long part
-    std::function<void(double share)> tell = [](double) {};        // of the whole that is done
+    // Once, before the long part: of all that follows.
+    std::function<void(double seconds)> estimate = [](double) {};
+    std::function<void(const char* words)> stage = [](const char*) {};  // "reference", ...
+    std::function<void(double share)> tell = [](double) {};             // of the whole that is done
 };
 
 // Error: the scene has no groups; nothing of what is asked for can run it.

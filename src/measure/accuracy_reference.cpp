@@ -4,6 +4,8 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
+#include <exception>
+#include <mutex>
 #include <thread>
 
 namespace shoal::measure {
@@ -35,38 +37,37 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     return out;
 }
 
-// The first number of steps that reference::solve tries.
-double firstSteps(const reference::Problem& problem, double duration) {
-    return std::max(8.0, std::ceil(2 * duration * reference::fastestRate(problem)));
-}
-
 double measureStep(const reference::Problem& problem, const reference::State& start, double duration) {
-    const double h = duration / firstSteps(problem, duration);
+    const double h = duration / double(reference::firstSteps(problem, duration));
     constexpr int64_t steps = 16;
     const Clock::time_point begin = Clock::now();
     reference::integrate(problem, start, h * steps, steps);
     return std::chrono::duration<double>(Clock::now() - begin).count() / steps;
 }
 
-// How often the step may be halved within a time.
-int halvings(double seconds, double secondsOfFirst) {
-    return std::clamp(int(std::log2(std::max(1.0, seconds / std::max(secondsOfFirst, 1e-9)))), 3, 12);
-}
-
-// Work for each index below `count`, on so many threads.
+// Work for each index below `count`, on so many threads. The first exception of a worker is the caller's.
 template <typename Work>
 void inParallel(int count, int threads, const Work& work) {
     std::atomic<int> next = 0;
+    std::mutex mutex;
+    std::exception_ptr failed;
     const auto some = [&] {
-        for (int i = next++; i < count; i = next++)
-            work(i);
+        try {
+            for (int i = next++; i < count; i = next++)
+                work(i);
+        } catch (...) {
+            next = count;
+            const std::lock_guard lock(mutex);
+            if (!failed) failed = std::current_exception();
+        }
     };
-    std::vector<std::thread> all;
-    for (int i = 1; i < std::min(threads, count); ++i)
-        all.emplace_back(some);
-    some();
-    for (std::thread& thread : all)
-        thread.join();
+    {
+        std::vector<std::jthread> all;
+        for (int i = 1; i < std::min(threads, count); ++i)
+            all.emplace_back(some);
+        some();
+    }
+    if (failed) std::rethrow_exception(failed);
 }
 
 double totalMass(const Molecule& molecule) {
@@ -114,37 +115,79 @@ ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Sna
             secondsPerStep_ = std::max(secondsPerStep_, measureStep(one.problem, one.start, duration_));
 }
 
-double ExactEnds::secondsToSolve() const {
-    double steps = 0;
+double ExactEnds::secondsToSolve(double secondsAMolecule) const {
+    constexpr double runs = 31;  // halved four times, as many molecules are
+    double out = 0;
     for (const One& one : molecules_)
-        steps += firstSteps(one.problem, duration_);
-    return steps * 7 * secondsPerStep_ / cores_;  // halved twice
+        out += std::min(secondsAMolecule,
+                        runs * double(reference::firstSteps(one.problem, duration_)) * secondsPerStep_);
+    return out / std::min(cores_, std::max(1, molecules()));
 }
 
-bool ExactEnds::solve(double tolerance, double secondsAMolecule) {
-    tolerance = std::max(tolerance, floor);
-    if (tolerance >= tolerance_) return true;
-    std::vector<reference::Solution> solutions(molecules_.size());
-    inParallel(int(molecules_.size()), cores_, [&](int i) {
-        const One& one = molecules_[size_t(i)];
-        const int most = halvings(secondsAMolecule, firstSteps(one.problem, duration_) * secondsPerStep_);
-        solutions[size_t(i)] = reference::solve(one.problem, one.start, duration_, tolerance, most);
-    });
-    for (size_t i = 0; i < solutions.size(); ++i) {
-        if (solutions[i].converged) continue;
-        const One& one = molecules_[i];
-        why_ = concat("the reference of molecule ", one.index, " of \"", names_[one.group],
-                      "\" still changes by ", solutions[i].error, " of its size when its step is halved to ",
-                      solutions[i].step, " s");
-        return false;
-    }
-    error_ = 0;
-    for (size_t i = 0; i < solutions.size(); ++i) {
-        error_ = std::max(error_, solutions[i].error);
-        molecules_[i].end = std::move(solutions[i].state);
-    }
-    tolerance_ = tolerance;
+std::string ExactEnds::nameOf(const One& one) const {
+    return concat("molecule ", one.index, " of \"", names_[one.group], "\"");
+}
+
+// Told beforehand, with a margin for what the estimate is worth; what it lets pass, the clock ends.
+bool ExactEnds::tooStiff(const One& one, double seconds) {
+    const double steps = double(reference::firstSteps(one.problem, duration_));
+    if (3 * steps * secondsPerStep_ < 2 * seconds) return false;
+    why_ = concat(nameOf(one), " takes ", steps, " steps and more over ", duration_,
+                  " s, which is too stiff for a reference in ", seconds, " s");
     return true;
+}
+
+Settled ExactEnds::judge(const One& one, const reference::Solution& solution, double seconds) {
+    using reference::Ended;
+    if (solution.converged) return Settled::yes;
+    if (solution.ended == Ended::outOfTime && !std::isfinite(solution.error)) {
+        why_ = concat(nameOf(one), " is too stiff for a reference in ", seconds, " s");
+        return Settled::tooStiff;
+    }
+    why_ = concat("the reference of ", nameOf(one), " still changes by ", solution.error,
+                  " of its size when its step is halved to ", solution.step, " s");
+    const bool ranOut = solution.ended == Ended::outOfTime || solution.ended == Ended::outOfHalvings;
+    if (solution.ended == Ended::outOfTime) why_ += concat(", which is as far as ", seconds, " s go");
+    return ranOut && solution.error <= mostChange ? Settled::roughly : Settled::chaotic;
+}
+
+void ExactEnds::keep(std::vector<reference::Solution>& solutions) {
+    double error = 0;
+    for (const reference::Solution& solution : solutions)
+        error = std::max(error, solution.error);
+    if (error >= error_) return;
+    error_ = error;
+    for (size_t i = 0; i < solutions.size(); ++i)
+        molecules_[i].end = std::move(solutions[i].state);
+}
+
+Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
+    tolerance = std::max(tolerance, floor);
+    if (tolerance >= tolerance_) return Settled::yes;
+    for (const One& one : molecules_)
+        if (tooStiff(one, secondsAMolecule)) return Settled::tooStiff;
+    std::vector<reference::Solution> solutions(molecules_.size());
+    std::atomic<bool> hopeless = false;  // one that is too stiff or chaotic is enough
+    constexpr int halvings = 12;
+    inParallel(int(molecules_.size()), cores_, [&](int i) {
+        if (hopeless) return;
+        const One& one = molecules_[size_t(i)];
+        reference::Solution& solution = solutions[size_t(i)];
+        solution = reference::solve(one.problem, one.start, duration_, tolerance, halvings, secondsAMolecule);
+        if (!solution.converged && !(solution.error <= mostChange)) hopeless = true;
+    });
+    Settled worst = Settled::yes;
+    std::string why;
+    for (size_t i = 0; i < solutions.size(); ++i) {
+        const Settled one = judge(molecules_[i], solutions[i], secondsAMolecule);
+        if (one <= worst) continue;
+        worst = one;
+        why = why_;
+    }
+    why_ = why;
+    if (worst == Settled::yes) tolerance_ = tolerance;
+    if (worst <= Settled::roughly) keep(solutions);
+    return worst;
 }
 
 bool ExactEnds::finite(const std::vector<Snapshot>& ends) {

@@ -29,9 +29,18 @@ struct Drift {
     double energy = 0, momentum = 0, angularMomentum = 0;
 };
 
+enum class Settled {
+    yes,
+    roughly,   // time ran out, or halvings, with a small change left: error() is above the tolerance
+    chaotic,   // halving the step stalls, or leaves a change of some per cent
+    tooStiff,  // not even one halving is done in time
+};
+
 class ExactEnds {
   public:
-    static constexpr double floor = 1e-7;  // no tolerance is tighter
+    static constexpr double floor = 1e-7;       // no tolerance is tighter
+    static constexpr double mostChange = 0.03;  // that is uncertain only
+    static constexpr double usualSeconds = 10;  // of a molecule
 
     // `starts`: a snapshot of each group of the plan before its first frame. Borrows the scene. At most so
     // many molecules of each group, the first ones.
@@ -40,13 +49,14 @@ class ExactEnds {
     ExactEnds(const ExactEnds&) = delete;
     ExactEnds& operator=(const ExactEnds&) = delete;
 
-    // Estimated, with all cores.
-    double secondsToSolve() const;
-    // Solves all molecules to a tolerance, each in at most so many seconds, unless that has been done. False:
-    // halving the step does not settle one of them; what was there before stays, and why() says which.
-    bool solve(double tolerance, double secondsAMolecule = 10);
+    // Estimated, with all cores, each molecule in at most so many seconds.
+    double secondsToSolve(double secondsAMolecule = usualSeconds) const;
+    // Solves all molecules to a tolerance, each in at most so many seconds, unless that has been done. Of
+    // molecules that differ, the worst counts, and why() says which. Chaotic or too stiff: what was there
+    // before stays; roughly: the nearer of both.
+    Settled solve(double tolerance, double secondsAMolecule = usualSeconds);
     const std::string& why() const { return why_; }
-    double error() const { return error_; }  // of the last solution that settled: a bound
+    double error() const { return error_; }  // of what is there: a bound
 
     static bool finite(const std::vector<Snapshot>& ends);
     ErrorParts errorOf(const std::vector<Snapshot>& ends) const;
@@ -62,6 +72,10 @@ class ExactEnds {
         reference::State start, end;
     };
     Drift driftOf(const One& one, const reference::State& end) const;
+    bool tooStiff(const One& one, double seconds);
+    Settled judge(const One& one, const reference::Solution& solution, double seconds);
+    void keep(std::vector<reference::Solution>& solutions);
+    std::string nameOf(const One& one) const;
 
     std::vector<One> molecules_;
     double duration_;

@@ -62,6 +62,7 @@ std::string notReached(const std::vector<AccuracyPoint>& points, std::optional<S
 // "leapfrog 58×": ≥ where the cheaper one could take larger steps than a frame has, ≤ where euler could.
 std::string speedUp(const ReportEntry& entry, double error) {
     if (!entry.accuracy.chaotic.empty()) return "chaotic";
+    if (!entry.accuracy.tooStiff.empty()) return "too stiff";
     const std::vector<AccuracyPoint>& points = entry.accuracy.points;
     const std::optional<BestOf> best = cheapest(points, error);
     if (!best) return notReached(points, {});
@@ -125,7 +126,7 @@ std::string costTable(const std::vector<ReportEntry>& entries, double error) {
         names.emplace_back(solver.name);
     std::string out = head(names);
     for (const ReportEntry& entry : entries) {
-        if (!entry.accuracy.chaotic.empty()) continue;
+        if (!entry.accuracy.hasErrors()) continue;
         std::vector<std::string> cells = {
             concat(entry.motion, ", ", entry.molecule, ", ", power(entry.stiffness))};
         for (const Solver& solver : solvers()) {

@@ -12,7 +12,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double slowFrameSeconds = 0.1;  // above: single frames, none before them
+constexpr double slowFrameSeconds = 0.1;  // above: single frames are timed
 constexpr double sampleSeconds = 0.002;   // shorter samples are mostly noise
 constexpr int leastSamples = 3, mostSamples = 15;
 constexpr double usualSeconds = 30;  // of all samples, where nothing bounds them
@@ -24,9 +24,12 @@ int framesOfSample(const Contender& one) {
 
 double sample(const Contender& one) {
     MethodRunner& runner = *one.runner;
+    // a step that is new to the runner may have programs built again in its first frame
     runner.set(one.step);
     runner.restart();
-    if (one.secondsOfFrame <= slowFrameSeconds) runner.frame();
+    runner.frame();
+    runner.finish();
+    runner.restart();
     runner.finish();
     const int frames = framesOfSample(one);
     const Clock::time_point start = Clock::now();
@@ -57,8 +60,7 @@ std::vector<bool> thoseThatFit(const std::vector<Contender>& contenders, std::op
 }  // namespace
 
 double secondsOfVisit(const Contender& one) {
-    const int warm = one.secondsOfFrame > slowFrameSeconds ? 0 : 1;
-    return one.secondsOfFrame * (framesOfSample(one) + warm) + 1e-3;
+    return one.secondsOfFrame * (framesOfSample(one) + 1) + 1e-3;
 }
 
 double leastSeconds(const std::vector<Contender>& contenders) {

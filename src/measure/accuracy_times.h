@@ -17,8 +17,9 @@ struct Contender {
     double secondsOfFrame = 0;  // about
 };
 
-// Seconds that one visit of a contender takes: back to the start, a frame that is not timed where frames are
-// short, then a few that are, between two waits.
+// Seconds that one visit of a contender takes: its step is set and one frame from the start is run and waited
+// for, untimed, because it may build programs; back to the start, and a wait; then its first 2 to 32 frames
+// are timed, between two waits, or the first one alone where frames are long.
 double secondsOfVisit(const Contender& one);
 
 // What the least number of samples of all will take.

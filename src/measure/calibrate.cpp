@@ -103,7 +103,7 @@ class Search {
         return {1, 2, 4, 8, 16, 32, 64, 128, 256, 512, maxSubsteps};
     }
 
-    // Where the motion is chaotic over the whole time, over a shorter one.
+    // Where the motion is chaotic or too stiff over the whole time, over a shorter one.
     void solveReference(MethodRunner& runner) {
         runner.restart();
         const std::vector<Snapshot> starts = runner.snapshots();
@@ -111,12 +111,22 @@ class Search {
             reference_ =
                 std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
                                             frames_ / few_.frameRate, device_.cores, options_.molecules);
-            if (reference_->solve(0.01 * options_.error, secondsAMolecule)) return;
-            if (frames_ == least)
-                throw Error(Location{few_.file, 0, 0, {}},
-                            concat("--error: the motion is chaotic, so that no error can be given: ",
-                                   reference_->why()));
+            const Settled settled = reference_->solve(0.01 * options_.error, secondsAMolecule);
+            if (settled == Settled::yes) return;
+            if (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error) return;
+            if (frames_ == least) throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
         }
+    }
+
+    std::string noReference(Settled settled) const {
+        const std::string& why = reference_->why();
+        if (settled == Settled::tooStiff)
+            return concat("--error: the scene is too stiff for a reference in ", secondsAMolecule,
+                          " s, so that no error can be given: ", why);
+        if (settled == Settled::roughly)
+            return concat("--error: no reference is near enough to tell an error of ", options_.error, ": ",
+                          why);
+        return concat("--error: the motion is chaotic, so that no error can be given: ", why);
     }
 
     // Cheapest substeps first, so that the dear ones meet a good bound.
@@ -248,7 +258,7 @@ class Search {
                              : "the only one that gets there, or the first that nothing else can beat";
         out.duration = frames_ / few_.frameRate;
         if (out.duration < 0.9 * options_.duration)
-            out.why += concat("; over ", out.duration, " s only, after which the motion is chaotic");
+            out.why += concat("; over ", out.duration, " s only: over more there is no reference");
         device_.context->checkErrors("calibrate");
         return out;
     }

@@ -3,7 +3,8 @@
 // each bisected to the fewest substeps that do, and given up where it cannot beat the best any more.
 //
 // What was found is kept as a file under a hash of everything that it hangs on: the scene as compiled (with
-// its molecules), the error, what the search was narrowed to, the shaders, the driver, the version.
+// its molecules), the error, what the search was narrowed to, the shaders, the kernels, the driver, the
+// processor, the version.
 #pragma once
 
 #include <optional>
@@ -20,9 +21,10 @@ struct CalibrationOptions {
     std::vector<SolverKind> solvers = {};
     std::vector<FieldSampling> samplings = {};
     std::optional<int> substeps = {};
-    double duration = 1;      // s of simulated time; less where the motion is chaotic by then, to an eighth
+    double duration = 1;      // s of simulated time; less where there is no reference then, to an eighth
     int molecules = 4;        // of each group
     std::string version;      // of the program
+    std::string processor;    // its name: renderers that draw in software go by one name on all
     std::string folder = {};  // where results are kept; empty: nowhere
 };
 
@@ -49,7 +51,7 @@ struct Calibration {
     double seconds = 0;  // that the search took
 };
 
-// Error: no method gets there: which is best, with which step, how near; or the scene is chaotic.
+// Error: no method gets there: which is best, with which step, how near; or there is no reference.
 Calibration calibrate(const Scene& scene, const CalibrationOptions& options, const AccuracyDevice& device);
 
 // The scene with what was found.

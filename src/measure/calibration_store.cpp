@@ -53,6 +53,9 @@ void addGroup(Hash& hash, const GroupPlan& group) {
     hash.add(group.start.anchors);
     hash.add(group.constants.scales);
     hash.add(group.constants.phases);
+    for (const std::string* text :
+         {&group.kernel.molecule, &group.kernel.forces, &group.kernel.sweeps, &group.kernel.packing})
+        hash.add(*text);
 }
 
 // The shaders that a kernel is made of.
@@ -139,6 +142,7 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
     hash.add(options.solvers);
     hash.add(options.samplings);
     hash.add(options.version);
+    hash.add(options.processor);
     addDevice(hash, device);
     addShaders(hash, device.shaderRoot);
     return hash.digits();

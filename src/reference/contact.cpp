@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "reference/held.h"
+#include "reference/path.h"
 #include "reference/runge_kutta.h"
 
 namespace shoal::reference {
@@ -47,19 +48,6 @@ struct Event {
     }
 };
 
-// The cubic through both ends of a step with their velocities.
-struct Path {
-    glm::dvec3 x0, v0, x1, v1;  // v in m per step
-    glm::dvec3 at(double s) const {
-        const double r = 1 - s;
-        return x0 * (r * r * (1 + 2 * s)) + x1 * (s * s * (1 + 2 * r)) + v0 * (s * r * r) - v1 * (s * s * r);
-    }
-    double length() const { return glm::length(x1 - x0); }
-    double bend() const {
-        return (glm::length(v0) + glm::length(v1)) * (4 / 27.0);
-    }  // at most, off the chord
-};
-
 class ContactIntegrator {
   public:
     ContactIntegrator(const Problem& problem, const State& start)
@@ -76,9 +64,10 @@ class ContactIntegrator {
         classify({});
     }
 
-    ContactRun run(double duration, int64_t steps) {
+    ContactRun run(double duration, int64_t steps, const Deadline& deadline) {
         const double begin = state_.time, h = duration / double(steps);
         budget_ = fewEvents + steps;
+        deadline_ = deadline;
         for (int64_t i = 0; i < steps && isFinite_; ++i) {
             step(h);
             state_.time = begin + double(i + 1) * h;
@@ -105,6 +94,7 @@ class ContactIntegrator {
         double left = h;
         int atOnce = 0;
         while (left > 0) {
+            deadline_.check();
             held_.keepDirections(state_.velocity);
             tryStep(left);
             isFinite_ = finite(trial_);
@@ -388,6 +378,7 @@ class ContactIntegrator {
     Vectors free_;              // accelerations without contact
     std::vector<Event> known_;  // in the step at hand
     int64_t events_ = 0, budget_ = 0;
+    Deadline deadline_;
     bool settled_ = true, isFinite_ = true;
 };
 
@@ -401,8 +392,9 @@ glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double r
     return left - restitution * vn * n;
 }
 
-ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps) {
-    return ContactIntegrator(problem, start).run(duration, steps);
+ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps,
+                                const Deadline& deadline) {
+    return ContactIntegrator(problem, start).run(duration, steps, deadline);
 }
 
 }  // namespace shoal::reference

@@ -18,6 +18,7 @@
 // at once.
 #pragma once
 
+#include "reference/deadline.h"
 #include "reference/problem.h"
 
 namespace shoal::reference {
@@ -32,7 +33,9 @@ struct ContactRun {
 
 // `steps` equal steps over `duration`, each cut where something happens. What starts inside a collider is put
 // onto its rest surface first.
-ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps);
+// OutOfTime: the deadline has passed.
+ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps,
+                                const Deadline& deadline = Deadline());
 
 // Impact with a surface of unit normal n: the velocity after it.
 glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double restitution, double friction);

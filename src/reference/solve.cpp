@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/contact.h"
+#include "reference/deadline.h"
 #include "reference/runge_kutta.h"
 
 namespace shoal::reference {
@@ -49,12 +50,14 @@ bool finite(const State& state) {
     });
 }
 
-State integrateFreely(const Problem& problem, State state, double duration, int64_t steps) {
+State integrateFreely(const Problem& problem, State state, double duration, int64_t steps,
+                      Deadline& deadline) {
     Equations equations(problem);
     RungeKutta method(equations.vertices());
     const double begin = state.time, h = duration / double(steps);
     State next = state;
     for (int64_t i = 0; i < steps; ++i) {
+        deadline.check();
         method.step(state, h, motion(equations), next);
         std::swap(state, next);
         state.time = begin + double(i + 1) * h;  // a sum of many steps would wander
@@ -63,23 +66,15 @@ State integrateFreely(const Problem& problem, State state, double duration, int6
 }
 
 // With whether contact has come to an end in every step.
-ContactRun run(const Problem& problem, const State& start, double duration, int64_t steps) {
+ContactRun run(const Problem& problem, const State& start, double duration, int64_t steps,
+               Deadline& deadline) {
     State still = start;
     standStill(problem, still.velocity);
     ContactRun out = problem.colliders.empty()
-                         ? ContactRun{integrateFreely(problem, std::move(still), duration, steps)}
-                         : integrateWithContact(problem, still, duration, steps);
+                         ? ContactRun{integrateFreely(problem, std::move(still), duration, steps, deadline)}
+                         : integrateWithContact(problem, still, duration, steps, deadline);
     giveBack(problem, start.velocity, out.state.velocity);
     return out;
-}
-
-// Steps that resolve the fastest spring; four times longer ones where the springs' own damping leaves nothing
-// of the motions that those would not resolve. (Motions that last must be resolved: two runs that both damp
-// them away by their own error agree with each other.)
-int64_t firstSteps(const Problem& problem, double duration) {
-    const double rate = fastestRate(problem);
-    const double perRadian = dampedAway(problem, rate / 2, duration) ? 0.5 : 2;
-    return std::max<int64_t>(8, int64_t(std::ceil(perRadian * duration * rate)));
 }
 
 }  // namespace
@@ -94,7 +89,8 @@ void rungeKuttaStep(const Problem& problem, State& state, double h) {
 }
 
 State integrate(const Problem& problem, const State& start, double duration, int64_t steps) {
-    return run(problem, start, duration, steps).state;
+    Deadline never;
+    return run(problem, start, duration, steps, never).state;
 }
 
 Deviation deviation(const State& state, const State& reference, double size) {
@@ -143,6 +139,16 @@ double fastestRate(const Problem& problem) {
     return rate;
 }
 
+// Steps that resolve the fastest spring; four times longer ones where the springs' own damping leaves nothing
+// of the motions that those would not resolve. (Motions that last must be resolved: two runs that both damp
+// them away by their own error agree with each other.)
+int64_t firstSteps(const Problem& problem, double duration) {
+    const double rate = fastestRate(problem);
+    const double perRadian = dampedAway(problem, rate / 2, duration) ? 0.5 : 2;
+    // beyond 1e15 nobody waits for the end, and a whole number would overflow
+    return int64_t(std::clamp(std::ceil(perRadian * duration * rate), 8.0, 1e15));
+}
+
 // Chaos: finer steps that have not brought their changes down go on not to.
 static bool stalled(const std::vector<double>& changes) {
     constexpr size_t some = 5, many = 8;
@@ -152,26 +158,73 @@ static bool stalled(const std::vector<double>& changes) {
            (count > many && changes.back() > changes[count - 1 - many] / 2);
 }
 
-Solution solve(const Problem& problem, const State& start, double duration, double tolerance, int halvings) {
-    const double size = problem.scale * problem.molecule->size();
-    int64_t steps = firstSteps(problem, duration);
-    ContactRun coarse = run(problem, start, duration, steps);
-    Solution out{std::move(coarse.state), duration / double(steps), 0, false};
-    std::vector<double> changes;
-    int unsettled = 0;  // runs in a row
-    for (int i = 0; i < halvings && !out.converged && !stalled(changes) && unsettled < 5; ++i) {
-        steps *= 2;
-        ContactRun finer = run(problem, start, duration, steps);
-        if (!finite(finer.state)) break;
-        out.error = relativeError(finer.state, out.state, size);
-        out.step = duration / double(steps);
-        out.converged = coarse.settled && finer.settled && out.error <= tolerance;
-        out.state = std::move(finer.state);
-        coarse.settled = finer.settled;
-        unsettled = finer.settled ? 0 : unsettled + 1;
-        changes.push_back(out.error);
+namespace {
+
+class Halving {
+  public:
+    Halving(const Problem& problem, const State& start, double duration, double seconds)
+        : problem_(problem), start_(start), duration_(duration), deadline_(seconds) {
+        out_ = {start, duration, std::numeric_limits<double>::infinity(), false, Ended::outOfTime};
     }
-    return out;
+
+    Solution solve(double tolerance, int halvings) {
+        try {
+            out_.ended = halve(tolerance, halvings);
+        } catch (const OutOfTime&) {
+            out_.ended = Ended::outOfTime;
+        }
+        out_.converged = out_.ended == Ended::converged;
+        return std::move(out_);
+    }
+
+  private:
+    Ended halve(double tolerance, int halvings) {
+        const double size = problem_.scale * problem_.molecule->size();
+        int64_t steps = firstSteps(problem_, duration_);
+        bool settledBefore = next(steps).settled;
+        std::vector<double> changes;
+        int unsettled = 0;  // runs in a row
+        for (int i = 0; i < halvings; ++i) {
+            if (stalled(changes)) return Ended::stalled;
+            if (unsettled >= 5) return Ended::unsettled;
+            if (2 * secondsOfRun_ > deadline_.left()) return Ended::outOfTime;
+            const State coarse = out_.state;
+            const ContactRun finer = next(steps *= 2);
+            if (!finite(finer.state)) return Ended::notFinite;
+            out_.error = relativeError(out_.state, coarse, size);
+            if (settledBefore && finer.settled && out_.error <= tolerance) return Ended::converged;
+            settledBefore = finer.settled;
+            unsettled = finer.settled ? 0 : unsettled + 1;
+            changes.push_back(out_.error);
+        }
+        if (unsettled > 0) return Ended::unsettled;
+        return stalled(changes) ? Ended::stalled : Ended::outOfHalvings;
+    }
+
+    ContactRun next(int64_t steps) {
+        const double before = deadline_.passed();
+        ContactRun one = run(problem_, start_, duration_, steps, deadline_);
+        secondsOfRun_ = deadline_.passed() - before;
+        if (steps == firstSteps(problem_, duration_) || finite(one.state)) {
+            out_.state = one.state;
+            out_.step = duration_ / double(steps);
+        }
+        return one;
+    }
+
+    const Problem& problem_;
+    const State& start_;
+    double duration_;
+    Deadline deadline_;
+    double secondsOfRun_ = 0;
+    Solution out_;
+};
+
+}  // namespace
+
+Solution solve(const Problem& problem, const State& start, double duration, double tolerance, int halvings,
+               double seconds) {
+    return Halving(problem, start, duration, seconds).solve(tolerance, halvings);
 }
 
 }  // namespace shoal::reference

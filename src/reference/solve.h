@@ -2,6 +2,8 @@
 // until the answer stops changing. Contact: reference/contact.h.
 #pragma once
 
+#include <limits>
+
 #include "reference/problem.h"
 
 namespace shoal::reference {
@@ -20,21 +22,36 @@ struct Deviation {
 Deviation deviation(const State& state, const State& reference, double size);
 double relativeError(const State& state, const State& reference, double size);
 
+enum class Ended {
+    converged,
+    outOfTime,
+    outOfHalvings,
+    stalled,    // the motion is chaotic or not smooth
+    unsettled,  // its contacts do not come to an end
+    notFinite,
+};
+
 struct Solution {
     State state;       // after `duration`
     double step = 0;   // s, the last and smallest
     double error = 0;  // relative: the change at the last halving, which bounds the error of what is returned
-    // False: halving does not settle it. The motion is chaotic or not smooth, or its contacts do not come to
-    // an end.
     bool converged = true;
+    Ended ended = Ended::converged;  // why halving ended
 };
 
 // Halves until the change is below tolerance (relative to the scaled molecule's size), at most `halvings`
-// times from a step that resolves the fastest spring that lasts; gives up earlier where six halvings leave a
-// change of 5 %, or eight in a row have not even halved it: the motion is chaotic. A converging RK4 is 16
-// times better than its last change. The state is finite if the start is and any of the steps was stable.
+// times from a step that resolves the fastest spring that lasts and for at most `seconds` on the clock; gives
+// up earlier where six halvings leave a change of 5 %, or eight in a row have not even halved it: the motion
+// is chaotic. A converging RK4 is 16 times better than its last change. The state is finite if the start is
+// and any of the steps was stable.
+//
+// An error that is infinite is not known: nothing has been halved. Where not even the first run has come to
+// its end, the state is the start.
 Solution solve(const Problem& problem, const State& start, double duration, double tolerance,
-               int halvings = 12);
+               int halvings = 12, double seconds = std::numeric_limits<double>::infinity());
+
+// How many steps the first run takes.
+int64_t firstSteps(const Problem& problem, double duration);
 
 // An upper bound of the rates in 1/s at which anything in the problem oscillates or decays.
 double fastestRate(const Problem& problem);
