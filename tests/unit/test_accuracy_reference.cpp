@@ -1,0 +1,101 @@
+// When there is no reference, or only a rough one.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "compile/plan.h"
+#include "measure/accuracy_reference.h"
+#include "measure/report_scenes.h"
+#include "support/catch.h"
+#include "support/shapes.h"
+
+namespace shoal::measure {
+
+namespace {
+
+double secondsSince(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// A leaf that spins, of masses 1.
+Scene spinning(double stiffness) {
+    for (const ReportScene& one : reportScenes(2)) {
+        if (one.id != "leaf-spin-1e4") continue;
+        Scene out = one.scene;
+        for (Spring& spring : out.groups[0].molecule.springs)
+            spring.stiffness = stiffness;
+        out.solver.kind = SolverKind::bdf2Xpbd;
+        return out;
+    }
+    throw Error("the report has no such scene");
+}
+
+// At the origin, thrown apart: what the reference makes of it counts, not where it is.
+std::vector<Snapshot> startsOf(const Scene& scene) {
+    Snapshot out;
+    const Molecule& molecule = scene.groups[0].molecule;
+    out.count = scene.groups[0].count;
+    out.vertexCount = int(molecule.vertices.size());
+    for (int m = 0; m < out.count; ++m) {
+        for (const Vertex& vertex : molecule.vertices) {
+            out.positions.push_back(vertex.position);
+            out.velocities.push_back(vertex.position * (0.1 * (m + 1)));
+        }
+    }
+    return {out};
+}
+
+}  // namespace
+
+TEST_CASE("a reference ends when its time is over", "[accuracy]") {
+    const Molecule molecule = test::pair(0.01, 0.01, 1e12, 0);
+    const reference::Problem problem{.molecule = &molecule};
+    const reference::State start = reference::restState(problem);
+    const auto begin = std::chrono::steady_clock::now();
+    const reference::Solution stiff = reference::solve(problem, start, 1, 1e-6, 12, 0.05);
+    CHECK(secondsSince(begin) < 5);
+    CHECK_FALSE(stiff.converged);
+    CHECK(stiff.ended == reference::Ended::outOfTime);
+    CHECK(std::isinf(stiff.error));
+
+    const Molecule soft = test::pair(1, 1, 10, 0);
+    const reference::Problem easy{.molecule = &soft};
+    reference::State drawn = reference::restState(easy);
+    drawn.position[1].x += 0.1;
+    const reference::Solution none = reference::solve(easy, drawn, 1, 1e-6, 0);
+    CHECK(none.ended == reference::Ended::outOfHalvings);
+    CHECK(std::isinf(none.error));
+    CHECK(none.state.time == Approx(1));
+    const reference::Solution one = reference::solve(easy, drawn, 1, 1e-15, 1);
+    CHECK(one.ended == reference::Ended::outOfHalvings);
+    CHECK(one.error < 0.01);
+}
+
+TEST_CASE("a scene that is too stiff for a reference is called so", "[accuracy]") {
+    const Scene scene = spinning(1e14);
+    const Plan plan = compile(scene);
+    ExactEnds ends(scene, plan, startsOf(scene), 1, 2, 2);
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK(ends.solve(1e-5, 0.2) == Settled::tooStiff);
+    CHECK(secondsSince(begin) < 5);
+    CHECK_THAT(ends.why(), Catch::Contains("too stiff for a reference in 0.2 s"));
+    CHECK(ends.secondsToSolve(0.2) <= 0.2 * 2);
+}
+
+TEST_CASE("a reference that ran out of time is rough, not chaotic", "[accuracy]") {
+    const Scene scene = spinning(1e4);
+    const Plan plan = compile(scene);
+    ExactEnds ends(scene, plan, startsOf(scene), 1, 1, 1);
+    Settled settled = Settled::tooStiff;
+    double seconds = 1e-5;
+    for (; settled == Settled::tooStiff; seconds *= 1.5)
+        settled = ends.solve(ExactEnds::floor, seconds);
+    CHECK((settled == Settled::roughly || settled == Settled::yes));
+    CHECK(ends.error() < ExactEnds::mostChange);
+    if (settled == Settled::roughly) CHECK_THAT(ends.why(), Catch::Contains("which is as far as"));
+    // more time: nearer, and it stays
+    CHECK(ends.solve(ExactEnds::floor, 60) == Settled::yes);
+    CHECK(ends.error() <= ExactEnds::floor);
+}
+
+}  // namespace shoal::measure
