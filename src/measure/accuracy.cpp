@@ -144,7 +144,7 @@ class Sweep {
 
     void estimate() {
         double sweep = secondsOfErrors() + secondsOfTimes();
-        if (options_.extra) expectedOfExtra_ = reference_->secondsToSolve(3) + 0.5 * secondsOfErrors();
+        if (options_.extra) expectedOfExtra_ = reference_->secondsToSolve(3) + 0.1 * secondsOfErrors();
         if (options_.seconds) sweep = std::min(sweep, *options_.seconds);
         expected_ = sweep + expectedOfExtra_ + reference_->secondsToSolve();
         progress_.estimate(expected_);
@@ -223,6 +223,7 @@ class Sweep {
             point.outcome = Outcome::measured;
             return;
         }
+        measuring_ += curve.few->warmUp();
         curve.few->run(frames_);
         std::vector<Snapshot> ends = curve.few->snapshots();
         if (!ExactEnds::finite(ends)) {

@@ -24,13 +24,8 @@ int framesOfSample(const Contender& one) {
 
 double sample(const Contender& one) {
     MethodRunner& runner = *one.runner;
-    // a step that is new to the runner may have programs built again in its first frame
     runner.set(one.step);
-    runner.restart();
-    runner.frame();
-    runner.finish();
-    runner.restart();
-    runner.finish();
+    runner.warmUp();
     const int frames = framesOfSample(one);
     const Clock::time_point start = Clock::now();
     for (int i = 0; i < frames; ++i)

@@ -64,6 +64,16 @@ void MethodRunner::finish() const {
     glFinish();
 }
 
+Clock::duration MethodRunner::warmUp() {
+    const Clock::time_point start = Clock::now();
+    restart();
+    frame();
+    finish();
+    restart();
+    finish();
+    return Clock::now() - start;
+}
+
 void MethodRunner::run(int frames) {
     restart();
     for (int i = 0; i < frames * step_.split; ++i)

@@ -2,6 +2,7 @@
 // simulation serves them all.
 #pragma once
 
+#include <chrono>
 #include <compare>
 #include <memory>
 #include <string>
@@ -54,6 +55,9 @@ class MethodRunner {
     void restart() { simulation_->restart(); }
     void frame() { simulation_->frame(); }  // 1 / (frameRate * split) seconds
     void finish() const;                    // waits until the frames are done
+    // One frame of the step that is set, and back to the start: programs may be built again where it is new.
+    // The time that it took.
+    std::chrono::steady_clock::duration warmUp();
     // A whole run from the start: `frames` of the scene's own.
     void run(int frames);
     // Seconds that one frame at this step takes: the shorter of two after one that is not timed.
