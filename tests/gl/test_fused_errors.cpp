@@ -186,7 +186,7 @@ TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fus
     const Plan plan = compile(scene);
     const size_t one = stateBytes(plan, Path::fused, true, true), two = stateBytes(plan, Path::fused, true);
     const auto make = [&](size_t bytes, const SimulationOptions& options) {
-        const LittleMemory memory(bytes);
+        const LittleMemory memory(bytes + sizeof(uint32_t));  // and the watchdog's word
         return Simulation(testContext(), shaders, plan, options);
     };
     Simulation roomy = make(two, {});
