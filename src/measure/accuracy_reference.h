@@ -72,6 +72,7 @@ class ExactEnds {
         reference::State start, end;
     };
     Drift driftOf(const One& one, const reference::State& end) const;
+    double secondsOf(const One& one, double most) const;
     bool tooStiff(const One& one, double seconds);
     Settled judge(const One& one, const reference::Solution& solution, double seconds);
     void keep(std::vector<reference::Solution>& solutions);
