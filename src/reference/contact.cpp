@@ -388,8 +388,7 @@ glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double r
     const double vn = glm::dot(velocity, n);
     const glm::dvec3 tangential = velocity - vn * n;
     const double speed = glm::length(tangential), lost = friction * (1 + restitution) * std::abs(vn);
-    const glm::dvec3 left = speed > lost ? tangential * (1 - lost / speed) : glm::dvec3(0);
-    return left - restitution * vn * n;
+    return (speed > lost ? tangential * (1 - lost / speed) : glm::dvec3(0)) - restitution * vn * n;
 }
 
 ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps,
