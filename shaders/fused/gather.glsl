@@ -25,8 +25,11 @@ void springForces(float time)
             vec4 muscle = table(int(spans.x) + 2 * s + 1);
             restLength = actuatedLength(restLength, muscle.x, muscle.y * time + muscle.z + phase);
 #endif
-            sum += springForce(x[i] - x[other], w[i] - w[other], spring.y * stiffnessFactor,
-                               spring.z * dampingFactor, restLength);
+            float stiffness = spring.y * stiffnessFactor;
+#ifdef VERLET
+            stiffness = min(stiffness, 1.0 / ((inverseMass[i] + inverseMass[other]) * (substep * substep)));
+#endif
+            sum += springForce(x[i] - x[other], w[i] - w[other], stiffness, spring.z * dampingFactor, restLength);
         }
         force[i] = sum;
     }

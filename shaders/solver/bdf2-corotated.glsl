@@ -103,14 +103,16 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];
     }
-    float first = 0.0;
-    float second = 0.0;
-    for (int n = 0; n < 2; ++n) {
-        first = second;
-        if (n > 0) fit(2);
-        second = improve(time);
+    if (!sweeps) {
+        float first = 0.0;
+        float second = 0.0;
+        for (int n = 0; n < 2; ++n) {
+            if (n > 0) fit(2);
+            first = second;
+            second = improve(time);
+        }
+        sweeps = !(second < 0.25 * first || second < SETTLED * scale * scale);
     }
-    sweeps = sweeps || !(second < 0.25 * first || second < SETTLED * scale * scale);
     if (sweeps) {
         for (int i = 0; i < VERTICES; ++i) {
             q[i] = start[i];

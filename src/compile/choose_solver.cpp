@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compile/path.h"
 #include "molecule/analysis.h"
 
 namespace shoal {
@@ -79,10 +80,11 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";
-    } else if (safe) {
+    } else if (safe || out.vertexCount > FusedLimits::softwareLane ||
+               out.springCount > FusedLimits::laneSprings) {
         out.solver = SolverKind::leapfrog;
-        out.solverWhy = concat("the substep resolves the springs: highest frequency times substep ",
-                               analysis.highestFrequency * step);
+        out.solverWhy = concat(safe ? "the substep resolves the springs" : "the molecule is large",
+                               ": highest frequency times substep ", analysis.highestFrequency * step);
     } else {
         out.solver = SolverKind::bdf2Xpbd;
         out.solverWhy = concat("the springs are stiff: highest frequency times substep ",

@@ -10,7 +10,7 @@ namespace shoal {
 //   leapfrog    without springs, or while the substep holds leapfrog stable for every shape that the molecule
 //               may take (the weighted graph Laplacian's bound, molecule/analysis.h) and is short against
 //               drag
-//   bdf2-xpbd   otherwise
+//   bdf2-xpbd   otherwise, if a molecule fits a lane (compile/path.h)
 //
 // Error (located at the solver, else at the group): the substep is beyond what the named solver holds stable,
 // or zero, or drag is beyond what it takes; says how many substeps would do.

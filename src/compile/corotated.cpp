@@ -161,7 +161,7 @@ std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const Corotate
         for (Eigen::Index j = 0; j < count; ++j)
             matrix.block<3, 3>(3 * i, 3 * j) =
                 whole.block<3, 3>(3 * pattern.order[size_t(i)], 3 * pattern.order[size_t(j)]);
-    std::vector<glm::vec4> out(size_t(pattern.elements()), glm::vec4(0));
+    std::vector<glm::vec4> out(size_t(std::max(1, pattern.elements())), glm::vec4(0));
     const auto keep = [&](int number, const Eigen::Matrix3d& block) {
         for (int k = 0; k < 9; ++k)
             out[size_t((9 * number + k) / 4)][(9 * number + k) % 4] = float(block(k % 3, k / 3));

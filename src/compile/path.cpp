@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compile/corotated.h"
+
 namespace shoal {
 
 namespace {
@@ -48,6 +50,16 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
     checkTextures(plan, limits);
 }
 
+// The matrix of bdf2-corotated is a uniform block, but for CPU rasterisers.
+void checkMatrix(const GroupPlan& group, const PathLimits& limits) {
+    if (!group.factored() || limits.software) return;
+    const int bytes = corotatedPattern(group.shape, group.needs.pins).elements() * int(sizeof(glm::vec4));
+    if (bytes <= limits.maxUniformBlockBytes) return;
+    throw Error(group.location,
+                concat("the matrix of \"", group.name, "\" takes ", bytes, " bytes; a uniform block holds ",
+                       limits.maxUniformBlockBytes, " on this device: use bdf2-xpbd"));
+}
+
 // A molecule that is too large for a workgroup's shared memory.
 void checkFused(const Plan& plan, const PathLimits& limits) {
     if (!limits.compute)
@@ -58,9 +70,10 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
         throw Error(concat("fields and colliders take ", uniforms,
                            " numbers of uniforms; a compute shader holds ", limits.maxUniformComponents,
                            " on this device"));
-    const int most =
-        std::max(FusedLimits::workgroup(limits), limits.software ? FusedLimits::softwareLane : 0);
     for (const GroupPlan& group : plan.groups) {
+        const int most = std::max(FusedLimits::workgroup(limits, group.solver),
+                                  limits.software ? FusedLimits::softwareLane : 0);
+        checkMatrix(group, limits);
         if (solver(group.solver).implicit) chooseLanes(group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
@@ -112,6 +125,11 @@ Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits
             concat(name(group.solver), " keeps a molecule in one lane, which holds at most ", most,
                    " vertices; a molecule of \"", group.name, "\" has ", group.vertexCount,
                    wanted == Lanes::vertex ? ": leave out --lanes vertex" : ": use an explicit solver"));
+    if (implicit && group.springCount > FusedLimits::laneSprings)
+        throw Error(group.location,
+                    concat(name(group.solver), " writes out the springs of a molecule, at most ",
+                           FusedLimits::laneSprings, "; a molecule of \"", group.name, "\" has ",
+                           group.springCount, ": use an explicit solver"));
     if (wanted == Lanes::automatic)
         return group.vertexCount <= most && group.springCount <= FusedLimits::laneSprings ? Lanes::molecule
                                                                                           : Lanes::vertex;

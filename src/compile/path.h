@@ -37,6 +37,7 @@ struct PathLimits {
     int maxTextureSize = 16384;
     int maxSharedBytes = 32768;
     int maxUniformComponents = 1024;  // of a compute shader
+    int maxUniformBlockBytes = 16384;
 };
 
 // Largest molecules of the fused path, in vertices.
@@ -45,10 +46,12 @@ struct FusedLimits {
     // registers.
     static constexpr int softwareLane = 64, gpuLane = 16;
     static constexpr int laneSprings = 1024;
-    // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal, acceleration and
-    // kick. Drivers may give each as much as a 4-vector; Mesa does.
-    static constexpr int sharedBytesPerVertex = 9 * 16;
-    static int workgroup(const PathLimits& limits) { return limits.maxSharedBytes / sharedBytesPerVertex; }
+    // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal; leapfrog's
+    // acceleration and kick; rk4's start and sums. Drivers may give each as much as a 4-vector; Mesa does.
+    static int sharedBytesPerVertex(SolverKind solver) { return (solver == SolverKind::rk4 ? 11 : 9) * 16; }
+    static int workgroup(const PathLimits& limits, SolverKind solver) {
+        return limits.maxSharedBytes / sharedBytesPerVertex(solver);
+    }
 };
 
 // How the molecules of a group are spread: a lane each up to the limit of the device, else a workgroup each.

@@ -60,6 +60,9 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.springCount = int(group.molecule.springs.size());
     out.needs = findNeeds(scene, group);
     out.drag = group.drag;
+    if (!out.needs.directionalDrag) out.drag.normal = out.drag.tangent;  // no surface
+    for (const Vertex& vertex : group.molecule.vertices)
+        out.pinned.push_back(out.needs.pins && vertex.pinned);
     if (group.release) out.release = *group.release;
     out.stiffness = group.stiffness;
     out.damping = group.damping;

@@ -52,6 +52,7 @@ struct GroupPlan {
     double size = 1;              // m, of the molecule
     double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;        // s, largest substep of the solver; infinite without springs
+    std::vector<bool> pinned;     // a vertex each: held at the start
     GroupState start;
     GroupConstants constants;
     KernelText kernel;  // of the fused path

@@ -103,6 +103,7 @@ static void readComputeLimits(ContextInfo& info) {
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &info.maxWorkGroupsX);
     info.maxComputeUniformComponents = getInteger(GL_MAX_COMPUTE_UNIFORM_COMPONENTS);
     info.maxSharedBytes = getInteger(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
+    info.maxUniformBlockBytes = getInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
     info.textureBufferAlignment = getInteger(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT);
     info.storageBufferAlignment = getInteger(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     info.subgroups = hasSubgroups();

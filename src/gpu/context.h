@@ -45,6 +45,7 @@ struct ContextInfo {
     // Of compute shaders and what they read; all 0 below 4.3.
     int64_t maxStorageBlockBytes = 0;
     int maxWorkGroupsX = 0, maxSharedBytes = 0, maxComputeUniformComponents = 0;
+    int maxUniformBlockBytes = 0;
     int textureBufferAlignment = 0, storageBufferAlignment = 0;  // of the offsets of ranges, in bytes
     // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. This and
     // groupVote go by an extension, because no version that is common has them; still false below 4.3.

@@ -34,6 +34,7 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
     out.maxTextureSize = info.maxTextureSize;
     out.maxSharedBytes = info.maxSharedBytes;
     out.maxUniformComponents = info.maxComputeUniformComponents;
+    out.maxUniformBlockBytes = info.maxUniformBlockBytes;
     return out;
 }
 

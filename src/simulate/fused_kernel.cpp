@@ -39,6 +39,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.release, "RELEASE");
     define(needs.pins, "PINS");
     define(needs.springs, "SPRINGS");
+    define(group.solver == SolverKind::verlet, "VERLET");
     define(needs.actuation, "ACTUATION");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");

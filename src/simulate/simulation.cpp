@@ -39,6 +39,8 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         fused.inPlace = inPlace_ = true;
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {
+        for (const GroupPlan& group : plan_.groups)
+            if (solver(group.solver).implicit) throw;  // which the other path does not have
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
         choice_.why = "the fused path failed";
         warnings_.push_back(

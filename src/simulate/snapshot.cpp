@@ -38,11 +38,23 @@ std::optional<SavedState> Simulation::saveBefore() const {
     return out;
 }
 
+// What the state of a scene with other pins becomes: a pinned vertex is at rest, and pins that cannot let go
+// hold.
+static GroupState asHeld(const GroupPlan& group, GroupState state) {
+    if (!group.needs.release) std::fill(state.released.begin(), state.released.end(), uint8_t(0));
+    for (size_t i = 0; group.needs.pins && i < state.velocities.size(); ++i) {
+        const size_t vertices = size_t(group.vertexCount);
+        const bool held = group.pinned[i % vertices] && state.released[i / vertices] == 0;
+        if (held) state.velocities[i] = glm::vec3(0);
+    }
+    return state;
+}
+
 void Simulation::load(const SavedState& saved) {
     assert(saved.groups.size() == plan_.groups.size() && "a state of another plan");
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
         assert(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
-        writeGroup(g, saved.groups[g]);
+        writeGroup(g, asHeld(plan_.groups[g], saved.groups[g]));
     }
     time_ = saved.time;
     frames_ = saved.frames;

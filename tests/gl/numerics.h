@@ -92,8 +92,9 @@ constexpr SolverKind explicitSolvers[] = {SolverKind::euler, SolverKind::leapfro
 // All that the tested path runs.
 inline std::vector<SolverKind> solversHere() {
     std::vector<SolverKind> out;
+    const bool fused = testContext().info().computeShaders && testPath() != Path::pingPong;
     for (const Solver& one : solvers())
-        if (testPath() != Path::pingPong || !one.implicit) out.push_back(one.kind);
+        if (fused || !one.implicit) out.push_back(one.kind);
     return out;
 }
 

@@ -146,7 +146,7 @@ TEST_CASE("the ping-pong path refuses fields that are not read every substep", "
 TEST_CASE("the largest molecule that a workgroup holds runs, and one more is refused", "[fused][errors]") {
     if (!test::canFuse()) return;
     const PathLimits limits = limitsOf(testContext().info());
-    const int most = FusedLimits::workgroup(limits);
+    const int most = FusedLimits::workgroup(limits, SolverKind::leapfrog);
     REQUIRE(most > 64);
     Molecule molecule = test::sheet(most, 1, true);  // a chain, with a triangle so that all arrays are used
     REQUIRE(int(molecule.vertices.size()) == most);
