@@ -21,6 +21,7 @@ FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}
 }
 
 size_t FileReader::read(void* data, size_t bytes) {
+    if (bytes == 0) return 0;
     const size_t count = std::fread(data, 1, bytes, file_.get());
     if (std::ferror(file_.get())) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
     return count;
@@ -71,6 +72,7 @@ void FileWriter::fail(int cause) const {
 }
 
 void FileWriter::write(const void* data, size_t bytes) {
+    if (bytes == 0) return;  // of an empty array, which may have no address
     if (std::fwrite(data, 1, bytes, file_.get()) != bytes) fail(errno);
 }
 

@@ -242,7 +242,7 @@ const char* name(FieldSampling sampling);
 
 struct SolverSettings {
     std::optional<SolverKind> kind;  // nothing: chosen for each group (compile/choose_solver.h)
-    int substeps = 4;  // per frame
+    int substeps = 4;                // per frame
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     Location location;
 };
