@@ -65,30 +65,58 @@ void sampleSubstep(float time)
 #endif
 }
 
-// Drag towards u and gravity over a substep, exactly; n is the surface's normal.
-vec3 dragged(vec3 velocity, vec3 u, vec3 n)
+// The fields, and where drag has a direction the normals, at the vertices as they are.
+void sampleHere(float time)
 {
-#ifndef FIELDS
-    u = vec3(0.0);
-#endif
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i];
+    }
 #ifdef DIRECTIONAL_DRAG
-    return directionalDragAndGravity(velocity, u, gravity, n, decay, phi);
-#else
-    return dragAndGravity(velocity, u, gravity, decay.y, phi.y);
+    surfaceNormals();
+#endif
+    sampleSubstep(time);
+}
+
+// The springs' kick over the whole substep: v += h F(x, v, t) / m.
+void kickWhole(int step, float time)
+{
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    springForces(time);
+#endif
+    letGo(step);
+#ifdef SPRINGS
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
+    }
 #endif
 }
 
-// The same inside an implicit stage, where the velocity that drags is the one that results.
-vec3 stageDragged(vec3 velocity, vec3 u, vec3 n)
+// Drag towards u and gravity by factors of which `decays` and `phis` are across and along the surface, whose normal is n.
+vec3 draggedBy(vec3 velocity, vec3 u, vec3 n, vec2 decays, vec2 phis)
 {
 #ifndef FIELDS
     u = vec3(0.0);
 #endif
 #ifdef DIRECTIONAL_DRAG
-    return directionalDragAndGravity(velocity, u, gravity, n, stageDecay, stagePhi);
+    return directionalDragAndGravity(velocity, u, gravity, n, decays, phis);
 #else
-    return dragAndGravity(velocity, u, gravity, stageDecay.y, stagePhi.y);
+    return dragAndGravity(velocity, u, gravity, decays.y, phis.y);
 #endif
+}
+
+// Over a substep, exactly.
+vec3 dragged(vec3 velocity, vec3 u, vec3 n)
+{
+    return draggedBy(velocity, u, n, decay, phi);
+}
+
+// Inside an implicit stage, where the velocity that drags is the one that results.
+vec3 stageDragged(vec3 velocity, vec3 u, vec3 n)
+{
+    return draggedBy(velocity, u, n, stageDecay, stagePhi);
 }
 
 // As an acceleration now.

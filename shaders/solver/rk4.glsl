@@ -20,13 +20,7 @@ void stage(int step, float time, float share, float ahead)
     springForces(time);
 #endif
     letGo(step);
-    for (int i = 0; i < VERTICES; ++i) {
-        probe[i] = x[i];
-    }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
-    sampleSubstep(time);
+    sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         vec3 a = dragAcceleration(v[i], fluid[i], normal[i]);
 #ifdef SPRINGS

@@ -12,25 +12,8 @@ void beginSolver()
 void advance(int step)
 {
     float time = frameTime + float(step) * substep;
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        w[i] = v[i];
-    }
-    springForces(time);
-#endif
-    letGo(step);
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
-    }
-#endif
-    for (int i = 0; i < VERTICES; ++i) {
-        probe[i] = x[i];
-    }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
-    sampleSubstep(time);
+    kickWhole(step, time);
+    sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
             vec3 before = x[i];

@@ -14,13 +14,7 @@ void advance(int step)
 {
     float time = frameTime + float(step) * substep;
     releasePins(step);
-    for (int i = 0; i < VERTICES; ++i) {
-        probe[i] = x[i];
-    }
-#ifdef DIRECTIONAL_DRAG
-    surfaceNormals();
-#endif
-    sampleSubstep(time);
+    sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         z[i] = vec3(0.0);

@@ -96,7 +96,7 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
     const Case cases[] = {
         {"solver/euler.glsl", "v[i] = dragged(", Lanes::molecule},  // in a loop that is written out
         {"solver/euler.glsl", "v[i] = dragged(", Lanes::vertex},    // and spread over lanes
-        {"solver/euler.glsl", "sampleSubstep(time);", Lanes::molecule},
+        {"solver/euler.glsl", "sampleHere(time);", Lanes::molecule},
         {"physics/spring.glsl", "float squared = dot(d, d);", Lanes::molecule},
         {"fused/step.glsl", "return dragAndGravity(", Lanes::molecule},
     };
