@@ -173,6 +173,7 @@ Plan compile(const Scene& scene) {
         plan.groups.push_back(std::move(group));
     }
     plan.topologyRows = tableRows(plan.topology);
+    plan.contact = planContact(scene, plan.groups);
 
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),

@@ -21,6 +21,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/contact_plan.h"
 #include "compile/group_state.h"
 #include "compile/kernel.h"
 #include "scene/scene.h"
@@ -79,6 +80,7 @@ struct Plan {
     glm::dvec3 gravity{0};
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
     std::vector<GroupPlan> groups;
+    ContactPlan contact;           // of molecules with one another
     std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat
 
     int rows = 0, recordRows = 0;  // of the ping-pong path's textures

@@ -7,10 +7,20 @@
 
 namespace shoal::gpu {
 
-static constexpr size_t texelBytes = 4 * sizeof(float);  // of GL_RGBA32F
+struct TexelFormat {
+    GLenum internal;
+    size_t bytes;
+};
+
+static TexelFormat formatOf(Texel texel) {
+    static constexpr TexelFormat formats[] = {
+        {GL_RGBA32F, 16}, {GL_RGBA32UI, 16}, {GL_RG32UI, 8}, {GL_R32UI, 4}};
+    return formats[size_t(texel)];
+}
 
 BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset,
-                             size_t bytes) {
+                             size_t bytes, Texel texel) {
+    const auto [internal, texelBytes] = formatOf(texel);
     assert(buffer && offset < buffer.bytes() && bytes <= buffer.bytes() - offset);
     if (bytes == 0) bytes = buffer.bytes() - offset;
     const bool whole = bytes == buffer.bytes();
@@ -24,9 +34,9 @@ BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char*
     handle_ = Handle<deleteTexture>(id);
     glBindTexture(GL_TEXTURE_BUFFER, id);
     if (whole) {
-        glTexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id());
+        glTexBuffer(GL_TEXTURE_BUFFER, internal, buffer.id());
     } else {
-        glTexBufferRange(GL_TEXTURE_BUFFER, GL_RGBA32F, buffer.id(), static_cast<GLintptr>(offset),
+        glTexBufferRange(GL_TEXTURE_BUFFER, internal, buffer.id(), static_cast<GLintptr>(offset),
                          static_cast<GLsizeiptr>(bytes));
     }
     labelObject(context, GL_TEXTURE, id, label);

@@ -210,6 +210,15 @@ struct Release {
     double after = 0;             // s: not before this time
 };
 
+// Contact with other molecules: spheres of one radius at the vertices, and where asked at the triangles'
+// middles, which the vertices' leave uncovered.
+struct GroupContact {
+    double radius = 0;       // m, times the instance's scale
+    bool triangles = false;  // a sphere at the middle of each triangle, too
+    bool self = false;       // also between spheres of one molecule that are apart in its rest shape
+    Location location;
+};
+
 struct Group {
     std::string name;
     Molecule molecule;
@@ -223,6 +232,7 @@ struct Group {
     glm::dvec3 spin{0};                 // rad/s at the start, about the molecule's placed origin
     double phaseSpread = 0;             // rad: actuation phase varies by up to this between instances
     bool collide = true;
+    std::optional<GroupContact> contact;           // nothing: molecules of the group pass through one another
     std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
     Location location;                             // of the group in the file, for messages
 };
@@ -244,6 +254,30 @@ struct SolverSettings {
     std::optional<SolverKind> kind;  // nothing: chosen for each group (compile/choose_solver.h)
     int substeps = 4;                // per frame
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
+    Location location;
+};
+
+// How spheres that may touch are found (compile/contact_plan.h).
+enum class ContactSearch {
+    exact,      // all 27 cells around a sphere
+    single,     // UberFlow: neighbours in the order of the cells
+    staggered,  // UberFlow: the same on a second grid, moved by half a cell, as well
+};
+const char* name(ContactSearch search);
+
+enum class ContactResponse {
+    simultaneous,  // all that touch at once
+    nearest,       // UberFlow: the nearest one only; loses momentum where three meet
+};
+const char* name(ContactResponse response);
+
+struct ContactSettings {
+    ContactSearch search = ContactSearch::exact;
+    ContactResponse response = ContactResponse::simultaneous;
+    int neighbors = 8;           // of the UberFlow searches, to either side
+    int steps = 0;               // contact steps of a frame; 0: one for every two substeps
+    int iterations = 4;          // of the simultaneous response
+    std::optional<double> cell;  // m; nothing: as large as the largest spheres need
     Location location;
 };
 
@@ -272,6 +306,7 @@ struct Scene {
     double frameRate = 60;  // Hz: one frame simulates 1 / frameRate seconds
     glm::dvec3 gravity{0};  // m/s^2
     SolverSettings solver;
+    ContactSettings contact;  // means something where groups have contact
     std::vector<Field> fields;
     std::vector<Collider> colliders;
     std::vector<Model> models;

@@ -22,6 +22,24 @@ void readSolver(JsonReader& scene, SolverSettings& solver) {
     r->finish();
 }
 
+void readContactSettings(JsonReader& scene, ContactSettings& contact) {
+    auto r = scene.object("contact");
+    if (!r) return;
+    contact.location = r->here();
+    int search = static_cast<int>(contact.search), response = static_cast<int>(contact.response);
+    r->choose("search", {"exact", "single", "staggered"}, search);
+    r->choose("response", {"simultaneous", "nearest"}, response);
+    contact.search = static_cast<ContactSearch>(search);
+    contact.response = static_cast<ContactResponse>(response);
+    if (r->get("neighbors", contact.neighbors, Range::between(1, 64)) &&
+        contact.search == ContactSearch::exact)
+        throw Error(r->at("neighbors"), "the exact search finds all: \"neighbors\" is of the others");
+    r->get("steps", contact.steps, Range::between(1, maxSubsteps));
+    r->get("iterations", contact.iterations, Range::between(1, 64));
+    getOptional(*r, "cell", contact.cell, aboveZero());
+    r->finish();
+}
+
 void readCamera(JsonReader& scene, Camera& camera) {
     auto r = scene.object("camera");
     if (!r) return;
@@ -72,6 +90,7 @@ Scene parseScene(const std::string& text, const std::string& file) {
     r.get("frameRate", scene.frameRate, Range{1, 1e5, false});
     r.get("gravity", scene.gravity);
     readSolver(r, scene.solver);
+    readContactSettings(r, scene.contact);
     readCamera(r, scene.camera);
     readLight(r, scene.light);
     readSky(r, scene.sky);

@@ -182,6 +182,19 @@ void readRelease(JsonReader& r, Group& group, std::vector<Warning>& warnings) {
     group.release = out;
 }
 
+void readContact(JsonReader& r, Group& group) {
+    auto contact = r.object("contact");
+    if (!contact) return;
+    GroupContact out;
+    out.location = contact->here();
+    contact->need("radius", out.radius, aboveZero());
+    if (contact->get("triangles", out.triangles) && out.triangles && group.molecule.triangles.empty())
+        throw Error(contact->at("triangles"), "the molecule has no triangles");
+    contact->get("self", out.self);
+    contact->finish();
+    group.contact = out;
+}
+
 Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<Warning>& warnings) {
     Group group;
     group.location = r.here();
@@ -202,6 +215,7 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     r.get("spin", group.spin);
     r.get("phaseSpread", group.phaseSpread, Range::atLeast(0));
     r.get("collide", group.collide);
+    readContact(r, group);
     getColor(r, "color", group.color);
     getColor(r, "secondColor", group.secondColor);
     r.finish();

@@ -1,0 +1,156 @@
+#include "compile/contact_plan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compile/plan.h"
+
+namespace shoal {
+
+namespace {
+
+// Molecules of a group, and groups, that the label of a sphere tells apart (shaders/contact/records.glsl).
+constexpr size_t mostGroups = 64;
+constexpr int64_t mostSpheres = int64_t(1) << 27;
+
+// Up to 5 significant bits.
+double roundedUp(double length) {
+    int exponent = 0;
+    const double mantissa = std::frexp(length, &exponent);  // in [1/2, 1)
+    return std::ldexp(std::ceil(mantissa * 32), exponent - 5);
+}
+
+// Rest positions of a molecule's spheres.
+std::vector<glm::dvec3> restSpheres(const Molecule& molecule, bool triangles) {
+    std::vector<glm::dvec3> out;
+    for (const Vertex& vertex : molecule.vertices)
+        out.push_back(vertex.position);
+    for (const Triangle& t : molecule.triangles)
+        if (triangles) out.push_back((out[size_t(t.a)] + out[size_t(t.b)] + out[size_t(t.c)]) / 3.0);
+    return out;
+}
+
+void markClose(const Molecule& molecule, ContactGroup& group) {
+    const std::vector<glm::dvec3> spheres = restSpheres(molecule, group.triangles);
+    group.wordsOf = (group.spheresOf + 31) / 32;
+    group.apart.assign(size_t(group.spheresOf) * size_t(group.wordsOf), 0);
+    for (size_t a = 0; a < spheres.size(); ++a)
+        for (size_t b = 0; b < spheres.size(); ++b)
+            if (a == b || glm::distance(spheres[a], spheres[b]) < 2 * group.radius)
+                group.apart[a * size_t(group.wordsOf) + b / 32] |= 1u << (b % 32);
+}
+
+ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
+    ContactGroup out;
+    out.radius = source.contact->radius;
+    out.triangles = source.contact->triangles;
+    out.self = source.contact->self;
+    out.spheresOf = plan.vertexCount;
+    if (out.triangles) {
+        for (const Triangle& t : source.molecule.triangles)
+            out.corners.emplace_back(t.a, t.b, t.c);
+        out.spheresOf += int(out.corners.size());
+    }
+    if (out.self) markClose(source.molecule, out);
+    return out;
+}
+
+float largestScale(const GroupPlan& group) {
+    const std::vector<float>& scales = group.constants.scales;
+    return scales.empty() ? 1 : *std::max_element(scales.begin(), scales.end());
+}
+
+float smallestScale(const GroupPlan& group) {
+    const std::vector<float>& scales = group.constants.scales;
+    return scales.empty() ? 1 : *std::min_element(scales.begin(), scales.end());
+}
+
+// As many of the smallest spheres as lie around the largest one, pushed together a little.
+int listLength(double largest, double smallest) {
+    const double ratio = (largest + smallest) / smallest;
+    return int(std::clamp(std::ceil(4 * ratio * ratio), 16.0, 64.0));
+}
+
+}  // namespace
+
+const char* name(ContactSearch search) {
+    static constexpr const char* names[] = {"exact", "single", "staggered"};
+    return names[size_t(search)];
+}
+
+const char* name(ContactResponse response) {
+    static constexpr const char* names[] = {"simultaneous", "nearest"};
+    return names[size_t(response)];
+}
+
+double ContactPlan::safeSpeed(double frameTime) const {
+    double least = largestRadius;
+    for (const ContactGroup& group : groups)
+        least = std::min(least, group.radius);
+    return 2 * least * steps / frameTime;
+}
+
+ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups) {
+    ContactPlan out;
+    out.settings = scene.contact;
+    int64_t spheres = 0;
+    double smallest = 1e300;
+    for (size_t g = 0; g < groups.size(); ++g) {
+        const Group& source = scene.groups[groups[g].index];
+        if (!source.contact) continue;
+        ContactGroup group = groupOf(source, groups[g]);
+        group.group = g;
+        group.firstSphere = int(spheres);
+        spheres += int64_t(groups[g].count) * group.spheresOf;
+        if (spheres > mostSpheres)
+            throw Error(source.contact->location, concat(spheres, " spheres of contact are more than the ",
+                                                         mostSpheres, " that a scene may have"));
+        out.largestRadius = std::max(out.largestRadius, group.radius * double(largestScale(groups[g])));
+        smallest = std::min(smallest, group.radius * double(smallestScale(groups[g])));
+        out.groups.push_back(std::move(group));
+        if (out.groups.size() > mostGroups)
+            throw Error(source.contact->location, concat("more than ", mostGroups, " groups with contact"));
+    }
+    if (!out.any()) return out;
+    out.spheres = int(spheres);
+    // a little more than touch, so that rounding loses nothing
+    const double needed = 2 * out.largestRadius * (1 + 1e-5);
+    if (scene.contact.cell && *scene.contact.cell < needed)
+        throw Error(scene.contact.location,
+                    concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
+                           out.largestRadius, " m: at least ", needed, " m are needed"));
+    out.cell = roundedUp(scene.contact.cell.value_or(needed));
+    out.listLength = listLength(out.largestRadius, smallest);
+    while ((int64_t(1) << out.tableBits) < 2 * spheres)
+        ++out.tableBits;
+    out.tableBits = std::max(out.tableBits, 4);
+    const int substeps = scene.solver.substeps;
+    out.steps = std::min(scene.contact.steps > 0 ? scene.contact.steps : (substeps + 1) / 2, substeps);
+    out.pairs.assign(out.groups.size() * out.groups.size(), glm::vec2(0.2f, 0.5f));
+    return out;
+}
+
+// On a lattice over each triangle: a hole's middle is a Voronoi vertex of the spheres, and a step of 1/64 of
+// an edge is within what a radius is known to.
+ContactGap largestGap(const Molecule& molecule, const GroupContact& contact) {
+    const std::vector<glm::dvec3> spheres = restSpheres(molecule, contact.triangles);
+    ContactGap out;
+    constexpr int cuts = 64;
+    for (size_t t = 0; t < molecule.triangles.size(); ++t) {
+        const Triangle& triangle = molecule.triangles[t];
+        const glm::dvec3 &a = spheres[size_t(triangle.a)], &b = spheres[size_t(triangle.b)],
+                         &c = spheres[size_t(triangle.c)];
+        for (int i = 0; i <= cuts; ++i) {
+            for (int k = 0; k + i <= cuts; ++k) {
+                const glm::dvec3 p = a + (b - a) * (double(i) / cuts) + (c - a) * (double(k) / cuts);
+                double nearest = 1e300;
+                for (const glm::dvec3& sphere : spheres)
+                    nearest = std::min(nearest, glm::distance(p, sphere));
+                if (nearest - contact.radius > out.radius) out = {nearest - contact.radius, int(t)};
+            }
+        }
+    }
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,69 @@
+// Contact of molecules with one another, as a scene asks for it: which spheres there are, the grid that finds
+// those that touch, and how a frame is cut into contact steps. Pure; method and equations: docs/contact.md.
+//
+// A molecule of a group with contact carries a sphere at every vertex, then, where asked, one at the middle
+// of every triangle, which moves and is pushed as the mean of its corners. Spheres are numbered through all
+// groups with contact:
+//
+//   sphere k of molecule m of group g:   g.firstSphere + m * g.spheresOf + k
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace shoal {
+
+struct GroupPlan;
+
+struct ContactGroup {
+    size_t group = 0;     // in the plan
+    int firstSphere = 0;  // of all
+    int spheresOf = 0;    // of a molecule
+    double radius = 0;    // m, at scale 1
+    bool triangles = false, self = false;
+    std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
+    // With `self`: bit k of the words of a sphere tells that it does not meet sphere k of its own molecule:
+    // itself, and what is closer than two radii in the rest shape. `wordsOf` words a sphere.
+    std::vector<uint32_t> apart;
+    int wordsOf = 0;
+};
+
+struct ContactPlan {
+    std::vector<ContactGroup> groups;
+    int spheres = 0;
+    double largestRadius = 0;  // m, with the largest scale
+    // m, of the grid; at least twice the largest radius, of 5 significant bits, so that its multiples up to
+    // 2^19 are floats.
+    double cell = 0;
+    int tableBits = 0;    // cells are hashed into a table of 2^tableBits
+    int listLength = 16;  // spheres that one may touch
+    int steps = 1;        // of a frame
+    ContactSettings settings;
+    // x restitution, y friction of groups a and b, at a * groups.size() + b.
+    std::vector<glm::vec2> pairs;
+
+    bool any() const { return !groups.empty(); }
+    // Substeps of contact step i: the frame's, as evenly as can be.
+    static int substepsOf(int step, int steps, int substeps) {
+        return substeps * (step + 1) / steps - substeps * step / steps;
+    }
+    // m/s: spheres that move faster relative to one another may pass through between two contact steps.
+    double safeSpeed(double frameTime) const;
+};
+
+// What spheres of this radius leave open of the molecule's triangles.
+struct ContactGap {
+    double radius = 0;  // m, of the largest sphere that passes through a triangle between the spheres
+    int triangle = -1;  // in which; -1: none is open
+};
+ContactGap largestGap(const Molecule& molecule, const GroupContact& contact);
+
+// Error (located at the group's contact): more spheres than 2^27, or than a label names; a radius that the
+// cell given does not hold.
+ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups);
+
+}  // namespace shoal
