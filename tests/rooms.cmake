@@ -1,16 +1,17 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
-set(rooms core molecule scene compile gpu simulate render reference measure app)
+set(rooms core molecule scene compile gpu sort simulate render reference measure app)
 cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_molecule core)
 set(may_scene core molecule)
 set(may_compile core molecule scene)
 set(may_gpu core)
-set(may_simulate core molecule scene compile gpu)
-set(may_render core molecule scene compile gpu simulate)
+set(may_sort core gpu)
+set(may_simulate core molecule scene compile gpu sort)
+set(may_render core molecule scene compile gpu sort simulate)
 set(may_reference core molecule scene compile)
-set(may_measure core molecule scene compile gpu simulate reference)
+set(may_measure core molecule scene compile gpu sort simulate reference)
 set(may_app ${rooms})
 set(without_gl core molecule scene compile reference)
 

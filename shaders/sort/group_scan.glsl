@@ -1,0 +1,20 @@
+// Sums over a workgroup of LANES lanes in shared memory (Hillis and Steele, CACM 29, 1986).
+shared uint scanned[LANES];
+
+// The sum of the values of the lanes before this one; `total` of all. Every lane must call it.
+uint sumBefore(uint value, out uint total)
+{
+    int lane = int(gl_LocalInvocationID.x);
+    scanned[lane] = value;
+    barrier();
+    for (int reach = 1; reach < LANES; reach *= 2) {
+        uint other = lane >= reach ? scanned[lane - reach] : 0u;
+        barrier();
+        scanned[lane] += other;
+        barrier();
+    }
+    total = scanned[LANES - 1];
+    uint before = scanned[lane] - value;
+    barrier();  // before the next call writes
+    return before;
+}
