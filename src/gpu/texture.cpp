@@ -19,6 +19,8 @@ constexpr FormatRow formatTable[] = {
     {Format::rgba16f, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
     {Format::rgba8, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     {Format::srgb8a8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {Format::rgba32ui, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
+    {Format::rg32ui, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
     {Format::r32f, GL_R32F, GL_RED, GL_FLOAT, 4},
     {Format::depth24, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
     {Format::depth32f, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},

@@ -11,8 +11,9 @@ namespace shoal::gpu {
 
 // Name, and what one texel is in memory when it is uploaded or read back:
 //   rgba32f   4 floats          rgba16f   4 half floats     rgba8, srgb8a8   4 bytes
+//   rgba32ui  4 uint32          rg32ui    2 uint32 (both are read through usampler2D)
 //   r32f      1 float           depth24   1 uint32 (0..2^32-1 is 0..1)      depth32f   1 float
-enum class Format { rgba32f, rgba16f, rgba8, srgb8a8, r32f, depth24, depth32f };
+enum class Format { rgba32f, rgba16f, rgba8, srgb8a8, rgba32ui, rg32ui, r32f, depth24, depth32f };
 
 size_t texelBytes(Format format);  // of the data, as above
 bool isDepth(Format format);

@@ -6,12 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "sort/sorter.h"
+
 namespace sorting {
 
-struct Pair {
-    uint32_t key = 0, index = 0;
-    bool operator==(const Pair&) const = default;
-};
+using Pair = shoal::KeyIndex;
 using Pairs = std::vector<Pair>;
 
 struct Input {

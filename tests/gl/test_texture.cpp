@@ -14,7 +14,8 @@ using Kind = Traffic::Kind;
 // Bytes that every format can hold exactly: any pattern for integers, numbers without NaN for the rest.
 static std::vector<unsigned char> sampleData(Format format, int texels) {
     std::vector<unsigned char> bytes(static_cast<size_t>(texels) * texelBytes(format));
-    if (format == Format::rgba8 || format == Format::srgb8a8) {
+    if (format == Format::rgba8 || format == Format::srgb8a8 || format == Format::rgba32ui ||
+        format == Format::rg32ui) {
         for (size_t i = 0; i < bytes.size(); ++i)
             bytes[i] = static_cast<unsigned char>(i * 37 + 5);
     } else if (format == Format::rgba16f) {
@@ -33,7 +34,8 @@ static std::vector<unsigned char> sampleData(Format format, int texels) {
 
 TEST_CASE("what is uploaded comes back bit for bit, and is counted", "[texture]") {
     for (const Format format :
-         {Format::rgba32f, Format::rgba16f, Format::rgba8, Format::srgb8a8, Format::r32f, Format::depth32f}) {
+         {Format::rgba32f, Format::rgba16f, Format::rgba8, Format::srgb8a8, Format::rgba32ui, Format::rg32ui,
+          Format::r32f, Format::depth32f}) {
         INFO("format " << static_cast<int>(format));
         const int width = 5, height = 3;  // odd, so that row padding would show
         Texture texture(testContext(), format, width, height, "round trip");

@@ -1,0 +1,169 @@
+#include "sort/network_sort.h"
+
+#include <algorithm>
+#include <bit>
+#include <cassert>
+#include <climits>
+
+#include "core/error.h"
+#include "gpu/gl.h"
+
+namespace shoal {
+
+namespace {
+
+int pairsInTexel(NetworkSort::Kind kind) {
+    return kind == NetworkSort::Kind::bitonic ? 2 : 1;
+}
+
+const char* name(NetworkSort::Kind kind) {
+    return kind == NetworkSort::Kind::bitonic ? "bitonic sort" : "odd-even merge sort";
+}
+
+// The largest power of two that is not above.
+size_t powerOfTwoBelow(size_t value) {
+    const size_t power = powerOfTwoAbove(value);
+    return power == value ? power : power / 2;
+}
+
+size_t checkedCapacity(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t capacity) {
+    const size_t most = NetworkSort::most(info, kind);
+    if (capacity <= most) return std::max<size_t>(capacity, 1);
+    throw Error(concat(name(kind), " of ", capacity, " pairs is larger than this context can hold: ", most));
+}
+
+int chosenRowLength(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t capacity, int wanted) {
+    const size_t widest = powerOfTwoBelow(size_t(info.maxTextureSize)) * size_t(pairsInTexel(kind));
+    size_t length = 2;
+    if (wanted != 0) {
+        length = size_t(wanted);
+    } else {
+        while (length * length < capacity)
+            length *= 2;
+        length = std::min(length, widest);
+    }
+    assert(length >= 2 && length == powerOfTwoAbove(length) && "rows are a power of two long");
+    const size_t rows = (capacity + length - 1) / length;
+    if (length <= widest && rows <= size_t(info.maxTextureSize)) return int(length);
+    throw Error(concat(name(kind), " of ", capacity, " pairs in rows of ", length,
+                       " does not fit into a texture of this context, of at most ", info.maxTextureSize,
+                       " x ", info.maxTextureSize, " texels"));
+}
+
+}  // namespace
+
+size_t NetworkSort::most(const gpu::ContextInfo& info, Kind kind) {
+    const auto size = size_t(info.maxTextureSize);
+    return std::min(powerOfTwoBelow(size) * size_t(pairsInTexel(kind)) * size, size_t(INT_MAX / 2));
+}
+
+NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
+                         int rowLength, gpu::ProgramCache* cache)
+    : kind_(kind),
+      capacity_(checkedCapacity(context.info(), kind, capacity)),
+      count_(capacity_),
+      rowLength_(chosenRowLength(context.info(), kind, capacity_, rowLength)),
+      noAttributes_(context, "sort") {
+    const gpu::Format format = kind == Kind::bitonic ? gpu::Format::rgba32ui : gpu::Format::rg32ui;
+    for (int i = 0; i < 2; ++i) {
+        sides_[i] = gpu::Texture(context, format, rowLength_ / pairsInTexel(kind), rows(), "sorted pairs");
+        targets_[i] = gpu::Framebuffer(context, {&sides_[i]}, nullptr, "sorted pairs");
+    }
+    gpu::ProgramOptions options;
+    options.vertex = "passes/fullscreen.vert";
+    options.fragment = kind == Kind::bitonic ? "sort/bitonic.frag" : "sort/odd_even_merge.frag";
+    options.label = name(kind);
+    options.cache = cache;
+    program_ = gpu::Program(context, shaderRoot, options);
+}
+
+int NetworkSort::rows() const {
+    return int((count_ + size_t(rowLength_) - 1) / size_t(rowLength_));
+}
+
+void NetworkSort::setCount(size_t count) {
+    assert(count <= capacity_);
+    count_ = count;
+    spread_.clear();
+}
+
+int NetworkSort::passes() const {
+    if (count_ < 2) return 0;
+    return int(kind_ == Kind::bitonic ? bitonicPasses(powerOfTwoAbove(count_)).size()
+                                      : oddEvenMergePasses(count_).size());
+}
+
+void NetworkSort::drawInto(const gpu::Framebuffer& target) const {
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
+        glDisable(state);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    target.bind(0, 0, target.width(), rows());
+    noAttributes_.bind();
+}
+
+void NetworkSort::begin() const {
+    drawInto(targets_[1 - side_]);
+    program_.use();
+    program_.set("count", int(count_));
+}
+
+void NetworkSort::run(const OddEvenPass& pass) {
+    targets_[1 - side_].bind(0, 0, sides_[0].width(), rows());
+    program_.texture("pairs", 0, pairs());
+    program_.set("rowBits", std::countr_zero(unsigned(rowLength_)));
+    program_.set("run", pass.run);
+    program_.set("distance", pass.distance);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    flip();
+}
+
+void NetworkSort::run(const BitonicPass& pass) {
+    targets_[1 - side_].bind(0, 0, sides_[0].width(), rows());
+    const int width = sides_[0].width();
+    program_.texture("pairs", 0, pairs());
+    program_.set("mask", glm::ivec2(pass.mask % width, pass.mask / width));
+    program_.set("crossed", int(pass.crossed));
+    program_.set("sortedBefore", int(pass.first));
+    program_.set("sortedAfter", int(pass.last));
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    flip();
+}
+
+void NetworkSort::sort() {
+    if (count_ < 2) return;
+    begin();
+    if (kind_ == Kind::bitonic) {
+        for (const BitonicPass& pass : bitonicPasses(powerOfTwoAbove(count_)))
+            run(pass);
+    } else {
+        for (const OddEvenPass& pass : oddEvenMergePasses(count_))
+            run(pass);
+    }
+}
+
+void NetworkSort::sortRows() {
+    assert(kind_ == Kind::bitonic);
+    if (count_ < 2) return;
+    begin();
+    for (const BitonicPass& pass : bitonicPasses(size_t(rowLength_)))
+        run(pass);
+}
+
+void NetworkSort::beginSpread(int frames) {
+    assert(kind_ == Kind::oddEvenMerge && frames >= 1);
+    spread_ = oddEvenMergePasses(count_);
+    frames_ = frames;
+    frame_ = 0;
+}
+
+void NetworkSort::advance() {
+    assert(kind_ == Kind::oddEvenMerge);
+    if (spread_.empty()) return;  // one pair, or none
+    const auto at = [&](int frame) { return spread_.size() * size_t(frame) / size_t(frames_); };
+    begin();
+    for (size_t i = at(frame_); i < at(frame_ + 1); ++i)
+        run(spread_[i]);
+    frame_ = (frame_ + 1) % frames_;
+}
+
+}  // namespace shoal

@@ -1,0 +1,78 @@
+// Sorts pairs of a key and an index by a sorting network in fragment passes (OpenGL 3.3): reads one texture,
+// draws into the other, swaps. Not stable; the same bits at every repeat.
+//
+// Pairs lie in rows of `rowLength`, a power of two; pair i is in row i / rowLength. A texel, unsigned
+// integers:
+//   oddEvenMerge   one pair:  x key, y index
+//   bitonic        two pairs: xy the even one, zw the odd one
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "sort/network.h"
+
+namespace shoal {
+
+class NetworkSort {
+  public:
+    enum class Kind { oddEvenMerge, bitonic };
+
+    // rowLength 0: one that makes the texture about as wide as high. Error: more pairs than fit into the
+    // largest texture of the context, with how many do; out of memory.
+    NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
+                int rowLength = 0, gpu::ProgramCache* cache = nullptr);
+    static size_t most(const gpu::ContextInfo& info, Kind kind);
+
+    // What is sorted from now on: the first `count` pairs (at most the capacity). Ends a spread sort.
+    void setCount(size_t count);
+    size_t count() const { return count_; }
+
+    void sort();
+    // Only within each row, which are as many sorts at once (UberFlow, section 5: what its collisions need).
+    // bitonic only.
+    void sortRows();
+
+    // The whole sort in `frames` parts (1 or more) of as even a number of passes as can be; then from the
+    // start again. No part makes the order worse: the number of inversions never rises, as long as nobody
+    // writes new keys in between. oddEvenMerge only.
+    void beginSpread(int frames);
+    void advance();
+
+    // Pairs are drawn or uploaded into here before they are sorted, and read from here after.
+    const gpu::Texture& pairs() const { return sides_[side_]; }
+    gpu::Texture& pairs() { return sides_[side_]; }
+    // To draw new keys: bind target(), read pairs(), then flip(). The viewport covers the rows of `count`
+    // pairs.
+    const gpu::Framebuffer& target() const { return targets_[1 - side_]; }
+    void drawInto(const gpu::Framebuffer& target) const;
+    void flip() { side_ = 1 - side_; }
+
+    Kind kind() const { return kind_; }
+    size_t capacity() const { return capacity_; }
+    int rowLength() const { return rowLength_; }
+    int passes() const;  // of sort()
+
+  private:
+    void run(const OddEvenPass& pass);
+    void run(const BitonicPass& pass);
+    void begin() const;
+    int rows() const;
+
+    Kind kind_;
+    size_t capacity_, count_;
+    int rowLength_;
+    gpu::Texture sides_[2];
+    gpu::Framebuffer targets_[2];
+    int side_ = 0;
+    gpu::Program program_;
+    gpu::VertexArray noAttributes_;
+    std::vector<OddEvenPass> spread_;
+    int frames_ = 1, frame_ = 0;
+};
+
+}  // namespace shoal

@@ -1,0 +1,135 @@
+#include "sort/sorter.h"
+
+#include <algorithm>
+#include <cassert>
+#include <climits>
+
+#include "core/error.h"
+
+namespace shoal {
+
+using Kind = gpu::Traffic::Kind;
+
+namespace {
+
+constexpr SortMethodRow methods[] = {
+    {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, false, true, "fragment passes, a pair a texel",
+     "Batcher 1968; Latta 2004, section 3.4.4"},
+    {SortMethod::bitonic, "bitonic", false, 3, 3, true, false, "fragment passes, two pairs a texel",
+     "Batcher 1968; UberFlow 2004, section 4.3.3"},
+    {SortMethod::radix, "radix", true, 4, 3, false, false, "compute shaders",
+     "Zagha, Blelloch 1991; Satish, Harris, Garland 2009"},
+    {SortMethod::cpu, "cpu", true, 3, 3, false, false, "read back, std::stable_sort, uploaded",
+     "the yardstick"},
+};
+
+NetworkSort::Kind networkKind(SortMethod method) {
+    return method == SortMethod::bitonic ? NetworkSort::Kind::bitonic : NetworkSort::Kind::oddEvenMerge;
+}
+
+bool isNetwork(SortMethod method) {
+    return method == SortMethod::bitonic || method == SortMethod::oddEvenMerge;
+}
+
+}  // namespace
+
+std::span<const SortMethodRow> sortMethods() {
+    return methods;
+}
+
+const SortMethodRow& row(SortMethod method) {
+    const SortMethodRow& found = methods[size_t(method)];
+    assert(found.method == method);
+    return found;
+}
+
+bool canRun(SortMethod method, const gpu::ContextInfo& info) {
+    return info.atLeast(row(method).major, row(method).minor);
+}
+
+size_t mostPairs(SortMethod method, const gpu::ContextInfo& info) {
+    if (!canRun(method, info)) return 0;
+    if (method == SortMethod::radix) return RadixSort::most(info);
+    if (isNetwork(method)) return NetworkSort::most(info, networkKind(method));
+    return INT_MAX;  // and what the device's memory holds
+}
+
+Sorter::Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod method, size_t capacity,
+               int rowLength, gpu::ProgramCache* cache)
+    : method_(method), capacity_(capacity) {
+    if (isNetwork(method)) {
+        network_ = std::make_unique<NetworkSort>(context, shaderRoot, networkKind(method), capacity,
+                                                 rowLength, cache);
+        return;
+    }
+    if (method == SortMethod::radix)
+        radix_ = std::make_unique<RadixSort>(context, shaderRoot, capacity, cache);
+    const size_t bytes = std::max<size_t>(capacity, 1) * sizeof(KeyIndex);
+    buffer_ = gpu::Buffer(context, gpu::Buffer::Use::storage, nullptr, bytes, "pairs");
+}
+
+void Sorter::upload(std::span<const KeyIndex> pairs) {
+    assert(pairs.size() <= capacity_);
+    count_ = pairs.size();
+    if (!network_) {
+        if (count_ > 0) buffer_.update(Kind::state, 0, pairs.data(), pairs.size_bytes());
+        return;
+    }
+    network_->setCount(count_);
+    const auto length = size_t(network_->rowLength());
+    const int width = network_->pairs().width();
+    std::vector<KeyIndex> rows(pairs.begin(), pairs.end());
+    rows.resize((count_ + length - 1) / length * length);
+    if (rows.empty()) return;
+    network_->pairs().upload(Kind::state, 0, 0, width, int(rows.size() / length), rows.data(),
+                             rows.size() * sizeof(KeyIndex));
+}
+
+std::vector<KeyIndex> Sorter::download() const {
+    std::vector<KeyIndex> out(count_);
+    if (count_ == 0) return out;
+    if (!network_) {
+        buffer_.download(Kind::state, 0, out.data(), count_ * sizeof(KeyIndex));
+        return out;
+    }
+    const auto length = size_t(network_->rowLength());
+    out.resize((count_ + length - 1) / length * length);
+    const gpu::Texture& pairs = network_->pairs();
+    pairs.download(Kind::state, 0, 0, pairs.width(), int(out.size() / length), out.data(),
+                   out.size() * sizeof(KeyIndex));
+    out.resize(count_);
+    return out;
+}
+
+void Sorter::sort(int keyBits) {
+    if (radix_)
+        radix_->sort(buffer_, count_, keyBits);
+    else if (network_)
+        network_->sort();
+    else
+        sortOnCpu();
+}
+
+void Sorter::sortOnCpu() {
+    std::vector<KeyIndex> pairs = download();
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const KeyIndex& a, const KeyIndex& b) { return a.key < b.key; });
+    upload(pairs);
+}
+
+void Sorter::sortRows() {
+    assert(row(method_).rowsOnly);
+    network_->sortRows();
+}
+
+void Sorter::beginSpread(int frames) {
+    assert(row(method_).spread);
+    network_->beginSpread(frames);
+}
+
+void Sorter::advance() {
+    assert(row(method_).spread);
+    network_->advance();
+}
+
+}  // namespace shoal

@@ -1,0 +1,72 @@
+// One interface for four ways to sort pairs of a key and an index: for tests, for benchmarks, and for who
+// wants an order of things on the GPU whatever the context can do. Keys are whole numbers.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/context.h"
+#include "gpu/program_cache.h"
+#include "sort/network_sort.h"
+#include "sort/radix_sort.h"
+
+namespace shoal {
+
+struct KeyIndex {
+    uint32_t key = 0, index = 0;
+    bool operator==(const KeyIndex&) const = default;
+};
+
+enum class SortMethod { oddEvenMerge, bitonic, radix, cpu };
+
+struct SortMethodRow {
+    SortMethod method;
+    const char* name;
+    bool stable;            // equal keys stay in their order
+    int major, minor;       // OpenGL that it needs
+    bool rowsOnly, spread;  // sortRows(); beginSpread() and advance()
+    const char* how;
+    const char* source;
+};
+std::span<const SortMethodRow> sortMethods();
+const SortMethodRow& row(SortMethod method);
+bool canRun(SortMethod method, const gpu::ContextInfo& info);
+// How many pairs the context can hold; 0 where it cannot run the method.
+size_t mostPairs(SortMethod method, const gpu::ContextInfo& info);
+
+class Sorter {
+  public:
+    // rowLength: networks only, see NetworkSort. Error: the context cannot run the method, or not hold so
+    // many.
+    Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod method, size_t capacity,
+           int rowLength = 0, gpu::ProgramCache* cache = nullptr);
+
+    // Sets the number of pairs, at most the capacity. Counted as state, like the download.
+    void upload(std::span<const KeyIndex> pairs);
+    // Ascending, by all 32 bits; radix: by the low `keyBits`.
+    void sort(int keyBits = 32);
+    void sortRows();               // bitonic
+    void beginSpread(int frames);  // odd-even merge
+    void advance();
+    std::vector<KeyIndex> download() const;
+
+    SortMethod method() const { return method_; }
+    size_t count() const { return count_; }
+    // The pairs on the GPU: in a buffer (radix, cpu) or in textures (the networks); else null.
+    gpu::Buffer* buffer() { return buffer_ ? &buffer_ : nullptr; }
+    NetworkSort* network() { return network_.get(); }
+
+  private:
+    void sortOnCpu();
+
+    SortMethod method_;
+    size_t capacity_, count_ = 0;
+    gpu::Buffer buffer_;
+    std::unique_ptr<RadixSort> radix_;
+    std::unique_ptr<NetworkSort> network_;
+};
+
+}  // namespace shoal
