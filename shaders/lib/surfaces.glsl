@@ -1,6 +1,7 @@
 // Surfaces of colliders at a point: xyz unit normal towards the free side, w signed distance (negative inside).
 #include "lib/samples.glsl"
 #include "physics/collide.glsl"
+#include "physics/solid.glsl"
 
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 
@@ -10,11 +11,9 @@ vec4 planeSurface(vec3 origin, vec3 x, vec3 normal)
     return vec4(normal, dot(origin, normal) + dot(x, normal));
 }
 
-// x: relative to the centre.
-vec4 sphereSurface(vec3 x, float radius)
+vec4 turnedSurface(vec4 q, vec4 surface)
 {
-    float r = length(x);
-    return vec4(r > 0.0 ? x / r : vec3(0.0, 1.0, 0.0), r - radius);
+    return vec4(turned(q, surface.xyz), surface.w);
 }
 
 // x: relative to the first sample's corner at height 0. cells: 1/dx, dx, dz, 1/dz.

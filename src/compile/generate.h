@@ -19,9 +19,14 @@ struct Generated {
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+struct GeneratedColliders : Generated {
+    // Of each collider: the parameter whose x is its restitution, y its friction.
+    std::vector<size_t> materials;
+};
+
 // Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift), and
 // float clearance(vec3 anchor, vec3 position): negative where collideAll would respond.
-Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
+GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
 // The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:
 // loadFieldParameters().

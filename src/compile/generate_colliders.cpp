@@ -7,11 +7,23 @@ namespace shoal {
 
 namespace {
 
+constexpr double leastAxis = 1e-9;  // m: ends of a capsule that are nearer coincide
+
+// A unit vector across an axis of any length.
+glm::dvec3 across(const glm::dvec3& axis) {
+    const glm::dvec3 size = glm::abs(axis);
+    const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+                             : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    const glm::dvec3 out = glm::cross(axis / std::max({size.x, size.y, size.z, 1e-300}), other);
+    return glm::length(out) > 0 ? glm::normalize(out) : glm::dvec3(0, 1, 0);
+}
+
 class Emitter {
   public:
     explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
-    Generated result;
+    GeneratedColliders result;
     std::string clearance;  // statements of the function of that name
 
     std::string slot(const glm::dvec3& v, double w = 0) {
@@ -20,6 +32,7 @@ class Emitter {
     }
 
     void collider(const Collider& collider) {
+        result.materials.push_back(result.parameters.size());
         const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
         const std::string surface =
             std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
@@ -42,6 +55,25 @@ class Emitter {
     std::string emit(const SphereCollider& sphere) {
         const std::string center = slot(sphere.center, sphere.radius);
         return concat("sphereSurface((anchor - ", center, ".xyz) + c.position, ", center, ".w)");
+    }
+
+    std::string emit(const BoxCollider& box) {
+        const std::string center = slot(box.center), half = slot(box.size / 2.0);
+        const std::string x = concat("(anchor - ", center, ".xyz) + c.position");
+        if (box.rotation == glm::dquat(1, 0, 0, 0)) return concat("boxSurface(", x, ", ", half, ".xyz)");
+        const std::string turn = slot({box.rotation.x, box.rotation.y, box.rotation.z}, box.rotation.w);
+        return concat("turnedSurface(", turn, ", boxSurface(turnedBack(", turn, ", ", x, "), ", half,
+                      ".xyz))");
+    }
+
+    std::string emit(const CapsuleCollider& capsule) {
+        glm::dvec3 axis = capsule.to - capsule.from;
+        if (glm::length(axis) < leastAxis) axis = {};
+        const double squared = glm::dot(axis, axis);
+        const std::string from = slot(capsule.from, capsule.radius);
+        const std::string along = slot(axis, squared > 0 ? 1 / squared : 0), aside = slot(across(axis));
+        return concat("capsuleSurface((anchor - ", from, ".xyz) + c.position, ", along, ".xyz, ", along,
+                      ".w, ", aside, ".xyz, ", from, ".w)");
     }
 
     std::string emit(const HeightFieldCollider& field) {
@@ -80,11 +112,12 @@ class Emitter {
 
 }  // namespace
 
-Generated generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples) {
+GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
+                                     std::vector<glm::vec4>& samples) {
     Emitter emitter(samples);
     for (const Collider& collider : colliders)
         emitter.collider(collider);
-    Generated out = std::move(emitter.result);
+    GeneratedColliders out = std::move(emitter.result);
     out.source = concat(
         "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
         parameterArray("colliderParameters", out.parameters.size()),
@@ -97,7 +130,7 @@ Generated generateColliders(const std::vector<Collider>& colliders, std::vector<
 }
 
 const char* kindName(const ColliderShape& shape) {
-    static constexpr const char* names[] = {"plane", "sphere", "heightField"};
+    static constexpr const char* names[] = {"plane", "sphere", "heightField", "box", "capsule"};
     return names[shape.index()];
 }
 

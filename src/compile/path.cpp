@@ -65,7 +65,7 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     if (!limits.compute)
         throw Error(concat("the fused path needs OpenGL 4.3; this context has ", limits.version));
     // beside the two arrays a kernel has about 40 numbers of its own
-    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameters.size()) + 64;
+    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameterCount) + 64;
     if (uniforms > size_t(limits.maxUniformComponents))
         throw Error(concat("fields and colliders take ", uniforms,
                            " numbers of uniforms; a compute shader holds ", limits.maxUniformComponents,

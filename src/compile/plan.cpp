@@ -6,6 +6,7 @@
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
 #include "compile/pack.h"
+#include "compile/surface_pair.h"
 
 namespace shoal {
 
@@ -123,6 +124,18 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
     add(PassKind::watch, When::frameEnd, "stops a run whose state is not finite or too fast");
 }
 
+// The colliders' parameters as they are for a group: what a surface does depends on what meets it.
+std::vector<glm::vec4> parametersOf(const Scene& scene, const GroupPlan& group,
+                                    const GeneratedColliders& colliders) {
+    std::vector<glm::vec4> out = colliders.parameters;
+    for (size_t i = 0; i < scene.colliders.size(); ++i) {
+        const SurfacePair pair = surfacePair(scene, scene.groups[group.index], scene.colliders[i]);
+        out[colliders.materials[i]].x = float(pair.restitution);
+        out[colliders.materials[i]].y = float(pair.friction);
+    }
+    return out;
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -179,7 +192,8 @@ Plan compile(const Scene& scene) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
-    Generated fields, colliders;
+    Generated fields;
+    GeneratedColliders colliders;
     plan.fieldCount = scene.fields.size();
     plan.colliderCount = scene.colliders.size();
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
@@ -197,7 +211,9 @@ Plan compile(const Scene& scene) {
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
     plan.collideSource = std::move(colliders.source);
-    plan.colliderParameters = std::move(colliders.parameters);
+    plan.colliderParameterCount = colliders.parameters.size();
+    for (GroupPlan& group : plan.groups)
+        if (group.needs.collide) group.colliderParameters = parametersOf(scene, group, colliders);
     plan.sampleRows = tableRows(plan.samples);
     return plan;
 }

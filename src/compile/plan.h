@@ -56,8 +56,10 @@ struct GroupPlan {
     std::vector<bool> pinned;     // a vertex each: held at the start
     GroupState start;
     GroupConstants constants;
-    KernelText kernel;  // of the fused path
-    Molecule shape;     // bdf2-corotated only: of its matrix (compile/corotated.h)
+    std::vector<glm::vec4> colliderParameters;  // with the group's restitution and friction; 0 or as many as
+                                                // Plan::colliderParameterCount
+    KernelText kernel;                          // of the fused path
+    Molecule shape;                             // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
@@ -92,7 +94,8 @@ struct Plan {
     // by index like the topology.
     std::string fieldSource;    // generated/fields.glsl
     std::string collideSource;  // generated/colliders.glsl
-    std::vector<glm::vec4> fieldParameters, colliderParameters;
+    std::vector<glm::vec4> fieldParameters;
+    size_t colliderParameterCount = 0;  // of each group that collides
     size_t fieldCount = 0, colliderCount = 0;
     bool longFields = false;  // noise or grids: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;

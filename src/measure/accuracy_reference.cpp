@@ -8,6 +8,8 @@
 #include <mutex>
 #include <thread>
 
+#include "compile/surface_pair.h"
+
 namespace shoal::measure {
 
 namespace {
@@ -33,7 +35,7 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.gravity = scene.gravity;
     out.drag = group.drag;
     out.fields = scene.fields;
-    if (group.collide) out.colliders = scene.colliders;
+    out.colliders = collidersOf(scene, group);
     return out;
 }
 

@@ -137,7 +137,8 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
     hash.add(plan.fieldSource);
     hash.add(plan.collideSource);
     hash.add(plan.fieldParameters);
-    hash.add(plan.colliderParameters);
+    for (const GroupPlan& group : plan.groups)
+        hash.add(group.colliderParameters);
     hash.add(plan.samples);
     hash.add(options.solvers);
     hash.add(options.samplings);

@@ -23,6 +23,35 @@ Surface surface(const SphereCollider& sphere, const glm::dvec3& x, double) {
     return {r > 0 ? d / r : glm::dvec3(0, 1, 0), r - sphere.radius};
 }
 
+Surface surface(const BoxCollider& box, const glm::dvec3& x, double) {
+    const glm::dvec3 local = glm::conjugate(box.rotation) * (x - box.center),
+                     q = glm::abs(local) - box.size / 2.0;
+    glm::dvec3 n = glm::max(q, 0.0);
+    double distance = glm::length(n);
+    if (distance > 0) {
+        n /= distance;
+    } else {  // inside: the nearest face
+        const int axis = q.x >= q.y && q.x >= q.z ? 0 : q.y >= q.z ? 1 : 2;
+        n[axis] = 1;
+        distance = q[axis];
+    }
+    for (int i = 0; i < 3; ++i)
+        if (local[i] < 0) n[i] = -n[i];
+    return {box.rotation * n, distance};
+}
+
+Surface surface(const CapsuleCollider& capsule, const glm::dvec3& x, double) {
+    const glm::dvec3 axis = capsule.to - capsule.from, off = x - capsule.from;
+    const double squared = glm::dot(axis, axis);
+    const double share = squared > 0 ? std::clamp(glm::dot(off, axis) / squared, 0.0, 1.0) : 0;
+    const glm::dvec3 d = off - share * axis;
+    const double r = glm::length(d);
+    if (r > 0) return {d / r, r - capsule.radius};
+    const glm::dvec3 other = std::abs(axis.x) <= std::abs(axis.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+    const glm::dvec3 n = glm::cross(axis, other);
+    return {glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 1, 0), -capsule.radius};
+}
+
 // Between the values value(x, z) of the four samples around p, in units of cells.
 template <typename Value>
 auto bilinear(const HeightFieldCollider& field, const glm::dvec2& p, Value&& value) {
@@ -115,6 +144,10 @@ RestSurfaces::RestSurfaces(const std::vector<Collider>& colliders) : colliders_(
 RestSurfaces::Facts RestSurfaces::facts(const Collider& collider) {
     Facts out;
     if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) out.feature = sphere->radius / 2;
+    if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape))
+        out.feature = capsule->radius / 2;
+    if (const auto* box = std::get_if<BoxCollider>(&collider.shape))
+        out.feature = std::min({box->size.x, box->size.y, box->size.z}) / 4;
     if (const auto* field = std::get_if<HeightFieldCollider>(&collider.shape)) {
         const glm::dvec2 cell = Heights(*field).cell();
         out.feature = std::min(cell.x, cell.y);
@@ -147,11 +180,16 @@ RestSurfaces::Following RestSurfaces::following(size_t i, const Surface& surface
     if (std::holds_alternative<PlaneCollider>(collider(i).shape)) return {};
     const double speed = glm::length(v);
     if (!(speed > 0)) return {};
-    if (exact(i)) {  // v . dn/dt = v_t^2 / r, from the centre
-        const double r =
-            surface.distance + collider(i).thickness + std::get<SphereCollider>(collider(i).shape).radius;
+    if (const auto* sphere = std::get_if<SphereCollider>(&collider(i).shape)) {
+        // v . dn/dt = v_t^2 / r, from the centre
+        const double r = surface.distance + collider(i).thickness + sphere->radius;
         const double along = glm::dot(v, surface.normal);
         return {0, (speed * speed - along * along) / r};
+    }
+    if (exact(i)) {
+        const double time = nudge / speed;
+        const glm::dvec3 turn = at(i, x + v * time).normal - at(i, x - v * time).normal;
+        return {0, glm::dot(v, turn) / (2 * time)};
     }
     const double shift = shiftAlong(i, surface, x, v);
     const glm::dvec3 rate = v + shift * surface.normal;

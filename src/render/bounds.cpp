@@ -38,6 +38,22 @@ static bool isCrown(const Group& group, const Box& box) {
            extent.y > 0.35 * std::max(extent.x, extent.z);
 }
 
+// Nothing of what has no end, and of height fields, which are not drawn.
+static std::optional<Box> boundsOf(const ColliderShape& shape) {
+    if (const auto* sphere = std::get_if<SphereCollider>(&shape))
+        return Box{sphere->center - sphere->radius, sphere->center + sphere->radius};
+    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape))
+        return Box{glm::min(capsule->from, capsule->to) - capsule->radius,
+                   glm::max(capsule->from, capsule->to) + capsule->radius};
+    if (const auto* box = std::get_if<BoxCollider>(&shape)) {
+        const glm::dmat3 turn = glm::mat3_cast(box->rotation);
+        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box->size.x + glm::abs(turn[1]) * box->size.y +
+                                       glm::abs(turn[2]) * box->size.z);
+        return Box{box->center - half, box->center + half};
+    }
+    return {};
+}
+
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     SceneBounds bounds;
     bounds.casters = emptyBox;
@@ -55,9 +71,9 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
         }
     }
     for (const Collider& collider : scene.colliders) {
-        const auto* sphere = std::get_if<SphereCollider>(&collider.shape);
-        if (sphere == nullptr || !collider.draw) continue;
-        include(bounds.casters, sphere->center - sphere->radius, sphere->center + sphere->radius);
+        if (!collider.draw) continue;
+        if (const std::optional<Box> box = boundsOf(collider.shape))
+            include(bounds.casters, box->low, box->high);
     }
     if (isEmpty(bounds.casters)) {
         for (const Model& model : scene.models) {

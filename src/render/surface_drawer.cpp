@@ -26,6 +26,12 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) {
             drawn.roughness = 0.5f;
             add(context, sphereMesh(*sphere), std::move(drawn), collider.name.c_str());
+        } else if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) {
+            drawn.roughness = 0.5f;
+            add(context, boxMesh(*box), std::move(drawn), collider.name.c_str());
+        } else if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape)) {
+            drawn.roughness = 0.5f;
+            add(context, capsuleMesh(*capsule), std::move(drawn), collider.name.c_str());
         } else if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
             drawn.plane = *plane;
             drawn.casts = false;

@@ -1,4 +1,4 @@
-// Draws what stands still: host models and terrain, and the planes and spheres that molecules collide with.
+// Draws what stands still: host models and terrain, and the colliders that molecules meet.
 #pragma once
 
 #include <optional>

@@ -24,6 +24,8 @@ struct SurfaceMesh {
 
 SurfaceMesh meshOf(const Mesh& mesh);
 SurfaceMesh sphereMesh(const SphereCollider& sphere);
+SurfaceMesh boxMesh(const BoxCollider& box);
+SurfaceMesh capsuleMesh(const CapsuleCollider& capsule);
 // Of radius 1 around the origin; rings closer together in the middle, where the eye is.
 SurfaceMesh discMesh(const glm::dvec3& normal);
 

@@ -130,16 +130,37 @@ struct HeightFieldCollider {
     bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
 };
 
-using ColliderShape = std::variant<PlaneCollider, SphereCollider, HeightFieldCollider>;
+struct BoxCollider {
+    glm::dvec3 center{0};
+    glm::dvec3 size{1};  // m, whole edges
+    glm::dquat rotation{1, 0, 0, 0};
+};
+
+// All within `radius` of the line between two points; a sphere where they coincide.
+struct CapsuleCollider {
+    glm::dvec3 from{0}, to{0};
+    double radius = 1;  // m
+};
+
+using ColliderShape =
+    std::variant<PlaneCollider, SphereCollider, HeightFieldCollider, BoxCollider, CapsuleCollider>;
 
 struct Collider {
     std::string name;
+    std::string surface = {};  // what it is made of, for surfacePairs; empty: nothing in particular
     ColliderShape shape;
     double restitution = 0.2;  // in [0, 1]
     double friction = 0.5;     // Coulomb's mu, at least 0
     double thickness = 0.002;  // m: vertices rest this far from the surface
-    bool draw = true;          // planes and spheres are drawn; height fields show as their model
+    bool draw = true;          // all but height fields, which show as their model
     glm::dvec3 color{0.2, 0.21, 0.19};
+};
+
+// Restitution and friction between two surfaces, by the names that colliders and groups give them. What is
+// left out is as without the rule (compile/surface_pair.h).
+struct SurfaceRule {
+    std::string a, b;  // in any order; may be the same
+    std::optional<double> restitution, friction;
 };
 
 // ---- Models
@@ -233,6 +254,8 @@ struct Group {
     double phaseSpread = 0;             // rad: actuation phase varies by up to this between instances
     bool collide = true;
     std::optional<GroupContact> contact;           // nothing: molecules of the group pass through one another
+    std::string surface;                           // what it is made of, for surfacePairs
+    double restitution = 0.2, friction = 0.5;      // against other groups
     std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
     Location location;                             // of the group in the file, for messages
 };
@@ -309,6 +332,7 @@ struct Scene {
     ContactSettings contact;  // means something where groups have contact
     std::vector<Field> fields;
     std::vector<Collider> colliders;
+    std::vector<SurfaceRule> surfacePairs;
     std::vector<Model> models;
     std::vector<Group> groups;
     Camera camera;

@@ -98,6 +98,7 @@ Scene parseScene(const std::string& text, const std::string& file) {
     scene.models = readModels(r);
     scene.colliders = readColliders(r, scene.models, scene.warnings);
     scene.groups = readGroups(r, scene.models, scene.warnings);
+    scene.surfacePairs = readSurfacePairs(r, scene.colliders, scene.groups);
     r.finish();
     return scene;
 }

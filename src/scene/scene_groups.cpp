@@ -216,6 +216,9 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     r.get("phaseSpread", group.phaseSpread, Range::atLeast(0));
     r.get("collide", group.collide);
     readContact(r, group);
+    getSurface(r, group.surface);
+    r.get("restitution", group.restitution, Range::between(0, 1));
+    r.get("friction", group.friction, Range::atLeast(0));
     getColor(r, "color", group.color);
     getColor(r, "secondColor", group.secondColor);
     r.finish();

@@ -25,6 +25,9 @@ std::vector<Field> readFields(JsonReader& scene);
 std::vector<Model> readModels(JsonReader& scene);
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
                                     std::vector<Warning>& warnings);
+// Error: a surface that neither a collider nor a group has; a pair given twice.
+std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<Collider>& colliders,
+                                          const std::vector<Group>& groups);
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 
@@ -43,6 +46,9 @@ bool getDirection(JsonReader& reader, const std::string& key, glm::dvec3& out);
 
 // {"low": [x, y, z], "high": [x, y, z]}, low below high (or equal where `flat`).
 bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat = false);
+
+// "surface": a name that is not empty.
+bool getSurface(JsonReader& reader, std::string& out);
 
 // A colour: three numbers, at least 0.
 bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out);

@@ -88,7 +88,7 @@ void Fused::makeStep(size_t index) {
     if (group.needs.fields)
         kernel.step.set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
     if (group.needs.collide)
-        kernel.step.set("givenColliderParameters", std::span<const glm::vec4>(plan_->colliderParameters));
+        kernel.step.set("givenColliderParameters", std::span<const glm::vec4>(group.colliderParameters));
 }
 
 // A GPU reads the matrix from a buffer. To a CPU rasteriser every read of a uniform is a call: there it

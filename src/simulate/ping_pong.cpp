@@ -79,7 +79,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
             plan.groups[pass.group].needs.fields)
             program.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (pass.kind == PassKind::collide)
-            program.set("colliderParameters", std::span<const glm::vec4>(plan.colliderParameters));
+            program.set("colliderParameters", std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
 }
 

@@ -242,7 +242,7 @@ HeightFieldCollider rolling(bool sampledNormals) {
 }
 
 std::vector<Collider> everyCollider() {
-    std::vector<Collider> out(4);
+    std::vector<Collider> out(6);
     out[0].shape = PlaneCollider{};
     SphereCollider sphere;
     sphere.center = {0.4, 0.5, -0.3};
@@ -250,6 +250,9 @@ std::vector<Collider> everyCollider() {
     out[1].shape = sphere;
     out[2].shape = rolling(false);
     out[3].shape = rolling(true);
+    out[4].shape =
+        BoxCollider{{0.2, 0.3, 0.1}, {1.6, 0.7, 1.1}, glm::angleAxis(0.4, glm::dvec3(0.6, 0, 0.8))};
+    out[5].shape = CapsuleCollider{{-0.9, 0.3, 0.2}, {0.8, 0.6, -0.3}, 0.35};
     for (Collider& collider : out)
         collider.thickness = 0.01;
     return out;

@@ -119,7 +119,7 @@ TEST_CASE("changing a number changes no shader text", "[plan]") {
     CHECK(after.fieldSource == before.fieldSource);
     CHECK(after.collideSource == before.collideSource);
     CHECK(after.fieldParameters != before.fieldParameters);
-    CHECK(after.colliderParameters != before.colliderParameters);
+    CHECK(after.groups[0].colliderParameters != before.groups[0].colliderParameters);
 }
 
 TEST_CASE("groups share the textures row by row", "[plan]") {

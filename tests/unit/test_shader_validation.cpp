@@ -145,11 +145,14 @@ std::vector<Collider> everyCollider() {
     stored.heights.resize(4);
     HeightFieldCollider sampled = stored;
     sampled.sampledNormals = true;
-    std::vector<Collider> out(4);
+    std::vector<Collider> out(7);
     out[0].shape = PlaneCollider{};
     out[1].shape = SphereCollider{};
     out[2].shape = std::move(stored);
     out[3].shape = std::move(sampled);
+    out[4].shape = BoxCollider{};
+    out[5].shape = BoxCollider{{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5, 0.5}};
+    out[6].shape = CapsuleCollider{};
     return out;
 }
 
