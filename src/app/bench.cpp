@@ -179,7 +179,6 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
 }  // namespace
 
 int benchCommand(const Options& options) {
-    if (options.benchOf == "sort") return benchSortCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
     gpu::ContextOptions contextOptions;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/plan.h"
+#include "compile/surface_pair.h"
 
 namespace shoal {
 
@@ -40,6 +41,28 @@ void markClose(const Molecule& molecule, ContactGroup& group) {
                 group.apart[a * size_t(group.wordsOf) + b / 32] |= 1u << (b % 32);
 }
 
+std::vector<glm::vec4> shapesOf(const ContactGroup& group, const Molecule& molecule, bool held) {
+    const size_t vertices = molecule.vertices.size();
+    std::vector<std::vector<int>> around(vertices);
+    for (size_t t = 0; t < group.corners.size(); ++t)
+        for (int c = 0; c < 3; ++c)
+            around[size_t(group.corners[t][c])].push_back(int(vertices + t));
+    std::vector<glm::vec4> out;
+    int first = group.spheresOf;
+    for (size_t v = 0; v < vertices; ++v) {
+        const Vertex& vertex = molecule.vertices[v];
+        const bool pinned = held && vertex.pinned;
+        out.emplace_back(float(1 / vertex.mass), pinned ? 1.0f : 0.0f, float(first), float(around[v].size()));
+        first += int(around[v].size());
+    }
+    for (const glm::ivec3& corners : group.corners)
+        out.emplace_back(glm::vec3(corners), 0.0f);
+    for (const std::vector<int>& spheres : around)
+        for (const int sphere : spheres)
+            out.emplace_back(float(sphere), 0.0f, 0.0f, 0.0f);
+    return out;
+}
+
 ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     ContactGroup out;
     out.radius = source.contact->radius;
@@ -51,6 +74,7 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
             out.corners.emplace_back(t.a, t.b, t.c);
         out.spheresOf += int(out.corners.size());
     }
+    out.shapes = shapesOf(out, source.molecule, plan.needs.pins);
     if (out.self) markClose(source.molecule, out);
     return out;
 }
@@ -68,7 +92,7 @@ float smallestScale(const GroupPlan& group) {
 // As many of the smallest spheres as lie around the largest one, pushed together a little.
 int listLength(double largest, double smallest) {
     const double ratio = (largest + smallest) / smallest;
-    return int(std::clamp(std::ceil(4 * ratio * ratio), 16.0, 64.0));
+    return int(std::clamp(std::ceil(6 * ratio * ratio), 24.0, 96.0));
 }
 
 }  // namespace
@@ -113,8 +137,8 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     }
     if (!out.any()) return out;
     out.spheres = int(spheres);
-    // a little more than touch, so that rounding loses nothing
-    const double needed = 2 * out.largestRadius * (1 + 1e-5);
+    // two diameters, and a little more so that rounding loses nothing
+    const double needed = 4 * out.largestRadius * (1 + 1e-5);
     if (scene.contact.cell && *scene.contact.cell < needed)
         throw Error(scene.contact.location,
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
@@ -126,7 +150,12 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     out.tableBits = std::max(out.tableBits, 4);
     const int substeps = scene.solver.substeps;
     out.steps = std::min(scene.contact.steps > 0 ? scene.contact.steps : (substeps + 1) / 2, substeps);
-    out.pairs.assign(out.groups.size() * out.groups.size(), glm::vec2(0.2f, 0.5f));
+    for (const ContactGroup& a : out.groups) {
+        for (const ContactGroup& b : out.groups) {
+            const SurfacePair pair = surfacePair(scene, groups[a.group].index, groups[b.group].index);
+            out.pairs.emplace_back(pair.restitution, pair.friction);
+        }
+    }
     return out;
 }
 

@@ -26,6 +26,7 @@ struct ContactGroup {
     double radius = 0;    // m, at scale 1
     bool triangles = false, self = false;
     std::vector<glm::ivec3> corners;  // of the spheres behind those of the vertices
+    std::vector<glm::vec4> shapes;    // shaders/contact/shape.glsl
     // With `self`: bit k of the words of a sphere tells that it does not meet sphere k of its own molecule:
     // itself, and what is closer than two radii in the rest shape. `wordsOf` words a sphere.
     std::vector<uint32_t> apart;
@@ -40,7 +41,7 @@ struct ContactPlan {
     // 2^19 are floats.
     double cell = 0;
     int tableBits = 0;    // cells are hashed into a table of 2^tableBits
-    int listLength = 16;  // spheres that one may touch
+    int listLength = 24;  // spheres that one may touch
     int steps = 1;        // of a frame
     ContactSettings settings;
     // x restitution, y friction of groups a and b, at a * groups.size() + b.

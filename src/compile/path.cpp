@@ -41,6 +41,9 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
                            name(plan.fieldSampling), " needs the fused path"));
+    if (plan.contact.any())
+        throw Error(plan.groups[plan.contact.groups.front().group].location,
+                    "contact between molecules needs the fused path (OpenGL 4.3)");
     for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
             throw Error(group.location,

@@ -9,6 +9,7 @@ namespace shoal::gpu {
 enum class Barrier {
     textureFetch,  // reading through samplers, buffer textures among them
     storage,       // reading and writing storage buffers
+    command,       // Program::dispatchIndirect
     bufferUpdate,  // Buffer::update, download and copyTo; these ask for it themselves
 };
 

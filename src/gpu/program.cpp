@@ -248,4 +248,11 @@ void Program::dispatch(int groupsX) const {
     glDispatchCompute(static_cast<GLuint>(groupsX), 1, 1);
 }
 
+void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
+    assert(inUse() && "use() goes before dispatchIndirect()");
+    assert(offset % 4 == 0 && offset + 3 * sizeof(uint32_t) <= groups.bytes());
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
+    glDispatchComputeIndirect(static_cast<GLintptr>(offset));
+}
+
 }  // namespace shoal::gpu

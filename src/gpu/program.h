@@ -64,6 +64,8 @@ class Program {
     void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
     // Compute programs, in use (assert). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX) const;
+    // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
+    void dispatchIndirect(const Buffer& groups, size_t offset) const;
     bool uses(const char* name) const;  // the compiler kept it
 
     GLuint id() const { return handle_.id(); }

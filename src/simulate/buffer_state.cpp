@@ -135,6 +135,10 @@ GroupBuffers::Range GroupBuffers::newState(const Part& part) const {
     return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
 }
 
+GroupBuffers::Range GroupBuffers::currentState(const Part& part) const {
+    return rangeOf(part, state_[size_t(current_)], layout_.stateElements());
+}
+
 GroupBuffers::Range GroupBuffers::records(const Part& part) const {
     return rangeOf(part, records_, 1);
 }

@@ -46,6 +46,7 @@ class GroupBuffers {
         size_t offset, bytes;
     };
     Range newState(const Part& part) const;
+    Range currentState(const Part& part) const;  // to be changed between dispatches
     Range records(const Part& part) const;
     Range normals(const Part& part) const;
     void flip() { current_ = inPlace_ ? 0 : 1 - current_; }

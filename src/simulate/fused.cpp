@@ -53,7 +53,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
         kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
-        kernel.normals = options.drawn;
+        kernel.normals = options.drawn && !plan.contact.any();  // contact still moves what a dispatch leaves
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
         kernel.watch = options.watch;
@@ -71,11 +71,13 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         }
         makeStep(g);
         if (!options.drawn || !group.needs.normals) continue;
-        kernel.onlyNormals = true;
+        kernel.normals = kernel.onlyNormals = true;
         gpu::ProgramOptions program = kernelProgram(plan, g, kernel);
         program.cache = options.cache;
         made.normals = Program(context, shaderRoot, program);
     }
+    if (plan.contact.any())
+        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, options.cache);
 }
 
 void Fused::makeStep(size_t index) {
@@ -163,7 +165,9 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
     }
     store(program, "NewState", binding::newState, buffers.newState(part));
     if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));
-    if (buffers.hasNormals()) store(program, "NewNormals", binding::newNormals, buffers.normals(part));
+    const bool writesNormals = kernels_[index].options.normals || &program == &kernels_[index].normals;
+    if (buffers.hasNormals() && writesNormals)
+        store(program, "NewNormals", binding::newNormals, buffers.normals(part));
 }
 
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
@@ -173,7 +177,30 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
                                                                       : part.count);
 }
 
+// Contact step i of a frame that is cut into `steps`.
+static Frame pieceOf(const Frame& frame, int i, int steps) {
+    const int substeps = frame.parameters.substeps;
+    Frame out = frame;
+    out.time = frame.time + frame.h * (substeps * i / steps);
+    out.number = frame.number * steps + i;  // random numbers differ
+    out.parameters.substeps = ContactPlan::substepsOf(i, steps, substeps);
+    out.parameters.frameTime = frame.h * out.parameters.substeps;
+    out.restarts = frame.restarts && i == 0;
+    return out;
+}
+
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
+    if (!contact_) return run(frame, timers);
+    const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);
+    for (int i = 0; i < steps; ++i) {
+        const Frame piece = pieceOf(frame, i, steps);
+        run(piece, timers);
+        contact_->step(piece.parameters.frameTime, piece.parameters, state, timers);
+    }
+    if (drawn_) computeNormals(timers);
+}
+
+void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
     const auto timer = timers.time("fused");
     gpu::barrier(
         {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written

@@ -1,8 +1,10 @@
 // The fused path (OpenGL 4.3): one dispatch a group and frame. Each molecule is read once, runs all substeps
 // of the frame in the registers of a lane (or the shared memory of a workgroup), and is written once, with
-// its normals where something is drawn.
+// its normals where something is drawn. Contact between molecules cuts the frame into contact steps: a
+// dispatch of some of its substeps, then the passes of contact (simulate/molecule_contact.h).
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,6 +13,7 @@
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
 #include "simulate/fused_kernel.h"
+#include "simulate/molecule_contact.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 
@@ -36,6 +39,7 @@ class Fused {
 
     std::vector<GroupBuffers> state;  // per group
     Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
+    const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
     // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
     bool alarmed() const;
     void disarm();
@@ -50,6 +54,7 @@ class Fused {
     void makeStep(size_t index);
     void makeFactors(size_t index);
     void updateFactors(size_t index, const Frame& frame);
+    void run(const Frame& frame, gpu::PassTimers& timers);
     void setUniforms(const gpu::Program& program, const GroupPlan& group, const Frame& frame) const;
     void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
@@ -62,6 +67,7 @@ class Fused {
     gpu::ProgramCache* cache_;
     std::vector<Kernel> kernels_;
     gpu::Buffer alarm_;  // one word; where watched
+    std::unique_ptr<MoleculeContact> contact_;
 };
 
 // Of a context, for compile/path.h.

@@ -39,8 +39,10 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         fused.inPlace = inPlace_ = true;
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {
+        // what the other path does not have
+        if (plan_.contact.any()) throw;
         for (const GroupPlan& group : plan_.groups)
-            if (solver(group.solver).implicit) throw;  // which the other path does not have
+            if (solver(group.solver).implicit) throw;
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
         choice_.why = "the fused path failed";
         warnings_.push_back(
@@ -103,6 +105,11 @@ void Simulation::check() const {
 Lanes Simulation::lanes(size_t group) const {
     const auto* fused = std::get_if<Fused>(&path_);
     return fused ? fused->lanes(group) : Lanes::automatic;
+}
+
+const MoleculeContact* Simulation::contact() const {
+    const auto* fused = std::get_if<Fused>(&path_);
+    return fused ? fused->contact() : nullptr;
 }
 
 StateView Simulation::state() const {

@@ -1,0 +1,20 @@
+// What the spheres of a molecule are: one texel each.
+//   of a vertex     x 1/mass (1/kg), y 1: pinned, z first of its triangles' spheres in `around`, w their number
+//   of a triangle   xyz its corners
+// Behind them `around`: the spheres of the triangles around a vertex, one texel each (x).
+// Set by C++: VERTICES, SPHERES, BLOCK, POSITION_ELEMENTS, STATE_ELEMENTS.
+#include "lib/packed.glsl"
+
+layout(local_size_x = 64) in;
+
+uniform samplerBuffer shapes;
+
+vec4 shapeOf(int sphere)
+{
+    return texelFetch(shapes, sphere);
+}
+
+float weightOf(vec4 shape, bool released)
+{
+    return shape.y > 0.5 && !released ? 0.0 : shape.x;
+}

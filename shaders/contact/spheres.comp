@@ -1,0 +1,66 @@
+// A lane a sphere of one group: from the state to records in the spheres' own order, and the key of its cell.
+#include "contact/shape.glsl"
+#include "physics/cells.glsl"
+
+uniform samplerBuffer oldState;
+uniform samplerBuffer oldRecords;
+#ifdef CONSTANTS
+uniform samplerBuffer constants;
+#endif
+uniform int firstSphere;     // of the part
+uniform int firstMolecule;
+uniform int partSpheres;
+uniform int label;           // of the group's first molecule
+uniform int keyMask;
+uniform float cell;
+uniform float radius;
+uniform vec3 cellShift;      // m, of a staggered grid
+
+layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
+#ifndef ONLY_KEYS
+layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
+layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
+layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
+#endif
+
+void main()
+{
+    int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
+    int molecule = lane / SPHERES;
+    int k = lane - molecule * SPHERES;
+    vec4 record = texelFetch(oldRecords, molecule);
+    bool released = record.w < 0.0;
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    int velocities = first + POSITION_ELEMENTS * BLOCK;
+    vec4 shape = shapeOf(k);
+#ifdef TRIANGLES
+    ivec3 corners = k < VERTICES ? ivec3(k) : ivec3(shape.xyz);
+    vec3 position = (packedVertex(oldState, first, corners.x) + packedVertex(oldState, first, corners.y) +
+                     packedVertex(oldState, first, corners.z)) / 3.0;
+    vec3 velocity = (packedVertex(oldState, velocities, corners.x) + packedVertex(oldState, velocities, corners.y) +
+                     packedVertex(oldState, velocities, corners.z)) / 3.0;
+    // an impulse on the middle is a third on each corner
+    float weight = (weightOf(shapeOf(corners.x), released) + weightOf(shapeOf(corners.y), released) +
+                    weightOf(shapeOf(corners.z), released)) / 9.0;
+    bool isVertex = k < VERTICES;
+    position = isVertex ? packedVertex(oldState, first, corners.x) : position;
+    velocity = isVertex ? packedVertex(oldState, velocities, corners.x) : velocity;
+    weight = isVertex ? weightOf(shape, released) : weight;
+#else
+    vec3 position = packedVertex(oldState, first, k);
+    vec3 velocity = packedVertex(oldState, velocities, k);
+    float weight = weightOf(shape, released);
+#endif
+    float scale = 1.0;
+#ifdef CONSTANTS
+    scale = texelFetch(constants, molecule).x;
+#endif
+    CellPlace place = cellPlace(record.xyz, position + cellShift, cell);
+    int sphere = firstSphere + lane;
+    pairs[sphere] = uvec2(cellKey(place.cell, uint(keyMask)), uint(sphere));
+#ifndef ONLY_KEYS
+    newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
+    newMotions[sphere] = uvec4(floatBitsToUint(velocity), floatBitsToUint(weight));
+    newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(radius * scale));
+#endif
+}

@@ -1,0 +1,91 @@
+// The list of a slot's contacts: entry e of slot s is lists[e * listStride + s]. Needs contact/records.glsl.
+// Set by C++: LIST, entries of a slot.
+layout(std430, binding = 0) buffer Lists { uint lists[]; };
+layout(std430, binding = 1) buffer Counts { uint counts[]; };
+// The slots that touch something, in no particular order: what is done for each depends on nothing but itself. The first
+// words are what glDispatchComputeIndirect takes.
+layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
+
+uniform int listStride;
+#ifdef SELF
+uniform usamplerBuffer apart;    // ContactGroup::apart
+uniform usamplerBuffer groupsOf;  // x first sphere, y spheres of a molecule, z first word, w words of a sphere; 0: none
+#endif
+
+int ownSlot;
+vec3 ownPlace;
+uint ownLabel;
+ivec3 ownCell;
+float ownRadius;
+int found = 0;
+
+void loadOwn(int slot)
+{
+    uvec4 place = texelFetch(places, slot);
+    ownSlot = slot;
+    ownPlace = uintBitsToFloat(place.xyz);
+    ownLabel = place.w;
+    uvec4 own = texelFetch(cells, sphereOf(slot));
+    ownCell = ivec3(own.xyz);
+    ownRadius = uintBitsToFloat(own.w);
+}
+
+ivec3 cellOf(int slot)
+{
+    return ivec3(texelFetch(cells, sphereOf(slot)).xyz);
+}
+
+// Whether spheres of this label are to be looked at.
+bool mayMeet(uint label, int slot)
+{
+#ifdef SELF
+    return slot != ownSlot;
+#else
+    return label != ownLabel;
+#endif
+}
+
+#ifdef SELF
+// Whether two spheres of one molecule may touch.
+bool mayMeetSelf(int slot)
+{
+    ivec4 group = ivec4(texelFetch(groupsOf, int(ownLabel >> 26u)));
+    if (group.w == 0) return false;
+    int own = (sphereOf(ownSlot) - group.x) % group.y;
+    int other = (sphereOf(slot) - group.x) % group.y;
+    uint word = texelFetch(apart, group.z + own * group.w + other / 32).x;
+    return (word >> uint(other & 31) & 1u) == 0u;
+}
+#endif
+
+// Takes the sphere into the list if it touches.
+void meet(int slot)
+{
+    vec3 d = localDifference(ownPlace, uintBitsToFloat(texelFetch(places, slot).xyz), cell);
+    float reach = ownRadius + uintBitsToFloat(texelFetch(cells, sphereOf(slot)).w);
+    bool touches = dot(d, d) < reach * reach;
+#ifdef SELF
+    if (touches && texelFetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
+#endif
+    if (touches) {
+        if (found < LIST) lists[found * listStride + ownSlot] = uint(slot);
+        ++found;
+    }
+}
+
+void finish(int slot)
+{
+    counts[slot] = uint(found);
+#ifdef LAST
+    bool touches = found > 0;
+#else
+    bool touches = false;
+#endif
+    while (touches) {
+        uint at = atomicAdd(actives, 1u);
+        atomicMax(groupsX, at / 64u + 1u);
+        activeSlots[at] = uint(slot);
+        if (found > LIST) atomicAdd(dropped, uint(found - LIST));
+        touches = false;
+    }
+}

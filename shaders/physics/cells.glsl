@@ -1,0 +1,41 @@
+// The grid of contact: where a sphere lies, exactly, however far from the origin, and the key of its cell.
+// Read as C++ through GLM by the tests.
+
+// Local positions repeat every so many cells: they tell neighbours apart, and a float near 0 is fine.
+const int localCells = 4;
+
+struct CellPlace {
+    ivec3 cell;
+    vec3 local;  // m, in [0, localCells cells)
+};
+
+// position: relative to the anchor, m. `cell` has 5 significant bits, so that its multiples up to 2^19 are floats and
+// the difference to an anchor close by is exact.
+CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
+{
+    vec3 base = floor(clamp(anchor / cell, -1e9f, 1e9f));
+    vec3 rest = (anchor - base * cell) + position;
+    vec3 steps = floor(clamp(rest / cell, -1e9f, 1e9f));
+    ivec3 index = ivec3(base) + ivec3(steps);
+    vec3 inCell = clamp(rest - steps * cell, 0.0f, cell);
+    return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
+}
+
+// From local position b to a, when they are less than two cells apart along each axis.
+vec3 localDifference(vec3 a, vec3 b, float cell)
+{
+    vec3 d = a - b;
+    float period = float(localCells) * cell;
+    return d - floor(d / period + 0.5f) * period;
+}
+
+// Cells of a row along x have keys that follow one another (modulo the table), so that three neighbours are one range;
+// rows are scattered, so that the cells in use fill the table evenly whatever shape they have.
+uint cellKey(ivec3 cell, uint mask)
+{
+    uint h = uint(cell.y) * 2654435769u ^ (uint(cell.z) * 2246822507u + 374761393u);
+    h = (h ^ (h >> 15u)) * 739982445u;
+    h = (h ^ (h >> 12u)) * 695872825u;
+    h = h ^ (h >> 15u);
+    return (h + uint(cell.x)) & mask;
+}

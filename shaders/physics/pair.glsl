@@ -1,0 +1,41 @@
+// Contact of two spheres of masses m and 1/w. All that is the same for both comes out the same to the bit on either
+// side, so that what one gains the other loses. Read as C++ through GLM by the tests.
+
+struct PairContact {
+    vec3 normal;   // unit, from the other sphere to this one
+    float since;   // s, since they touched; 0 unless they have just met
+    float depth;   // m, of what overlaps now
+    float speed;   // m/s, along the normal; negative: they approach (or did, when they met)
+    bool impact;   // they met within the last step, fast enough to bounce
+};
+
+// Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii
+// sum up to `reach`; |d| < reach. In the last `step` they moved by u; where they touched then, that is the impact
+// (UberFlow, section 4.5: backed up in time to the first contact), else they rest on one another. Slower than
+// `restSpeed` counts as rest. `side`: 1 for one of the two, -1 for the other; where centres coincide it decides.
+PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
+{
+    float squared = dot(d, d);
+    float along = dot(d, u);
+    float fast = dot(u, u);
+    float inside = max(reach * reach - squared, 0.0f);
+    // |d - u t| = reach, the root of which nothing cancels
+    float root = sqrt(along * along + fast * inside);
+    float since = along < 0.0f ? inside / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
+    vec3 touch = (d - u * since) / reach;
+    float touchSpeed = dot(touch, u);
+    bool impact = since <= step && touchSpeed < -restSpeed;
+
+    float apart = sqrt(squared);
+    vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
+    return PairContact(impact ? touch : now, impact ? since : 0.0f, reach - apart,
+                       impact ? touchSpeed : dot(now, u), impact);
+}
+
+// What an impulse (N s) between spheres of inverse masses that sum up to w must still add so that their speed along the
+// normal becomes `target`. `pushed`: what they have exchanged so far; together they never pull. `share`: of several
+// contacts, so that together they do no more than each alone would (docs/contact.md).
+float pairImpulse(float speed, float target, float pushed, float w, float share)
+{
+    return max(share * (target - speed) / w, -pushed);
+}

@@ -1,0 +1,97 @@
+// Contact of molecules with one another on the fused path (OpenGL 4.3): the passes between two dispatches of
+// the fused step. Method and equations: docs/contact.md; what there is: compile/contact_plan.h.
+//
+//   contact grid       spheres   records of every sphere from the state, and the key of its cell
+//                      sort      keys ascending (sort/radix_sort.h)
+//                      order     records in that order; where each cell of the table begins
+//   contact search     find      the spheres that each touches (or `neighbors`, UberFlow's)
+//   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`,
+//   UberFlow's)
+//                      apply     into the state
+//
+// Only gathers: a repeat gives the same bits. Nothing is kept from one contact step to the next.
+//
+// What is known of a sphere: shaders/contact/records.glsl.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/buffer_texture.h"
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "simulate/buffer_state.h"
+#include "simulate/parameters.h"
+#include "sort/radix_sort.h"
+
+namespace shoal {
+
+class MoleculeContact {
+  public:
+    // Borrows the plan. Error: more spheres than the context can hold, with how many it can; out of memory.
+    MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                    gpu::ProgramCache* cache);
+
+    // Spheres that touch are pushed apart and bounce, rub and rest, in the current side of the state.
+    // `stepTime`: s, since the last contact step.
+    void step(double stepTime, const Parameters& parameters, const std::vector<GroupBuffers>& state,
+              gpu::PassTimers& timers);
+
+    // Contacts that were left out, of all steps so far, because a sphere touched more than a list holds.
+    uint32_t dropped() const;
+    // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
+    // ascending. For tests and reports: reads the lists back.
+    std::vector<std::pair<int, int>> found() const;
+    size_t bytes() const;
+
+  private:
+    // A buffer and how shaders read it.
+    struct Array {
+        gpu::Buffer buffer;
+        gpu::BufferTexture texture;
+        Array() = default;
+        Array(gpu::Context& context, size_t texels, gpu::Texel texel, const char* label,
+              const void* data = nullptr);
+    };
+    struct GroupPrograms {
+        gpu::Program spheres, staggeredKeys, crowd, spread, apply;
+        Array shapes;
+    };
+
+    void makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makeGroup(const ContactGroup& group, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makeExclusions();
+    void makeMaterials();
+
+    void buildGrid(const std::vector<GroupBuffers>& state);
+    void makeKeys(bool staggered, const std::vector<GroupBuffers>& state);
+    void order();
+    void search(const std::vector<GroupBuffers>& state);
+    void find(const gpu::Program& program);
+    void respond(double stepTime, const Parameters& parameters, const std::vector<GroupBuffers>& state);
+    void runResponse(const gpu::Program& program, double stepTime, double restSpeed, size_t from);
+    void spread(const std::vector<GroupBuffers>& state, const Array& impulses);
+    void apply(const std::vector<GroupBuffers>& state, const Array& impulses);
+    template <typename Run>
+    void forParts(const std::vector<GroupBuffers>& state, const Run& run);
+    void dispatch(const gpu::Program& program, size_t lanes) const;
+    void dispatchActive(const gpu::Program& program) const;
+
+    gpu::Context* context_;
+    const Plan* plan_;
+    const ContactPlan* contact_;
+    size_t padded_;  // spheres, to whole workgroups
+    bool triangles_ = false, self_ = false;
+    std::vector<GroupPrograms> groups_;
+    gpu::Program order_, find_, findStaggered_, begin_, relax_, settle_, nearest_;
+    RadixSort sort_;
+    Array pairs_, staggered_, starts_, slots_, lists_, counts_, crowds_, pushed_, shifts_, velocities_;
+    Array apart_, groupsOf_, materials_;
+    std::array<Array, 2> impulses_;
+    Array spherePlaces_, motions_, cells_, places_;
+    gpu::Buffer active_;  // shaders/contact/active.glsl
+};
+
+}  // namespace shoal

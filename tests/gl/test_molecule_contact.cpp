@@ -1,0 +1,298 @@
+// Contact of molecules with one another, against closed forms and brute force.
+#include <algorithm>
+#include <random>
+
+#include "gl/feature_scenes.h"
+#include "gl/numerics.h"
+#include "reference/sphere_contact.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using glm::dvec3;
+using glm::vec2;
+
+namespace {
+
+// Points of some masses, each with contact of one radius, in no gravity.
+Scene marbles(const std::vector<dvec3>& positions, double radius, double mass = 1) {
+    std::vector<test::Item> items;
+    for (const dvec3& p : positions)
+        items.push_back(test::at(p));
+    Scene scene = test::sceneOf(test::point(mass), SolverKind::leapfrog, items);
+    scene.groups[0].contact.emplace().radius = radius;
+    test::setSteps(scene, 0.01, 1);
+    return scene;
+}
+
+// With these velocities, group by group, and materials for all pairs of groups.
+Simulation startedWith(const Scene& scene, const std::vector<dvec3>& velocities, vec2 material) {
+    Plan plan = compile(scene);
+    for (vec2& pair : plan.contact.pairs)
+        pair = material;
+    size_t next = 0;
+    for (GroupPlan& group : plan.groups)
+        for (glm::vec3& v : group.start.velocities)
+            v = glm::vec3(velocities[next++]);
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", std::move(plan), {.drawn = false});
+}
+
+// All spheres of the plan's start state, in the order of their numbers.
+std::vector<reference::Sphere> spheresOf(const Plan& plan) {
+    std::vector<reference::Sphere> out;
+    int molecules = 0;
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        for (int m = 0; m < group.count; ++m) {
+            const size_t first = size_t(m) * size_t(group.vertexCount);
+            const auto vertex = [&](int v) {
+                reference::Sphere sphere;
+                sphere.position =
+                    dvec3(group.start.anchors[size_t(m)]) + dvec3(group.start.positions[first + size_t(v)]);
+                sphere.velocity = dvec3(group.start.velocities[first + size_t(v)]);
+                sphere.radius = contact.radius * double(group.constants.scales[size_t(m)]);
+                sphere.weight = contact.shapes[size_t(v)].y > 0 ? 0 : double(contact.shapes[size_t(v)].x);
+                sphere.molecule = molecules + m;
+                return sphere;
+            };
+            for (int v = 0; v < group.vertexCount; ++v)
+                out.push_back(vertex(v));
+            for (const glm::ivec3& t : contact.corners) {
+                reference::Sphere middle = vertex(t.x);
+                middle.position = (vertex(t.x).position + vertex(t.y).position + vertex(t.z).position) / 3.0;
+                out.push_back(middle);
+            }
+        }
+        molecules += group.count;
+    }
+    return out;
+}
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+// Those of `some` that `all` lacks.
+Pairs missing(const Pairs& all, const Pairs& some) {
+    Pairs out;
+    std::set_difference(some.begin(), some.end(), all.begin(), all.end(), std::back_inserter(out));
+    return out;
+}
+
+// Those that overlap by less than rounding may tell otherwise.
+bool isClose(const std::vector<reference::Sphere>& spheres, const std::pair<int, int>& pair) {
+    const reference::Sphere &a = spheres[size_t(pair.first)], &b = spheres[size_t(pair.second)];
+    return std::abs(glm::distance(a.position, b.position) - a.radius - b.radius) <
+           1e-6 * (a.radius + b.radius);
+}
+
+// Quads strewn over a box, with contact.
+Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale = {1, 1}) {
+    Scene scene = test::sceneOf(test::shippedMolecule("quad"), SolverKind::leapfrog);
+    Group& group = scene.groups[0];
+    group.count = count;
+    group.place.kind = Placement::Kind::volume;
+    group.place.items.clear();
+    group.place.turn = Placement::Turn::any;
+    group.place.box = {dvec3(0), size};
+    group.place.scale = scale;
+    group.contact.emplace().radius = radius;
+    test::setSteps(scene, 1e-7, 1);
+    return scene;
+}
+
+// Finds what brute force finds; nothing moves far in the 1e-7 s of the step.
+void checkFound(const Scene& scene) {
+    const Plan plan = compile(scene);
+    const std::vector<reference::Sphere> spheres = spheresOf(plan);
+    Simulation simulation = test::simulationOf(scene);
+    simulation.frame();
+    const Pairs expected = reference::touching(spheres), found = simulation.contact()->found();
+    CHECK(simulation.contact()->dropped() == 0);
+    CHECK(expected.size() > 20);
+    for (const Pairs& difference : {missing(found, expected), missing(expected, found)})
+        for (const auto& pair : difference)
+            CHECK(isClose(spheres, pair));
+}
+
+}  // namespace
+
+TEST_CASE("the exact search finds every contact", "[molecule contact]") {
+    SECTION("one size") {
+        checkFound(strewn(500, dvec3(2), 0.04));
+    }
+    SECTION("crowded") {
+        checkFound(strewn(300, dvec3(0.6), 0.015));
+    }
+    SECTION("all in one plane") {
+        checkFound(strewn(400, {4, 0, 4}, 0.05));
+    }
+    SECTION("radii that differ") {
+        checkFound(strewn(500, dvec3(2), 0.03, {0.3, 2}));
+    }
+    SECTION("a little larger than one workgroup") {
+        checkFound(strewn(33, dvec3(0.5), 0.05));
+    }
+    SECTION("few spheres in the smallest table") {
+        checkFound(strewn(8, dvec3(0.2), 0.06));
+    }
+    SECTION("with spheres on triangles") {
+        Scene scene = strewn(300, dvec3(1.5), 0.04);
+        scene.groups[0].contact->triangles = true;
+        checkFound(scene);
+    }
+    SECTION("two groups") {
+        Scene scene = strewn(200, dvec3(1.2), 0.04);
+        scene.groups.push_back(strewn(150, dvec3(1.2), 0.02).groups[0]);
+        scene.groups[1].molecule = test::shippedMolecule("leaf");
+        scene.groups[1].name = "leaves";
+        checkFound(scene);
+    }
+    SECTION("100 km from the origin") {
+        Scene scene = strewn(500, dvec3(2), 0.04);
+        scene.groups[0].place.box = {dvec3(1e5, -1e5, 1e5), dvec3(1e5 + 2, -1e5 + 2, 1e5 + 2)};
+        checkFound(scene);
+    }
+}
+
+TEST_CASE("two marbles meet head-on as in the closed form", "[molecule contact]") {
+    const double radius = 0.05, m = 1, n = 3, speed = 2;
+    for (const double e : {0.0, 0.3, 1.0}) {
+        Scene scene = marbles({{-0.3, 0.2, 0}}, radius, m);
+        Scene other = marbles({{0.31, 0.2, 0}}, radius, n);
+        scene.groups.push_back(other.groups[0]);
+        scene.groups[1].name = "heavy";
+        Simulation simulation = startedWith(scene, {{speed, 0, 0}, {-1, 0, 0}}, vec2(e, 0));
+        test::run(simulation, 40);
+        const double meets = (0.61 - 2 * radius) / (speed + 1);
+        const double impulse = (1 + e) * (speed + 1) * m * n / (m + n);
+        const double v = speed - impulse / m, w = -1 + impulse / n, after = 0.4 - meets;
+        const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
+        CAPTURE(e, a.velocities[0].x, b.velocities[0].x);
+        CHECK(std::abs(a.velocities[0].x - v) < 1e-6);
+        CHECK(std::abs(b.velocities[0].x - w) < 1e-6);
+        CHECK(std::abs(a.positions[0].x - (-0.3 + speed * meets + v * after)) < 1e-5);
+        CHECK(std::abs(b.positions[0].x - (0.31 - meets + w * after)) < 1e-5);
+        CHECK(std::abs(a.positions[0].y - 0.2) < 1e-6);
+    }
+}
+
+namespace {
+
+// A cloud of marbles of two masses that fly at random, and what the equations make of its first step.
+struct Cloud {
+    Scene scene;
+    std::vector<dvec3> velocities;
+    std::vector<reference::Sphere> expected;
+    Pairs contacts;
+};
+
+constexpr double cloudStep = 0.01;
+
+Cloud cloud(int count, double side, vec2 material) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(0, side), speed(-1.5, 1.5);
+    Cloud out;
+    for (int g = 0; g < 2; ++g) {
+        std::vector<dvec3> positions;
+        for (int i = 0; i < count; ++i)
+            positions.emplace_back(place(random), place(random), place(random));
+        Scene part = marbles(positions, g == 0 ? 0.03 : 0.02, g == 0 ? 1 : 0.25);
+        if (g == 0)
+            out.scene = part;
+        else
+            out.scene.groups.push_back(part.groups[0]);
+        out.scene.groups.back().name = g == 0 ? "heavy" : "light";
+    }
+    for (int i = 0; i < 2 * count; ++i)
+        out.velocities.emplace_back(speed(random), speed(random), speed(random));
+    out.expected = spheresOf(compile(out.scene));
+    for (size_t i = 0; i < out.expected.size(); ++i) {
+        out.expected[i].velocity = out.velocities[i];
+        out.expected[i].position += cloudStep * out.velocities[i];
+    }
+    out.contacts = reference::touching(out.expected);
+    reference::SphereResponse settings;
+    settings.stepTime = cloudStep;
+    settings.restitution = double(material.x);
+    settings.friction = double(material.y);
+    reference::respond(out.expected, out.contacts, settings);
+    return out;
+}
+
+// Positions and velocities of all groups of points, in their order.
+std::vector<reference::Sphere> statesOf(const Simulation& simulation) {
+    std::vector<reference::Sphere> out;
+    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
+        const Snapshot snapshot = simulation.snapshot(g);
+        for (size_t i = 0; i < snapshot.positions.size(); ++i) {
+            reference::Sphere sphere;
+            sphere.position = snapshot.positions[i];
+            sphere.velocity = snapshot.velocities[i];
+            sphere.weight = double(simulation.plan().contact.groups[g].shapes[0].x);
+            out.push_back(sphere);
+        }
+    }
+    return out;
+}
+
+dvec3 momentum(const std::vector<reference::Sphere>& spheres) {
+    dvec3 sum(0);
+    for (const reference::Sphere& sphere : spheres)
+        sum += sphere.velocity / sphere.weight;
+    return sum;
+}
+
+double energy(const std::vector<reference::Sphere>& spheres) {
+    double sum = 0;
+    for (const reference::Sphere& sphere : spheres)
+        sum += glm::dot(sphere.velocity, sphere.velocity) / sphere.weight / 2;
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]") {
+    for (const vec2 material : {vec2(0, 0), vec2(0.5f, 0.4f), vec2(1, 0)}) {
+        const Cloud c = cloud(400, 0.55, material);
+        REQUIRE(c.contacts.size() > 300);
+        Simulation simulation = startedWith(c.scene, c.velocities, material);
+        simulation.frame();
+        CHECK(simulation.contact()->dropped() == 0);
+        const std::vector<reference::Sphere> found = statesOf(simulation);
+        double velocity = 0, position = 0;
+        for (size_t i = 0; i < found.size(); ++i) {
+            velocity = std::max(velocity, glm::distance(found[i].velocity, c.expected[i].velocity));
+            position = std::max(position, glm::distance(found[i].position, c.expected[i].position));
+        }
+        CAPTURE(material.x, velocity, position);
+        CHECK(velocity < 2e-4);  // of up to 3 m/s: a grazing contact's normal is a root of rounded numbers
+        CHECK(position < 2e-6);
+    }
+}
+
+TEST_CASE("contact keeps momentum and never adds energy, and a repeat gives the same bits",
+          "[molecule contact]") {
+    for (const vec2 material : {vec2(0, 0.5f), vec2(1, 0)}) {
+        const Cloud c = cloud(2000, 0.95, material);
+        uint64_t hash = 0;
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            Simulation simulation = startedWith(c.scene, c.velocities, material);
+            std::vector<reference::Sphere> before = statesOf(simulation);
+            const dvec3 start = momentum(before);
+            double scale = 0;
+            for (const reference::Sphere& sphere : before)
+                scale += glm::length(sphere.velocity) / sphere.weight;
+            for (int i = 0; i < 20; ++i) {
+                simulation.frame();
+                const std::vector<reference::Sphere> after = statesOf(simulation);
+                // what overlapped at the start is pushed apart, which is no impact
+                CHECK(energy(after) < energy(before) * (1 + 1e-5));
+                before = after;
+            }
+            CHECK(glm::length(momentum(before) - start) < 1e-6 * scale);
+            CHECK((repeat == 0 || simulation.hash() == hash));
+            hash = simulation.hash();
+        }
+    }
+}
+
+}  // namespace shoal
