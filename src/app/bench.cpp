@@ -179,6 +179,7 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
 }  // namespace
 
 int benchCommand(const Options& options) {
+    if (options.benchOf == "sort") return benchSortCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
     gpu::ContextOptions contextOptions;

@@ -120,7 +120,11 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
                        "Window: save its picture after --frames and close");
 }
 
+// What `shoal bench` measures beside the simulation's frames, each in a file bench_<word>.cpp.
+const std::vector<std::string> benchWords = {"sort"};
+
 void addBench(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("of", options.benchOf, "sort: the sorts; nothing: the simulation's frames");
     addContext(command, options, texts);
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
     command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")
@@ -188,6 +192,17 @@ void checkMeasure(const Options& options) {
         throw Error(concat("--duration: expected a time above 0, at most 100 s, found ", options.duration));
     if (options.molecules < 1 || options.molecules > 1024)
         throw Error(concat("--molecules: expected 1 to 1024, found ", options.molecules));
+}
+
+void checkBench(const Options& options) {
+    if (options.command != Options::Command::bench || options.benchOf.empty()) return;
+    const std::string& word = options.benchOf;
+    if (std::find(benchWords.begin(), benchWords.end(), word) == benchWords.end())
+        throw Error(concat("bench: unknown \"", word, "\"", suggestion(word, benchWords),
+                           "; expected sort or nothing"));
+    if (!options.only.empty() || !options.plot.empty())
+        throw Error(
+            concat("--only and --plot are of bench without a word: leave out \"", word, "\", or them"));
 }
 
 // The report's scenes have their own.
@@ -361,6 +376,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     parseSize(texts.size, options);
     checkRanges(options);
     checkMeasure(options);
+    checkBench(options);
     checkReport(options, *measure);
     return options;
 }

@@ -101,6 +101,10 @@ std::vector<KeyIndex> Sorter::download() const {
     return out;
 }
 
+int Sorter::passes() const {
+    return radix_ ? radix_->passes(count_, 32) : network_ ? network_->passes() : 0;
+}
+
 void Sorter::sort(int keyBits) {
     if (radix_)
         radix_->sort(buffer_, count_, keyBits);

@@ -55,6 +55,7 @@ class Sorter {
 
     SortMethod method() const { return method_; }
     size_t count() const { return count_; }
+    int passes() const;  // of sort() by all bits, over the pairs that were uploaded; 0 on the CPU
     // The pairs on the GPU: in a buffer (radix, cpu) or in textures (the networks); else null.
     gpu::Buffer* buffer() { return buffer_ ? &buffer_ : nullptr; }
     NetworkSort* network() { return network_.get(); }
