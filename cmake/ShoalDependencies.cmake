@@ -6,6 +6,13 @@ find_package(glfw3 3.3 REQUIRED)
 find_package(assimp REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
+# Closest points on models. The headers of 4 go before those of 3 (scene/embree.h).
+find_package(embree 4 QUIET)
+if(NOT embree_FOUND)
+  find_package(embree 3 REQUIRED)
+endif()
+find_package(Threads REQUIRED)
+
 find_package(glm QUIET)
 if(NOT TARGET glm::glm)
   add_library(glm::glm INTERFACE IMPORTED)

@@ -13,6 +13,7 @@
 #include "app/data_paths.h"
 #include "app/machine.h"
 #include "app/progress.h"
+#include "core/cache_folder.h"
 #include "measure/pin_threads.h"
 #include "render/renderer.h"
 
@@ -194,7 +195,7 @@ int benchCommand(const Options& options) {
         std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has "
                   << context.info().version << ": its cases are left out\n";
 
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores, {}};
     device.makeDraw = [&](const Scene& scene, const Plan& plan) { return makeDraw(context, scene, plan); };
     if (bulletAvailable())

@@ -10,6 +10,7 @@
 #include "app/measure.h"
 #include "app/measure_plot.h"
 #include "app/progress.h"
+#include "core/cache_folder.h"
 #include "core/file.h"
 #include "scene/scene_file.h"
 
@@ -100,7 +101,7 @@ CalibrationOptions calibrationOptions(const Options& options) {
     out.duration = options.duration;
     out.version = SHOAL_VERSION;
     out.processor = processorName();
-    out.folder = gpu::ProgramCache::defaultFolder();
+    out.folder = cacheFolder();
     return out;
 }
 
@@ -117,7 +118,7 @@ AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu
 }
 
 Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded) {
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     Calibration out =
         calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context, cache));
     measure::apply(out, loaded.scene);
@@ -157,7 +158,7 @@ int measureCommand(const Options& options) {
     wanted.kind = options.context;
     wanted.visible = false;
     gpu::Context context(wanted);
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context, cache));
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";

@@ -17,6 +17,7 @@
 #include "app/measure.h"
 #include "app/measure_plot.h"
 #include "app/measure_read.h"
+#include "core/cache_folder.h"
 #include "core/file.h"
 #include "measure/report_scenes.h"
 
@@ -198,7 +199,7 @@ int measureReport(const Options& given) {
     wanted.kind = options.context;
     wanted.visible = false;
     gpu::Context context(wanted);
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
     const std::vector<ReportScene> all = reportScenes(count);
     measureMissing(options, all, accuracyDevice(options, context, cache));

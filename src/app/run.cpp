@@ -14,6 +14,7 @@
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "core/cache_folder.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -74,7 +75,7 @@ class HeadlessRun {
           context_(context),
           frames_(options.frames.value_or(headlessFrames)),
           loaded_(std::move(loaded)),
-          cache_(context, gpu::ProgramCache::defaultFolder()),
+          cache_(context, cacheFolder()),
           simulation_(context, shaderRoot(), loaded_.plan, simulationOptions(options, context, cache_)) {
         tellWarnings(simulation_, cache_);
         report_.scene = options.files.front();

@@ -18,6 +18,7 @@
 #include "app/orbit_camera.h"
 #include "app/panel.h"
 #include "app/run.h"
+#include "core/cache_folder.h"
 #include "core/image.h"
 #include "gpu/gl.h"
 #include "molecule/molecule_file.h"
@@ -112,7 +113,7 @@ class WindowRun {
           panel_(scene_, shippedMolecules()),
           camera_(View::of(scene_.camera)),
           interface_(window_),
-          cache_(context, gpu::ProgramCache::defaultFolder()),
+          cache_(context, cacheFolder()),
           path_(options.path) {
         glfwSwapInterval(1);
         glfwGetFramebufferSize(window_, &width_, &height_);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/distance_samples.h"
 #include "compile/generate.h"
 
 namespace shoal {
@@ -87,6 +88,15 @@ class Emitter {
                       base, ")");
     }
 
+    std::string emit(const DistanceFieldCollider& collider) {
+        const DistanceField& field = collider.field;
+        const size_t base = appendDistances(field, *samples_);
+        const std::string low = slot(field.grid.low, field.grid.cell);
+        const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
+        return concat("distanceSurface((anchor - ", low, ".xyz) + c.position, ", low, ".w, ", last,
+                      ", ivec2(", field.grid.size.x, ", ", field.grid.size.z, "), ", base, ")");
+    }
+
     // One texel a sample: unit normal by central differences, and height.
     void appendSamples(const HeightFieldCollider& field, glm::dvec2 cell) {
         const auto height = [&](int x, int z) {
@@ -130,7 +140,8 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
 }
 
 const char* kindName(const ColliderShape& shape) {
-    static constexpr const char* names[] = {"plane", "sphere", "heightField", "box", "capsule"};
+    static constexpr const char* names[] = {"plane", "sphere",  "heightField",
+                                            "box",   "capsule", "distanceField"};
     return names[shape.index()];
 }
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <utility>
 
+#include "core/cache_folder.h"
 #include "core/file.h"
 
 namespace shoal::gpu {
@@ -25,15 +24,6 @@ struct Header {
     uint64_t length, checksum;
 };
 static_assert(sizeof(Header) == 32);
-
-constexpr uint64_t fnvStart = 14695981039346656037ull;
-
-template <typename Bytes>
-uint64_t fnv(const Bytes& bytes, uint64_t hash = fnvStart) {
-    for (const char c : bytes)
-        hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-    return hash;
-}
 
 // With the key, so that a whole file under another program's name is found out.
 uint64_t checksum(const std::string& key, uint32_t format, std::string_view binary) {
@@ -57,11 +47,6 @@ void forgetErrors() {
     }
 }
 
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
-
 }  // namespace
 
 std::string programKey(const ContextInfo& info, std::span<const std::string_view> texts) {
@@ -77,12 +62,7 @@ std::string programKey(const ContextInfo& info, std::span<const std::string_view
         add(driver);
     for (const std::string_view text : texts)
         add(text);
-    const uint64_t forwards = fnv(all);
-    std::reverse(all.begin(), all.end());
-    char digits[33];
-    std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(forwards),
-                  static_cast<unsigned long long>(fnv(all)));
-    return digits;
+    return contentKey(all);
 }
 
 ProgramCache::ProgramCache(const Context& context, std::string folder) : folder_(std::move(folder)) {
@@ -90,14 +70,6 @@ ProgramCache::ProgramCache(const Context& context, std::string folder) : folder_
     GLint formats = 0;
     glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
     active_ = formats > 0;
-}
-
-std::string ProgramCache::defaultFolder() {
-    if (std::getenv("SHOAL_CACHE") != nullptr) return environment("SHOAL_CACHE");
-    const fs::path cache = environment("XDG_CACHE_HOME"), home = environment("HOME");
-    if (cache.is_absolute()) return (cache / "shoal").string();  // its specification: ignore relative ones
-    if (!home.empty()) return (home / ".cache" / "shoal").string();
-    return {};
 }
 
 fs::path ProgramCache::file(const std::string& key) const {

@@ -115,6 +115,11 @@ Surface surface(const HeightFieldCollider& field, const glm::dvec3& x, double be
     return {n, (x.y - heights.at(p)) * n.y};
 }
 
+Surface surface(const DistanceFieldCollider& collider, const glm::dvec3& x, double) {
+    const FieldValue value = valueAt(collider.field, x);
+    return {glm::normalize(value.gradient), value.distance};
+}
+
 // The least y of a unit normal: a slope is at most the steepest step between neighbours, along both axes.
 double leastUp(const HeightFieldCollider& field, const glm::dvec2& cell) {
     double steepX = 0, steepZ = 0;
@@ -153,6 +158,12 @@ RestSurfaces::Facts RestSurfaces::facts(const Collider& collider) {
         out.feature = std::min(cell.x, cell.y);
         out.top = double(*std::max_element(field->heights.begin(), field->heights.end())) +
                   collider.thickness / leastUp(*field, cell);
+        out.steepest = 0;
+        out.exact = false;
+    }
+    if (const auto* field = std::get_if<DistanceFieldCollider>(&collider.shape)) {
+        out.feature = field->field.grid.cell;
+        out.steepest = std::sqrt(3.0);  // of a trilinear function between distances
         out.exact = false;
     }
     return out;
@@ -171,8 +182,8 @@ Surface RestSurfaces::under(size_t i, const glm::dvec3& x) const {
 }
 
 bool RestSurfaces::clear(size_t i, const glm::dvec3& x, double reach) const {
-    if (!exact(i)) return x.y - reach > facts_[i].top;
-    return at(i, x).distance > reach;
+    if (x.y - reach > facts_[i].top) return true;
+    return facts_[i].steepest > 0 && at(i, x).distance > reach * facts_[i].steepest;
 }
 
 RestSurfaces::Following RestSurfaces::following(size_t i, const Surface& surface, const glm::dvec3& x,

@@ -37,7 +37,8 @@ class RestSurfaces {
     double feature(size_t i) const { return facts_[i].feature; }
     // True when no point within `reach` m of x is inside.
     bool clear(size_t i, const glm::dvec3& x, double reach) const;
-    // True when the normal is the gradient of the distance: of all but height fields.
+    // True when the normal is the gradient of the distance, of length 1: of all but height and distance
+    // fields.
     bool exact(size_t i) const { return facts_[i].exact; }
 
     // What a vertex that is held on the surface and moves at v does besides: the rate at which it is shifted
@@ -50,7 +51,8 @@ class RestSurfaces {
   private:
     struct Facts {
         double feature = 1e30;
-        double top = 1e30;  // m: nothing is above this height
+        double top = 1e30;    // m: nothing is above this height
+        double steepest = 1;  // how much the distance changes in a metre at most; 0: not known
         bool exact = true;
     };
     static Facts facts(const Collider& collider);

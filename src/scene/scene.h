@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "molecule/molecule.h"
+#include "scene/distance_field.h"
 #include "scene/mesh.h"
 #include "scene/solver.h"
 
@@ -142,8 +143,15 @@ struct CapsuleCollider {
     double radius = 1;  // m
 };
 
-using ColliderShape =
-    std::variant<PlaneCollider, SphereCollider, HeightFieldCollider, BoxCollider, CapsuleCollider>;
+// The surface of a model, by signed distances on a grid around it.
+struct DistanceFieldCollider {
+    std::string model;  // its name
+    FieldRequest request;
+    DistanceField field;
+};
+
+using ColliderShape = std::variant<PlaneCollider, SphereCollider, HeightFieldCollider, BoxCollider,
+                                   CapsuleCollider, DistanceFieldCollider>;
 
 struct Collider {
     std::string name;
@@ -152,7 +160,7 @@ struct Collider {
     double restitution = 0.2;  // in [0, 1]
     double friction = 0.5;     // Coulomb's mu, at least 0
     double thickness = 0.002;  // m: vertices rest this far from the surface
-    bool draw = true;          // all but height fields, which show as their model
+    bool draw = true;          // all but height and distance fields, which show as their model
     glm::dvec3 color{0.2, 0.21, 0.19};
 };
 

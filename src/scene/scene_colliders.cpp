@@ -110,7 +110,7 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
 }  // namespace
 
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
-                                    std::vector<Warning>& warnings) {
+                                    const FieldBaking& baking, std::vector<Warning>& warnings) {
     std::vector<Collider> colliders;
     std::vector<std::string> names;
     for (JsonReader& r : scene.objects("colliders")) {
@@ -120,16 +120,17 @@ std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>&
         names.push_back(collider.name);
         int type = 0;
         r.require("type");
-        r.choose("type", {"plane", "sphere", "heightField", "box", "capsule"}, type);
+        r.choose("type", {"plane", "sphere", "heightField", "box", "capsule", "distanceField"}, type);
+        r.get("thickness", collider.thickness, Range::atLeast(0));
         if (type == 0) collider.shape = readPlane(r);
         if (type == 1) collider.shape = readSphere(r);
         if (type == 2) collider.shape = readHeightField(r, models, warnings);
         if (type == 3) collider.shape = readBox(r);
         if (type == 4) collider.shape = readCapsule(r);
+        if (type == 5) collider.shape = readDistanceField(r, models, collider.thickness, baking, warnings);
         getSurface(r, collider.surface);
         r.get("restitution", collider.restitution, Range::between(0, 1));
         r.get("friction", collider.friction, Range::atLeast(0));
-        r.get("thickness", collider.thickness, Range::atLeast(0));
         r.get("draw", collider.draw);
         getColor(r, "color", collider.color);
         r.finish();

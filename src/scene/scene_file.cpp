@@ -74,7 +74,7 @@ void readSky(JsonReader& scene, Sky& sky) {
 
 }  // namespace
 
-Scene parseScene(const std::string& text, const std::string& file) {
+Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking) {
     const JsonValue root = parseJson(text, file);
     JsonReader r(root, file);
     int format = 0;
@@ -96,15 +96,15 @@ Scene parseScene(const std::string& text, const std::string& file) {
     readSky(r, scene.sky);
     scene.fields = readFields(r);
     scene.models = readModels(r);
-    scene.colliders = readColliders(r, scene.models, scene.warnings);
+    scene.colliders = readColliders(r, scene.models, baking, scene.warnings);
     scene.groups = readGroups(r, scene.models, scene.warnings);
     scene.surfacePairs = readSurfacePairs(r, scene.colliders, scene.groups);
     r.finish();
     return scene;
 }
 
-Scene readScene(const std::string& file) {
-    return parseScene(readFile(file), file);
+Scene readScene(const std::string& file, const FieldBaking& baking) {
+    return parseScene(readFile(file), file, baking);
 }
 
 }  // namespace shoal

@@ -5,14 +5,18 @@
 
 #include <string>
 
+#include "core/cache_folder.h"
+#include "scene/distance_field_cache.h"
 #include "scene/scene.h"
 
 namespace shoal {
 
 // Reads a scene with its molecules, models and fields. Every mistake is one Error with file, line, column
 // and JSON path; a mistake inside a file that the scene names is reported at that file.
-Scene readScene(const std::string& file);
-Scene parseScene(const std::string& text, const std::string& file);
+// Distance fields are baked here, or taken from where they are kept.
+Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolder(), {}});
+Scene parseScene(const std::string& text, const std::string& file,
+                 const FieldBaking& baking = {cacheFolder(), {}});
 
 // A group holds at most this many molecules: single precision counts them one by one no further.
 inline constexpr int maxGroupCount = 1 << 24;

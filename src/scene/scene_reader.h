@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/json.h"
+#include "scene/distance_field_cache.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -24,10 +25,14 @@ void refuseHugeNumbers(const JsonValue& value, const std::string& file, const st
 std::vector<Field> readFields(JsonReader& scene);
 std::vector<Model> readModels(JsonReader& scene);
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
-                                    std::vector<Warning>& warnings);
+                                    const FieldBaking& baking, std::vector<Warning>& warnings);
 // Error: a surface that neither a collider nor a group has; a pair given twice.
 std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<Collider>& colliders,
                                           const std::vector<Group>& groups);
+// `thickness`: the collider's, which the grid must reach beyond.
+DistanceFieldCollider readDistanceField(JsonReader& reader, const std::vector<Model>& models,
+                                        double thickness, const FieldBaking& baking,
+                                        std::vector<Warning>& warnings);
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "core/cache_folder.h"
 #include "core/file.h"
 #include "gl/gl_test.h"
 #include "gpu/framebuffer.h"
@@ -376,7 +377,7 @@ TEST_CASE("the folder of the cache comes from the environment", "[program-cache]
         for (const auto& [name, value] : values)
             all[name] = value;
         const Variables variables(all);
-        return ProgramCache::defaultFolder();
+        return shoal::cacheFolder();
     };
     CHECK(folder({{"SHOAL_CACHE", "here"}, {"XDG_CACHE_HOME", "/x"}, {"HOME", "/h"}}) == "here");
     CHECK(folder({{"SHOAL_CACHE", ""}, {"XDG_CACHE_HOME", "/x"}, {"HOME", "/h"}}).empty());

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "core/cache_folder.h"
 #include "gpu/program_cache.h"
 #include "hard/table.h"
 #include "support/catch.h"
@@ -107,7 +108,7 @@ bool onPingPong() {
 }
 
 Simulation hardSimulation(const Scene& scene, bool drawn) {
-    static gpu::ProgramCache cache(testContext(), gpu::ProgramCache::defaultFolder());
+    static gpu::ProgramCache cache(testContext(), cacheFolder());
     return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
                       {.drawn = drawn, .path = testPath(), .cache = &cache});
 }

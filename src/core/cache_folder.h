@@ -1,0 +1,20 @@
+// What may be kept between runs: where, and under which names.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace shoal {
+
+// $SHOAL_CACHE (empty: no cache), $XDG_CACHE_HOME/shoal, ~/.cache/shoal; else empty.
+std::string cacheFolder();
+
+// 32 hexadecimal digits of a content (FNV-1a, forwards and backwards): names a cached file.
+std::string contentKey(std::string_view bytes);
+
+// FNV-1a of 64 bits: tells a damaged file.
+constexpr uint64_t fnvStart = 14695981039346656037ull;
+uint64_t fnv(std::string_view bytes, uint64_t hash = fnvStart);
+
+}  // namespace shoal
