@@ -8,6 +8,7 @@
 #include "app/data_paths.h"
 #include "app/machine.h"
 #include "app/progress.h"
+#include "core/cache_folder.h"
 #include "core/json.h"
 #include "measure/bench_sort.h"
 #include "measure/pin_threads.h"
@@ -178,7 +179,7 @@ int benchSortCommand(const Options& options) {
     contextOptions.kind = options.context;
     contextOptions.visible = false;
     gpu::Context context(contextOptions);
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     Report report;
     report.processor = processorName();
     report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
