@@ -36,6 +36,8 @@ broken_molecules = [
     (["springs", 0, "b"], GONE),
     (["springs", 0, "stiffness"], -1),
     (["springs", 0, "stifness"], 1),
+    (["material", "blend"], "alfa"),
+    (["material", "opacity"], 0.5),
     (["triangles", 0], [0, 1]),
     (["triangles", 0], [0, 1, -1]),
     (["material"], []),

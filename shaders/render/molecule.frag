@@ -1,5 +1,6 @@
-// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS.
+// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS, and those of render/blend.glsl.
 
+#include "render/blend.glsl"
 #include "render/light.glsl"
 #ifdef TEXTURED
 #include "render/alpha_cut.glsl"
@@ -41,5 +42,5 @@ void main()
     // Green tissue lets yellow pass.
     s.throughColor = albedo * vec3(1.7, 1.45, 0.5);
     s.openness = crownOpenness(place, n);
-    fragment = vec4(squeeze(withHaze(shade(s), place)), covered);
+    fragment = blended(squeeze(withHaze(shade(s), place)), albedo, covered);
 }

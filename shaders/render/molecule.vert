@@ -1,7 +1,8 @@
 // A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
-// Variants: TEXTURED, DEPTH_ONLY.
+// Variants: TEXTURED, DEPTH_ONLY, and those of render/drawn.glsl.
 
 #include "lib/molecule.glsl"
+#include "render/drawn.glsl"
 #include "render/instance_color.glsl"
 
 layout(location = 0) in vec2 cornerUv;
@@ -17,12 +18,15 @@ flat out vec3 color;
 
 void main()
 {
-    vec3 at = vertexPlace(gl_InstanceID, gl_VertexID);
+    int molecule;
+    bool drawn = findDrawn(molecule);
+    vec3 at = vertexPlace(molecule, gl_VertexID);
     uv = cornerUv;
 #ifndef DEPTH_ONLY
     place = at;
-    normal = vertexNormal(gl_InstanceID, gl_VertexID);
-    color = instanceColor(moleculeSeed(gl_InstanceID));
+    normal = vertexNormal(molecule, gl_VertexID);
+    color = instanceColor(moleculeSeed(molecule));
 #endif
     gl_Position = toClip * vec4(at, 1.0);
+    if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

@@ -1,4 +1,5 @@
-// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing else).
+// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing else), and
+// those of render/blend.glsl.
 
 #ifdef DEPTH_ONLY
 void main()
@@ -7,6 +8,7 @@ void main()
     if (dot(at, at) > 1.0) discard;
 }
 #else
+#include "render/blend.glsl"
 #include "render/light.glsl"
 
 in vec3 middle;
@@ -36,6 +38,6 @@ void main()
     s.translucency = 0.0;
     s.throughColor = vec3(0.0);
     s.openness = crownOpenness(s.place, s.normal);
-    fragment = vec4(squeeze(withHaze(shade(s), s.place)), covered);
+    fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }
 #endif

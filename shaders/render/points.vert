@@ -1,6 +1,8 @@
-// Molecules without triangles: every vertex a round sprite. Variant: DEPTH_ONLY.
+// Molecules without triangles: every vertex a round sprite. Variants: DEPTH_ONLY, and those of
+// render/drawn.glsl.
 
 #include "lib/molecule.glsl"
+#include "render/drawn.glsl"
 #include "render/instance_color.glsl"
 
 uniform mat4 toClip;
@@ -14,11 +16,14 @@ flat out vec3 color;
 
 void main()
 {
-    vec3 at = vertexPlace(gl_InstanceID, gl_VertexID);
+    int molecule;
+    bool drawn = findDrawn(molecule);
+    vec3 at = vertexPlace(molecule, gl_VertexID);
     gl_Position = toClip * vec4(at, 1.0);
+    if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
     gl_PointSize = max(pointSize * pixelsPerMeter / gl_Position.w, 1.0);
 #ifndef DEPTH_ONLY
     middle = at;
-    color = instanceColor(moleculeSeed(gl_InstanceID));
+    color = instanceColor(moleculeSeed(molecule));
 #endif
 }

@@ -1,5 +1,17 @@
 // From light to what a screen shows.
 
+// With LINEAR_LIGHT, where something is blended, light is stored as it is: blending is exact only then.
+#ifdef LINEAR_LIGHT
+vec3 squeeze(vec3 radiance)
+{
+    return radiance;
+}
+
+vec3 unsqueeze(vec3 radiance)
+{
+    return radiance;
+}
+#else
 // Samples are averaged by the resolve after being squeezed by their brightest channel, so that one sample of
 // the sun does not outweigh its three dark neighbours and edges stay smooth (Karis 2013, "Tone mapping").
 vec3 squeeze(vec3 radiance)
@@ -11,6 +23,7 @@ vec3 unsqueeze(vec3 squeezed)
 {
     return squeezed / max(1.0 - max(squeezed.r, max(squeezed.g, squeezed.b)), 1e-3);
 }
+#endif
 
 // A fit of the ACES reference film curve (Narkowicz 2016, "ACES filmic tone mapping curve"): deep shadows, and
 // highlights that roll off instead of clipping.

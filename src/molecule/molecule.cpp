@@ -5,6 +5,16 @@
 
 namespace shoal {
 
+const char* name(Blend blend) {
+    static constexpr const char* words[] = {"none", "alpha", "additive", "multiplicative"};
+    return words[size_t(blend)];
+}
+
+const char* name(DrawSort sort) {
+    static constexpr const char* words[] = {"none", "frame", "spread"};
+    return words[size_t(sort)];
+}
+
 double Molecule::size() const {
     // Every pair is compared only while that is cheap; beyond, the diagonal of the bounding box stands in.
     constexpr size_t allPairs = 4096;

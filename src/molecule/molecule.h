@@ -39,6 +39,17 @@ struct Triangle {
     int a = 0, b = 0, c = 0;  // anticlockwise seen from the front
 };
 
+// How a molecule meets what is drawn behind it, with L the light that it sends, C its colour, o its opacity:
+//   alpha           o L + (1 - o) behind        additive   o L + behind
+//   multiplicative  (1 + o (C - 1)) behind, like a filter
+enum class Blend { none, alpha, additive, multiplicative };
+// How the molecules of a group with blend alpha come into the order from back to front.
+//   frame   sorted anew in every frame       spread   sorted a little in every frame (Latta, section 3.4.4)
+enum class DrawSort { none, frame, spread };
+
+const char* name(Blend blend);
+const char* name(DrawSort sort);
+
 // How a molecule looks. Colours are linear RGB in [0, 1].
 struct Material {
     glm::dvec3 color{0.8};
@@ -48,6 +59,10 @@ struct Material {
     double translucency = 0;                // share of light that shines through from behind, in [0, 1]
     double roughness = 0.7;                 // in [0, 1]
     double pointSize = 0.02;                // m, the diameter of a molecule without triangles
+    Blend blend = Blend::none;
+    double opacity = 1;               // in [0, 1]; with a blend
+    DrawSort sort = DrawSort::frame;  // with blend alpha; the other blends need no order
+    int spreadFrames = 20;            // with sort spread: frames of one whole sort
 };
 
 struct Molecule {

@@ -18,6 +18,7 @@ constexpr double leastMass = 1e-12, mostMass = 1e12;  // kg
 constexpr double mostStiffness = 1e15;                // N/m, and N s/m
 constexpr double mostFrequency = 1e6;                 // Hz
 constexpr double leastLength = 1e-9;                  // m, below which two vertices stand in one place
+constexpr int mostSpreadFrames = 1000;
 constexpr size_t mostBytes = size_t{1} << 28;
 
 struct Defaults {
@@ -172,6 +173,20 @@ void readTriangles(JsonReader& root, Molecule& molecule) {
     }
 }
 
+void readBlend(JsonReader& reader, Material& material) {
+    int blend = 0, sort = int(material.sort);
+    reader.choose("blend", {"none", "alpha", "additive", "multiplicative"}, blend);
+    material.blend = Blend(blend);
+    if (reader.get("opacity", material.opacity, Range::between(0, 1)) && material.blend == Blend::none)
+        throw Error(reader.at("opacity"), "opacity needs a blend: alpha, additive or multiplicative");
+    if (reader.choose("sort", {"none", "frame", "spread"}, sort) && material.blend != Blend::alpha)
+        throw Error(reader.at("sort"), "only what has the blend alpha needs an order: leave out sort");
+    material.sort = DrawSort(sort);
+    if (reader.get("spreadFrames", material.spreadFrames, Range::between(1, mostSpreadFrames)) &&
+        material.sort != DrawSort::spread)
+        throw Error(reader.at("spreadFrames"), "spreadFrames is of the sort spread");
+}
+
 void readMaterial(JsonReader& root, Material& material) {
     auto reader = root.object("material");
     if (!reader) return;
@@ -186,6 +201,7 @@ void readMaterial(JsonReader& root, Material& material) {
     reader->get("translucency", material.translucency, unit);
     reader->get("roughness", material.roughness, unit);
     reader->get("pointSize", material.pointSize, Range{0, maxCoordinate, true});
+    readBlend(*reader, material);
     reader->finish();
 }
 

@@ -92,6 +92,13 @@ JsonValue write(const Material& material) {
     addNumber("translucency", material.translucency, usual.translucency);
     addNumber("roughness", material.roughness, usual.roughness);
     addNumber("pointSize", material.pointSize, usual.pointSize);
+    if (material.blend == Blend::none) return out;
+    out.add("blend", JsonValue::makeString(name(material.blend)));
+    addNumber("opacity", material.opacity, usual.opacity);
+    if (material.blend != Blend::alpha || material.sort == usual.sort) return out;
+    out.add("sort", JsonValue::makeString(name(material.sort)));
+    if (material.sort == DrawSort::spread)
+        addNumber("spreadFrames", material.spreadFrames, usual.spreadFrames);
     return out;
 }
 

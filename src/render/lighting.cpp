@@ -7,7 +7,7 @@ glm::dvec3 towardsSun(const Light& light) {
     return length > 0 ? -light.direction / length : glm::dvec3(0, 1, 0);
 }
 
-Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow)
+Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, bool blends)
     : towardsSun_(shoal::towardsSun(scene.light)),
       sun_(scene.light.color * scene.light.intensity),
       zenith_(scene.sky.zenith * scene.sky.intensity),
@@ -15,11 +15,18 @@ Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* sha
       ground_(scene.sky.ground * scene.sky.intensity),
       fog_(float(scene.sky.fog)),
       crown_(crown),
-      shadow_(shadow) {}
+      shadow_(shadow),
+      blends_(blends) {}
 
 std::vector<std::string> Lighting::defines() const {
-    if (shadow_ == nullptr) return {};
-    return {"SHADOWS"};
+    std::vector<std::string> out = toneDefines();
+    if (shadow_ != nullptr) out.emplace_back("SHADOWS");
+    return out;
+}
+
+std::vector<std::string> Lighting::toneDefines() const {
+    if (!blends_) return {};
+    return {"LINEAR_LIGHT"};
 }
 
 void Lighting::applySky(const gpu::Program& program) const {

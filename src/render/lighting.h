@@ -14,16 +14,18 @@ namespace shoal {
 
 // Texture units, one for each sampler of the room.
 namespace unit {
-constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6;
+constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
+              order = 7, slabs = 8;
 }
 
 class Lighting {
   public:
-    // `shadow` may be null: the sun casts none.
-    Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow);
+    // `shadow` may be null: the sun casts none. `blends`: something is blended, so light is stored as it is.
+    Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, bool blends);
 
     // What the programs are compiled with.
     std::vector<std::string> defines() const;
+    std::vector<std::string> toneDefines() const;  // those with no light on surfaces: sky, picture
     void applySky(const gpu::Program& program) const;
     void apply(const gpu::Program& program, const Eye& eye) const;
 
@@ -32,6 +34,7 @@ class Lighting {
     float fog_ = 0;
     Sphere crown_;
     const ShadowMap* shadow_;
+    bool blends_;
 };
 
 // Unit. Straight down where the direction is zero.

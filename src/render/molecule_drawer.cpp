@@ -1,11 +1,14 @@
 #include "render/molecule_drawer.h"
 
+#include <algorithm>
+
 #include "render/leaf_image.h"
+#include "render/molecule_state.h"
 
 namespace shoal {
 
 MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
-                               const Plan& plan, const Lighting& lighting)
+                               const Plan& plan, const Lighting& lighting, int slabs)
     : context_(&context), shaderRoot_(shaderRoot) {
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
@@ -13,6 +16,7 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
         groups_.push_back(make(scene.groups[group.index], group, lighting));
         groups_.back().index = g;
     }
+    makeOrders(context, scene, plan, slabs);
 }
 
 MoleculeDrawer::Drawn MoleculeDrawer::make(const Group& group, const GroupPlan& plan,
@@ -32,6 +36,9 @@ MoleculeDrawer::Drawn MoleculeDrawer::make(const Group& group, const GroupPlan& 
     out.translucency = float(material.translucency);
     out.pointSize = float(material.pointSize);
     out.corners = gpu::VertexArray(*context_, group.name.c_str());
+
+    out.blend = material.blend;
+    out.opacity = float(material.opacity);
 
     const bool points = group.molecule.triangles.empty();
     if (!points) {
@@ -62,6 +69,8 @@ MoleculeDrawer::Drawn MoleculeDrawer::make(const Group& group, const GroupPlan& 
     out.litOptions = depth;
     for (const std::string& define : lighting.defines())
         out.litOptions.defines.push_back(define);
+    if (out.blend != Blend::none) out.litOptions.defines.push_back("BLENDED");
+    if (out.blend == Blend::multiplicative) out.litOptions.defines.push_back("FILTERS");
     out.litOptions.label = group.name + " (picture)";
     depth.defines.push_back("DEPTH_ONLY");
     if (!points) depth.fragment = "render/molecule_shadow.frag";
@@ -76,35 +85,19 @@ const gpu::Program& MoleculeDrawer::program(const Drawn& group, std::array<gpu::
     gpu::Program& program = programs[state.textures ? 0 : 1];
     if (program) return program;
     gpu::ProgramOptions wanted = options;
-    std::vector<std::string> defines = {concat("STATE_WIDTH ", stateWidth)};
-    if (!state.textures)
-        defines = {"STATE_BUFFERS", concat("BLOCK ", BufferLayout::block),
-                   concat("POSITION_ELEMENTS ", group.layout.positionElements()),
-                   concat("STATE_ELEMENTS ", group.layout.stateElements())};
+    const std::vector<std::string> defines = stateDefines(state, group.layout);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
     program = gpu::Program(*context_, shaderRoot_, wanted);
     return program;
 }
 
-void MoleculeDrawer::bindTextures(const gpu::Program& program, const Drawn& group,
-                                  const TextureState& state) const {
-    program.texture("positions", unit::positions, state.position.read(group.index));
-    program.texture("records", unit::records, state.record.read(group.index));
-    program.texture("constants", unit::constants, state.constant);
-    if (state.normal) program.texture("normals", unit::normals, state.normal);
-    program.set("groupRows", group.rows);
-}
-
 void MoleculeDrawer::submit(const gpu::Program& program, const Drawn& group, const StateView& state) const {
     if (state.textures) {
-        bindTextures(program, group, *state.textures);
+        bindState(program, state, group.index, group.rows, nullptr);
         return drawInstances(group, group.count);
     }
-    const GroupBuffers& buffers = (*state.buffers)[group.index];
-    for (const GroupBuffers::Part& part : buffers.parts()) {
-        program.texture("states", unit::positions, buffers.oldState(part));
-        program.texture("records", unit::records, part.record);
-        if (buffers.hasNormals()) program.texture("normals", unit::normals, part.normal);
+    for (const GroupBuffers::Part& part : (*state.buffers)[group.index].parts()) {
+        bindState(program, state, group.index, group.rows, &part);
         drawInstances(group, part.count);
     }
 }
@@ -122,6 +115,7 @@ void MoleculeDrawer::drawInstances(const Drawn& group, int count) const {
 
 void MoleculeDrawer::drawShadows(const StateView& state, const ShadowMap& shadow) {
     for (Drawn& group : groups_) {
+        if (group.blend != Blend::none) continue;
         const gpu::Program& program = this->program(group, group.depth, group.depthOptions, state);
         program.use();
         shadow.origin().apply(program);
@@ -138,31 +132,35 @@ void MoleculeDrawer::drawShadows(const StateView& state, const ShadowMap& shadow
     }
 }
 
+const gpu::Program& MoleculeDrawer::useLit(Drawn& group, const StateView& state, const Eye& eye,
+                                           const Lighting& lighting) {
+    const gpu::Program& program = this->program(group, group.lit, group.litOptions, state);
+    program.use();
+    eye.origin.apply(program);
+    lighting.apply(program, eye);
+    program.set("toClip", eye.toClip);
+    program.set("firstColor", group.color);
+    program.set("secondColor", group.secondColor);
+    program.set("roughness", group.roughness);
+    if (group.image) {
+        program.texture("image", unit::image, group.image);
+        program.set("alphaCut", group.alphaCut);
+    }
+    if (group.indexCount > 0) {
+        program.set("translucency", group.translucency);
+    } else {
+        program.set("pointSize", group.pointSize);
+        program.set("pixelsPerMeter", eye.pixelsPerMeter);
+        program.set("viewToScene", eye.viewToScene);
+    }
+    return program;
+}
+
 void MoleculeDrawer::draw(const StateView& state, const Eye& eye, const Lighting& lighting,
                           bool multisampled) {
     if (multisampled) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
-    for (Drawn& group : groups_) {
-        const gpu::Program& program = this->program(group, group.lit, group.litOptions, state);
-        program.use();
-        eye.origin.apply(program);
-        lighting.apply(program, eye);
-        program.set("toClip", eye.toClip);
-        program.set("firstColor", group.color);
-        program.set("secondColor", group.secondColor);
-        program.set("roughness", group.roughness);
-        if (group.image) {
-            program.texture("image", unit::image, group.image);
-            program.set("alphaCut", group.alphaCut);
-        }
-        if (group.indexCount > 0) {
-            program.set("translucency", group.translucency);
-        } else {
-            program.set("pointSize", group.pointSize);
-            program.set("pixelsPerMeter", eye.pixelsPerMeter);
-            program.set("viewToScene", eye.viewToScene);
-        }
-        submit(program, group, state);
-    }
+    for (Drawn& group : groups_)
+        if (group.blend == Blend::none) submit(useLit(group, state, eye, lighting), group, state);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 

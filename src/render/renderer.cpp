@@ -22,11 +22,13 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
     : context_(&context),
       options_(options),
       shadow_(makeShadowMap(context, scene, plan, options)),
-      lighting_(scene, crownOf(scene, plan, options), shadow_.get()),
+      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), MoleculeDrawer::blends(scene, plan)),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
-      molecules_(context, shaderRoot, scene, plan, lighting_),
-      sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", {}, {}, "sky"}),
-      tone_(context, shaderRoot, {"render/screen.vert", "render/picture.frag", {}, {}, "picture"}),
+      molecules_(context, shaderRoot, scene, plan, lighting_, options.slabs),
+      sky_(context, shaderRoot,
+           {"render/screen.vert", "render/sky.frag", lighting_.toneDefines(), {}, "sky"}),
+      tone_(context, shaderRoot,
+            {"render/screen.vert", "render/picture.frag", lighting_.toneDefines(), {}, "picture"}),
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
@@ -52,6 +54,10 @@ void Renderer::draw(const StateView& state, const View& view) {
     glDepthFunc(GL_LEQUAL);
 
     timers_.beginFrame();
+    if (molecules_.blends()) {
+        const auto timer = timers_.time("order");
+        molecules_.order(state, eye);
+    }
     if (shadow_) drawShadows(state);
     samples_.bind();
     glEnable(GL_DEPTH_TEST);
@@ -66,6 +72,7 @@ void Renderer::draw(const StateView& state, const View& view) {
         molecules_.draw(state, eye, lighting_, samples_.samples() > 1);
     }
     drawSky(eye);
+    if (molecules_.blends()) drawBlended(state, eye);
     samples_.blitTo(lightTarget_);
     drawPicture(view.exposure);
     timers_.endFrame();
@@ -89,6 +96,15 @@ void Renderer::drawSky(const Eye& eye) {
     empty_.bind();
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void Renderer::drawBlended(const StateView& state, const Eye& eye) {
+    const auto timer = timers_.time("blended");
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    molecules_.drawBlended(state, eye, lighting_);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
 }

@@ -1,6 +1,8 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
 // gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
+// What is blended comes last, over the sky; where nothing is, nothing is done for it.
+//
 //   shadow map (depth)  ->  light (RGBA16F, several samples)  ->  resolved light  ->  picture (RGBA8, sRGB)
 #pragma once
 
@@ -26,6 +28,7 @@ struct RenderOptions {
     int shadowSize = 2048;           // texels a side
     bool crownShade = true;          // leaves hide the sky from one another
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
+    int slabs = 32;     // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
 };
 
@@ -49,11 +52,14 @@ class Renderer {
     Image capture() const;
 
     gpu::PassTimers& timers() { return timers_; }
+    // In which a blended group of the plan was last drawn; null: it has none. For tests.
+    const DrawOrder* orderOf(size_t group) const { return molecules_.orderOf(group); }
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
     void drawShadows(const StateView& state);
     void drawSky(const Eye& eye);
+    void drawBlended(const StateView& state, const Eye& eye);
     void drawPicture(double exposure);
 
     gpu::Context* context_;

@@ -93,6 +93,15 @@ int NetworkSort::passes() const {
                                       : oddEvenMergePasses(count_).size());
 }
 
+std::vector<KeyIndex> NetworkSort::download() const {
+    std::vector<KeyIndex> out(size_t(rows()) * size_t(rowLength_));
+    if (!out.empty())
+        pairs().download(gpu::Traffic::Kind::state, 0, 0, pairs().width(), rows(), out.data(),
+                         out.size() * sizeof(KeyIndex));
+    out.resize(count_);
+    return out;
+}
+
 void NetworkSort::drawInto(const gpu::Framebuffer& target) const {
     for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
         glDisable(state);

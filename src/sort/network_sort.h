@@ -14,6 +14,7 @@
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "sort/key_index.h"
 #include "sort/network.h"
 
 namespace shoal {
@@ -42,6 +43,8 @@ class NetworkSort {
     // writes new keys in between. oddEvenMerge only.
     void beginSpread(int frames);
     void advance();
+
+    std::vector<KeyIndex> download() const;  // counted as state
 
     // Pairs are drawn or uploaded into here before they are sorted, and read from here after.
     const gpu::Texture& pairs() const { return sides_[side_]; }

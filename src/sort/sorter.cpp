@@ -86,18 +86,9 @@ void Sorter::upload(std::span<const KeyIndex> pairs) {
 }
 
 std::vector<KeyIndex> Sorter::download() const {
+    if (network_) return network_->download();
     std::vector<KeyIndex> out(count_);
-    if (count_ == 0) return out;
-    if (!network_) {
-        buffer_.download(Kind::state, 0, out.data(), count_ * sizeof(KeyIndex));
-        return out;
-    }
-    const auto length = size_t(network_->rowLength());
-    out.resize((count_ + length - 1) / length * length);
-    const gpu::Texture& pairs = network_->pairs();
-    pairs.download(Kind::state, 0, 0, pairs.width(), int(out.size() / length), out.data(),
-                   out.size() * sizeof(KeyIndex));
-    out.resize(count_);
+    if (count_ > 0) buffer_.download(Kind::state, 0, out.data(), count_ * sizeof(KeyIndex));
     return out;
 }
 

@@ -10,15 +10,11 @@
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
+#include "sort/key_index.h"
 #include "sort/network_sort.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
-
-struct KeyIndex {
-    uint32_t key = 0, index = 0;
-    bool operator==(const KeyIndex&) const = default;
-};
 
 enum class SortMethod { oddEvenMerge, bitonic, radix, cpu };
 

@@ -270,3 +270,32 @@ TEST_CASE("mutated files are read or refused with a place, and never crash", "[m
     CHECK(refused > 300);
     CHECK(read > 10);
 }
+
+TEST_CASE("a material says how it is blended", "[molecule]") {
+    const auto with = [](const std::string& keys) {
+        return concat(head, R"("vertices": [{"position": [0, 0, 0], "mass": 1}], "material": {)", keys, "}}");
+    };
+    const auto materialOf = [&](const std::string& keys) { return parseMolecule(with(keys), "f").material; };
+    const Material plain = materialOf("");
+    CHECK((plain.blend == Blend::none && plain.opacity == 1 && plain.sort == DrawSort::frame));
+    const Material full =
+        materialOf(R"("blend": "alpha", "opacity": 0.25, "sort": "spread", "spreadFrames": 50)");
+    CHECK((full.blend == Blend::alpha && full.opacity == 0.25));
+    CHECK((full.sort == DrawSort::spread && full.spreadFrames == 50));
+    CHECK(materialOf(R"("blend": "additive")").blend == Blend::additive);
+
+    CHECK(mentions(refusal(with(R"("blend": "alfa")")), "alpha"));
+    CHECK(mentions(refusal(with(R"("blend": "alpha", "opacity": 1.5)")), "opacity"));
+    CHECK(mentions(refusal(with(R"("opacity": 0.5)")), "opacity needs a blend"));
+    CHECK(mentions(refusal(with(R"("blend": "additive", "sort": "frame")")), "leave out sort"));
+    CHECK(mentions(refusal(with(R"("blend": "alpha", "spreadFrames": 5)")),
+                   "spreadFrames is of the sort spread"));
+    CHECK(
+        mentions(refusal(with(R"("blend": "alpha", "sort": "spread", "spreadFrames": 0)")), "spreadFrames"));
+
+    Molecule written = parseMolecule(
+        with(R"("blend": "alpha", "opacity": 0.25, "sort": "spread", "spreadFrames": 50)"), "f");
+    const Material again = parseMolecule(writeMolecule(written, ""), "f").material;
+    CHECK((again.blend == Blend::alpha && again.opacity == 0.25));
+    CHECK((again.sort == DrawSort::spread && again.spreadFrames == 50));
+}

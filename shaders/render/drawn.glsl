@@ -1,0 +1,28 @@
+// Which molecule an instance is. Variants: ORDERED (not as they are numbered), SLABS (only those of one slab of
+// depth).
+#ifdef ORDERED
+#include "render/order.glsl"
+#ifdef SLABS
+uniform usampler2D slabs;  // texel s: x the first key of slab s, y the first one past it
+uniform int slab;
+#endif
+
+// False: not drawn now.
+bool findDrawn(out int molecule)
+{
+    uvec2 pair = orderAt(gl_InstanceID);
+    molecule = int(pair.y);
+#ifdef SLABS
+    uvec2 bounds = texelFetch(slabs, ivec2(slab, 0), 0).xy;
+    return pair.x >= bounds.x && pair.x < bounds.y;
+#else
+    return true;
+#endif
+}
+#else
+bool findDrawn(out int molecule)
+{
+    molecule = gl_InstanceID;
+    return true;
+}
+#endif

@@ -1,0 +1,14 @@
+// The key of a molecule in the order from back to front: its middle's depth along the view, the farthest first, as a
+// whole number that grows as -depth does.
+#include "lib/molecule.glsl"
+
+uniform vec3 forward;  // unit, where the eye looks
+uniform int vertexCount, moleculeCount;
+
+uint orderKey(int molecule)
+{
+    vec3 sum = vec3(0.0);
+    for (int v = 0; v < vertexCount; ++v) sum += vertexPlace(molecule, v);
+    uint bits = floatBitsToUint(-dot(sum, forward) / float(vertexCount));
+    return (bits & 0x80000000u) != 0u ? ~bits : bits | 0x80000000u;
+}

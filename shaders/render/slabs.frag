@@ -1,0 +1,29 @@
+// Cuts the depths into slabs that hold about as many molecules each of the group whose order is read: texel s has the
+// first key of slab s and the first one past it. The first slab lies behind all of that group, the last begins at its
+// nearest. Slabs meet without a gap, also where the order is not quite sorted.
+#include "render/order.glsl"
+
+uniform int moleculeCount, slabCount;
+
+layout(location = 0) out uvec2 bounds;
+
+uint firstKey(int slab)
+{
+    if (slab == 0) return 0u;
+    if (slab == slabCount) return 0xffffffffu;
+    uint key = 0u;
+    for (int s = 1; s <= slab; ++s) {
+        float share = slabCount > 2 ? float(s - 1) / float(slabCount - 2) : 0.5;
+        float at = share * float(moleculeCount - 1);
+        int i = min(int(at), moleculeCount - 1);
+        uint here = orderAt(i).x, next = max(orderAt(min(i + 1, moleculeCount - 1)).x, here);
+        key = max(key, here + uint(float(next - here) * (at - float(i))));
+    }
+    return key;
+}
+
+void main()
+{
+    int s = int(gl_FragCoord.x);
+    bounds = uvec2(firstKey(s), firstKey(s + 1));
+}

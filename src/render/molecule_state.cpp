@@ -1,0 +1,31 @@
+#include "render/molecule_state.h"
+
+#include "render/lighting.h"
+
+namespace shoal {
+
+std::vector<std::string> stateDefines(const StateView& state, const BufferLayout& layout) {
+    if (state.textures) return {concat("STATE_WIDTH ", stateWidth)};
+    return {"STATE_BUFFERS", concat("BLOCK ", BufferLayout::block),
+            concat("POSITION_ELEMENTS ", layout.positionElements()),
+            concat("STATE_ELEMENTS ", layout.stateElements())};
+}
+
+void bindState(const gpu::Program& program, const StateView& state, size_t index, const glm::ivec4& rows,
+               const GroupBuffers::Part* part) {
+    if (state.textures) {
+        const TextureState& textures = *state.textures;
+        program.texture("positions", unit::positions, textures.position.read(index));
+        program.texture("records", unit::records, textures.record.read(index));
+        program.texture("constants", unit::constants, textures.constant);
+        if (textures.normal) program.texture("normals", unit::normals, textures.normal);
+        program.set("groupRows", rows);
+        return;
+    }
+    const GroupBuffers& buffers = (*state.buffers)[index];
+    program.texture("states", unit::positions, buffers.oldState(*part));
+    program.texture("records", unit::records, part->record);
+    if (buffers.hasNormals()) program.texture("normals", unit::normals, part->normal);
+}
+
+}  // namespace shoal

@@ -1,0 +1,13 @@
+// What is sorted.
+#pragma once
+
+#include <cstdint>
+
+namespace shoal {
+
+struct KeyIndex {
+    uint32_t key = 0, index = 0;
+    bool operator==(const KeyIndex&) const = default;
+};
+
+}  // namespace shoal
