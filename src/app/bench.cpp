@@ -6,6 +6,7 @@
 #include <numeric>
 #include <thread>
 
+#include "app/bench_draw.h"
 #include "app/bench_plot.h"
 #include "app/bench_report.h"
 #include "app/bullet_yardstick.h"
@@ -15,7 +16,6 @@
 #include "app/progress.h"
 #include "core/cache_folder.h"
 #include "measure/pin_threads.h"
-#include "render/renderer.h"
 
 namespace shoal::app {
 
@@ -27,16 +27,6 @@ using Clock = std::chrono::steady_clock;
 
 double secondsSince(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-constexpr int pictureWidth = 640, pictureHeight = 360;
-
-Draw makeDraw(gpu::Context& context, const Scene& scene, const Plan& plan) {
-    RenderOptions options;
-    options.width = pictureWidth;
-    options.height = pictureHeight;
-    const auto renderer = std::make_shared<Renderer>(context, shaderRoot(), scene, plan, options);
-    return [renderer, view = View::of(scene.camera)](const StateView& state) { renderer->draw(state, view); };
 }
 
 class BulletRunner : public BenchRunner {
@@ -181,6 +171,7 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
 
 int benchCommand(const Options& options) {
     if (options.benchOf == "sort") return benchSortCommand(options);
+    if (options.benchOf == "collide") return benchCollideCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
     gpu::ContextOptions contextOptions;
@@ -197,7 +188,7 @@ int benchCommand(const Options& options) {
 
     gpu::ProgramCache cache(context, cacheFolder());
     BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores, {}};
-    device.makeDraw = [&](const Scene& scene, const Plan& plan) { return makeDraw(context, scene, plan); };
+    device.makeDraw = drawMaker(context);
     if (bulletAvailable())
         device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
             return std::make_unique<BulletRunner>(one, molecule);

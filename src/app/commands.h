@@ -12,6 +12,7 @@ int explainCommand(const Options& options);
 int infoCommand(const Options& options);
 int benchCommand(const Options& options);      // with a word after it: one of those below
 int benchSortCommand(const Options& options);  // shoal bench sort
+int benchCollideCommand(const Options& options);  // shoal bench collide
 int measureCommand(const Options& options);
 
 // A scene and its plan with the options applied; warnings go to standard error.

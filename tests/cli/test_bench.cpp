@@ -92,7 +92,9 @@ TEST_CASE("bench refuses what it cannot do", "[cli]") {
     refusal({"bench", "--quik"}, "unknown option --quik (did you mean \"--quick\"?)");
     refusal({"bench", "hello.scene.json"}, "hello.scene.json");
     refusal({"bench", "sorr"}, "bench: unknown \"sorr\" (did you mean \"sort\"?)");
-    refusal({"bench", "sort", "--only", "radix"}, "--only and --plot are of bench without a word");
+    refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
+    refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");
+    refusal({"bench", "collide", "--only", "squids"}, "there are \"molecules\", \"UberFlow\" and \"searches\"");
     const std::string none = refusal({"bench", "--only", "squids"}, "nothing has \"squids\" in its name");
     CHECK_THAT(none, Catch::Contains("16,384 crosses"));
     refusal({"bench", "--only", "fish", "--plot", "x.svg"}, "--only leaves none of them");

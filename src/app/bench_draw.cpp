@@ -1,0 +1,22 @@
+#include "app/bench_draw.h"
+
+#include <memory>
+
+#include "app/data_paths.h"
+#include "render/renderer.h"
+
+namespace shoal::app {
+
+measure::DrawMaker drawMaker(gpu::Context& context) {
+    return [&context](const Scene& scene, const Plan& plan) -> measure::Draw {
+        RenderOptions options;
+        options.width = pictureWidth;
+        options.height = pictureHeight;
+        const auto renderer = std::make_shared<Renderer>(context, shaderRoot(), scene, plan, options);
+        return [renderer, view = View::of(scene.camera)](const StateView& state) {
+            renderer->draw(state, view);
+        };
+    };
+}
+
+}  // namespace shoal::app
