@@ -50,8 +50,9 @@ std::string contactText(const std::vector<ContactTimes>& all) {
             density = t.one.density;
             out += print("\n%s: %.4g m^3 a quad, spheres of %g m at its corners; ms, shortest (median)\n",
                          density.c_str(), t.one.room, ContactCase::radius);
-            out += "    quads  contacts            grid          search        response         contact"
-                   "       yardstick  ratio  ns/quad  ns/contact     fused\n";
+            out +=
+                "    quads  contacts            grid          search        response         contact"
+                "       yardstick  ratio  ns/quad  ns/contact     fused\n";
         }
         if (!t.leftOut.empty()) {
             out += print("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
@@ -81,10 +82,11 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
     for (const UberFlowTimes& t : all) {
         if (t.side != side) {
             side = t.side;
-            out += print("\nUberFlow's experiments, %d x %d particles; ms of a frame's parts, shortest of each\n",
-                         side, side);
-            out += print("  %-34s%9s%9s%9s%9s%9s%9s%12s\n", "", "motion", "contact", "sort", "draw", "frame",
-                         "fps", "published");
+            out += print(
+                "\nUberFlow's experiments, %d x %d particles; ms of a frame's parts, shortest of each\n",
+                side, side);
+            out += print("  %-34s%9s%9s%9s%9s%9s%9s%11s%11s\n", "", "motion", "contact", "sort", "draw",
+                         "frame", "fps", "undrawn", "published");
         }
         out += print("  %-34s", label(t).c_str());
         if (!t.leftOut.empty()) {
@@ -93,8 +95,8 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
         }
         for (const Spread* spread : {&t.motion, &t.contact, &t.sort, &t.draw, &t.frame})
             out += spread->min > 0 ? print("%9.2f", spread->min * 1e3) : print("%9s", "-");
-        out += print("%9.3g", t.framesPerSecond());
-        if (!t.published.empty()) out += print("%12g", t.published[placeOf(side)]);
+        out += print("%9.3g%11.4g", t.framesPerSecond(), t.undrawnFramesPerSecond());
+        if (!t.published.empty()) out += print("%11g", t.published[placeOf(side)]);
         out += "\n";
     }
     return out;
@@ -102,23 +104,24 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
 
 std::string searchText(const SearchReport& report) {
     if (report.shares.empty()) return "\nsearches left out: need OpenGL 4.3\n";
-    std::string out = print("\nshare of the contacts of %s spheres that a search finds; ns: grid and search,"
-                            " for each contact found\n",
-                            grouped(report.spheres).c_str());
+    std::string out = print(
+        "\nshare of the contacts of %s spheres that a search finds; ns: grid and search,"
+        " for each contact found\n",
+        grouped(report.spheres).c_str());
     out += "  spheres a cell   contacts";
     const size_t kinds = 3;
     for (size_t s = 0; s < kinds; ++s)
         out += print("%12s      ns", name(report.shares[s].search));
     for (size_t i = 0; i < report.shares.size(); ++i) {
         const SearchShare& share = report.shares[i];
-        if (i % kinds == 0)
-            out += print("\n  %14g%11s", share.perCell, grouped(int(share.contacts)).c_str());
+        if (i % kinds == 0) out += print("\n  %14g%11s", share.perCell, grouped(int(share.contacts)).c_str());
         out += print("%11.1f%%%8.0f", share.share() * 100, share.perContact() * 1e9);
     }
     const size_t steps = report.steps.size() / kinds;
-    out += print("\n\nshare of the contacts of %s spheres in flight, %g a cell, that a look after every step"
-                 " finds\n",
-                 grouped(report.movingSpheres).c_str(), report.movingPerCell);
+    out += print(
+        "\n\nshare of the contacts of %s spheres in flight, %g a cell, that a look after every step"
+        " finds\n",
+        grouped(report.movingSpheres).c_str(), report.movingPerCell);
     out += "  radii in a step  contacts";
     for (size_t s = 0; s < kinds; ++s)
         out += print("%12s", name(report.steps[s * steps].search));
@@ -174,6 +177,7 @@ JsonValue asJson(const UberFlowTimes& t) {
         .add("draw", asJson(t.draw))
         .add("frame", asJson(t.frame))
         .add("framesPerSecond", number(t.framesPerSecond()))
+        .add("undrawnFramesPerSecond", number(t.undrawnFramesPerSecond()))
         .add("publishedFramesPerSecond",
              t.published.empty() ? JsonValue() : number(t.published[placeOf(t.side)]));
 }
@@ -208,8 +212,8 @@ JsonValue asJson(const SearchReport& report) {
 }  // namespace
 
 std::string asText(const CollideReport& report) {
-    std::string out = print("%s, %d %s; ", report.processor.c_str(), report.cores,
-                            report.cores == 1 ? "core" : "cores");
+    std::string out =
+        print("%s, %d %s; ", report.processor.c_str(), report.cores, report.cores == 1 ? "core" : "cores");
     out += report.context.renderer + ", OpenGL " + report.context.version;
     if (report.pinned > 0) out += print("; %d rasteriser threads pinned", report.pinned);
     out += "\n" + contactText(report.contact) + uberFlowText(report.uberFlow);

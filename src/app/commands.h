@@ -10,8 +10,8 @@ int runCommand(const Options& options);
 int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);
-int benchCommand(const Options& options);      // with a word after it: one of those below
-int benchSortCommand(const Options& options);  // shoal bench sort
+int benchCommand(const Options& options);         // with a word after it: one of those below
+int benchSortCommand(const Options& options);     // shoal bench sort
 int benchCollideCommand(const Options& options);  // shoal bench collide
 int measureCommand(const Options& options);
 

@@ -124,7 +124,8 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
 const std::vector<std::string> benchWords = {"sort", "collide"};
 
 void addBench(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("of", options.benchOf, "sort: the sorts; collide: contact; nothing: the simulation's frames");
+    command.add_option("of", options.benchOf,
+                       "sort: the sorts; collide: contact; nothing: the simulation's frames");
     addContext(command, options, texts);
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
     command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")

@@ -22,21 +22,21 @@ using CollideProgress = std::function<void(double share)>;
 struct ContactCase {
     std::string density;  // "moderate", "dense"
     int quads = 0;
-    double room = 0;  // m^3, of each quad
+    double room = 0;                        // m^3, of each quad
     static constexpr double radius = 0.02;  // m
 };
 std::vector<ContactCase> contactCases(bool quick);
 
 struct ContactTimes {
     ContactCase one;
-    std::string leftOut;           // why it was not measured; empty: it was
+    std::string leftOut;  // why it was not measured; empty: it was
     size_t spheres = 0, contacts = 0;
-    uint32_t dropped = 0;          // contacts that did not fit into a list
-    size_t yardstickContacts = 0;  // differ by what rounding decides
-    size_t bytes = 0;              // of contact, on the device
-    Spread fused;                  // s, of the step before: two substeps, without contact
+    uint32_t dropped = 0;                    // contacts that did not fit into a list
+    size_t yardstickContacts = 0;            // differ by what rounding decides
+    size_t bytes = 0;                        // of contact, on the device
+    Spread fused;                            // s, of the step before: two substeps, without contact
     Spread grid, search, response, contact;  // s; contact: all three
-    Spread yardstick;              // s
+    Spread yardstick;                        // s
     double perQuad() const { return contact.min / one.quads; }  // s, by the shortest
     double ratio() const { return contact.min / yardstick.min; }
 };

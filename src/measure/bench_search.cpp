@@ -179,11 +179,12 @@ SearchReport measureSearches(const Molecule& point, bool quick, const BenchDevic
     out.spheres = quick ? 2048 : 16384;
     out.movingSpheres = quick ? 1024 : 4096;
     out.movingPerCell = 0.2;
-    out.shares = measureShares(out.spheres, point, device, schedule,
-                               [&](double share) { progress(share * 0.7); });
+    out.shares =
+        measureShares(out.spheres, point, device, schedule, [&](double share) { progress(share * 0.7); });
     for (const ContactSearch search : searches) {
         progress(0.7 + 0.1 * double(out.steps.size()) / 5);
-        const auto simulation = simulationOf(sceneOf(search, out.movingSpheres, out.movingPerCell, point), device);
+        const auto simulation =
+            simulationOf(sceneOf(search, out.movingSpheres, out.movingPerCell, point), device);
         const Flight flight = flightOf(simulation->plan().groups[0].start);
         for (const double step : {0.1, 0.5, 1.0, 2.0, 4.0})
             out.steps.push_back(lookEvery(step, search, flight, *simulation));

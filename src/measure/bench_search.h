@@ -7,7 +7,7 @@ namespace shoal::measure {
 
 struct SearchShare {
     ContactSearch search = ContactSearch::exact;
-    double perCell = 0;  // spheres
+    double perCell = 0;   // spheres
     size_t contacts = 0;  // by brute force
     size_t found = 0;     // of those
     Spread time;          // s, of grid and search

@@ -46,7 +46,10 @@ std::vector<Experiment> experiments() {
          .rows = true,
          .search = Search::single},
         {.name = "E4", .how = "full sort, nearest partner", .published = {}, .search = Search::single},
-        {.name = "E4", .how = "staggered grid, nearest partner", .published = {}, .search = Search::staggered},
+        {.name = "E4",
+         .how = "staggered grid, nearest partner",
+         .published = {},
+         .search = Search::staggered},
         {.name = "E4",
          .how = "exact, all partners",
          .published = {},
@@ -183,7 +186,8 @@ class Entrant {
         SimulationOptions options;
         options.timing = gpu::PassTimers::Mode::finish;
         options.cache = device.cache;
-        simulation_ = std::make_unique<Simulation>(*device.context, device.shaderRoot, std::move(plan), options);
+        simulation_ =
+            std::make_unique<Simulation>(*device.context, device.shaderRoot, std::move(plan), options);
         if (device.makeDraw) draw_ = device.makeDraw(scene, simulation_->plan());
         if (one_.onCpu) cpu_ = std::make_unique<CpuParticles>(start, *device.context);
         const auto sorter = [&](SortMethod method) {

@@ -262,11 +262,10 @@ Contact ContactYardstick::Data::known(int slot, const Contact& found,
     if (since <= step.stepTime && speed < -step.restSpeed)
         return {found.other, touch, 0, -step.restitution * speed, share, since, 0};
     const float apart = std::sqrt(squared);
-    const vec3 normal =
-        apart > 1e-6f * reach ? d / apart : vec3(0, slot < found.other ? 1.0f : -1.0f, 0);
+    const vec3 normal = apart > 1e-6f * reach ? d / apart : vec3(0, slot < found.other ? 1.0f : -1.0f, 0);
     const float settled = share * (reach - apart);
-    return {found.other, normal, settled / step.stepTime, std::max(glm::dot(normal, u), 0.0f), share, 0,
-            settled};
+    return {found.other, normal, settled / step.stepTime, std::max(glm::dot(normal, u), 0.0f), share,
+            0,           settled};
 }
 
 void ContactYardstick::Data::startPushing(Piece& piece, const ContactYardstickStep& step) {
@@ -309,7 +308,8 @@ void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& st
             const float grip = std::min(step.friction * contact.pushed, contact.share * slip);
             const vec3 rub = along * (-grip / std::max(slip, 1e-30f));
             sum += rub;
-            shift += (contact.normal * contact.pushed + rub) * contact.since + contact.normal * contact.settled;
+            shift +=
+                (contact.normal * contact.pushed + rub) * contact.since + contact.normal * contact.settled;
         }
         const auto sphere = size_t(sphereOf[size_t(active.slot)]);
         const float weight = motions[size_t(active.slot)].weight;
@@ -348,9 +348,8 @@ std::vector<std::pair<int, int>> ContactYardstick::found() const {
     for (const Piece& piece : data_->pieces)
         for (const Active& active : piece.active)
             for (int c = active.begin; c < active.end; ++c)
-                out.emplace_back(
-                    std::minmax(data_->sphereOf[size_t(active.slot)],
-                                data_->sphereOf[size_t(piece.contacts[size_t(c)].other)]));
+                out.emplace_back(std::minmax(data_->sphereOf[size_t(active.slot)],
+                                             data_->sphereOf[size_t(piece.contacts[size_t(c)].other)]));
     std::sort(out.begin(), out.end());
     out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;

@@ -94,7 +94,8 @@ TEST_CASE("bench refuses what it cannot do", "[cli]") {
     refusal({"bench", "sorr"}, "bench: unknown \"sorr\" (did you mean \"sort\"?)");
     refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
     refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");
-    refusal({"bench", "collide", "--only", "squids"}, "there are \"molecules\", \"UberFlow\" and \"searches\"");
+    refusal({"bench", "collide", "--only", "squids"},
+            "there are \"molecules\", \"UberFlow\" and \"searches\"");
     const std::string none = refusal({"bench", "--only", "squids"}, "nothing has \"squids\" in its name");
     CHECK_THAT(none, Catch::Contains("16,384 crosses"));
     refusal({"bench", "--only", "fish", "--plot", "x.svg"}, "--only leaves none of them");
@@ -170,4 +171,71 @@ TEST_CASE("bench sort prints a table, without radix below OpenGL 4.3", "[cli]") 
     }
     CHECK_THAT(old.out, Catch::Contains("left out: needs OpenGL 4.3; this context has 3.3") &&
                             Catch::Contains("times as fast as bitonic at 256 x 256: not measured"));
+}
+
+TEST_CASE("bench collide reports contact beside the yardstick as JSON", "[cli]") {
+    const Outcome outcome =
+        runShoal({"bench", "collide", "--quick", "--only", "molecules", "--seconds", "0.05", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json();
+    const std::vector<JsonValue>& rows = member(report, "contact").items;
+    REQUIRE(rows.size() == 3);
+    for (const JsonValue& row : rows) {
+        CAPTURE(member(row, "density").text, member(row, "quads").number);
+        if (row.find("leftOut")) continue;
+        CHECK(member(row, "spheres").number == 4 * member(row, "quads").number);
+        CHECK(member(row, "contacts").number > 20);
+        CHECK(member(row, "dropped").number == 0);
+        double sum = 0;
+        for (const char* pass : {"grid", "search", "response"})
+            sum += member(member(row, pass), "minSeconds").number;
+        CHECK(sum > 0);
+        CHECK(member(member(row, "contact"), "minSeconds").number >= sum * 0.999);
+        CHECK(member(row, "overYardstick").number ==
+              Approx(member(member(row, "contact"), "minSeconds").number /
+                     member(member(row, "yardstick"), "minSeconds").number));
+    }
+    CHECK(member(report, "targets").items.size() == 2);
+}
+
+TEST_CASE("bench collide tells what each search finds", "[cli]") {
+    const Outcome outcome =
+        runShoal({"bench", "collide", "--quick", "--only", "searches", "--seconds", "0.05", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue report = outcome.json(), &searches = member(report, "searches");
+    if (member(searches, "overDensity").items.empty()) {
+        WARN("skipped: no compute shaders");
+        return;
+    }
+    CHECK(member(report, "contact").items.empty());
+    REQUIRE(member(searches, "overDensity").items.size() == 12);
+    for (const JsonValue& one : member(searches, "overDensity").items) {
+        const double contacts = member(one, "contacts").number, found = member(one, "found").number;
+        CAPTURE(member(one, "search").text, contacts, found);
+        CHECK(contacts > 10);
+        if (member(one, "search").text == "exact")
+            CHECK(found == contacts);
+        else
+            CHECK((found > 0 && found < contacts));
+    }
+    double before = 0;
+    for (const JsonValue& one : member(searches, "overSpeed").items) {
+        // the longer the step, the fewer are seen
+        const double found = member(one, "found").number;
+        if (member(one, "radiiInAStep").number > 0.1) CHECK(found <= before);
+        CHECK(found > 0);
+        before = found;
+    }
+}
+
+TEST_CASE("bench collide prints UberFlow's experiments beside the published figures", "[cli]") {
+    const Outcome outcome =
+        runShoal({"bench", "collide", "--quick", "--only", "UberFlow", "--seconds", "0.05"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    for (const char* word :
+         {"256 x 256", "E1 ", "E2 ", "E3, bitonic", "E4, rows only", "E5, std::sort", "640"})
+        CHECK_THAT(outcome.out, Catch::Contains(word));
 }
