@@ -10,6 +10,7 @@
 #include "app/data_paths.h"
 #include "app/machine.h"
 #include "app/progress.h"
+#include "core/cache_folder.h"
 #include "measure/pin_threads.h"
 #include "molecule/molecule_file.h"
 
@@ -87,7 +88,7 @@ int benchCollideCommand(const Options& options) {
     contextOptions.kind = options.context;
     contextOptions.visible = false;
     gpu::Context context(contextOptions);
-    gpu::ProgramCache cache(context, gpu::ProgramCache::defaultFolder());
+    gpu::ProgramCache cache(context, cacheFolder());
     CollideReport report;
     report.processor = processorName();
     report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
