@@ -2,7 +2,7 @@
 // smaller place.
 uniform usampler2D pairs;  // x key, y index
 uniform int count;
-uniform int run, distance;
+uniform int run, reach;
 uniform int rowBits;  // of the width, a power of two
 
 layout(location = 0) out uvec2 kept;
@@ -12,9 +12,9 @@ void main()
     ivec2 here = ivec2(gl_FragCoord.xy);
     int width = textureSize(pairs, 0).x;
     int i = here.y * width + here.x;
-    int offset = i - (distance & (run - 1));
-    bool lower = (offset & distance) == 0;
-    int partner = lower ? i + distance : i - distance;
+    int offset = i - (reach & (run - 1));
+    bool lower = (offset & reach) == 0;
+    int partner = lower ? i + reach : i - reach;
     // in the same block of two runs, and neither past the last
     bool compared = offset >= 0 && max(i, partner) < count && ((i ^ partner) & ~(2 * run - 1)) == 0;
     if (!compared) partner = i;

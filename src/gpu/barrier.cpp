@@ -12,6 +12,8 @@ static GLbitfield bit(Barrier reader) {
         return GL_TEXTURE_FETCH_BARRIER_BIT;
     case Barrier::storage:
         return GL_SHADER_STORAGE_BARRIER_BIT;
+    case Barrier::draw:
+        return GL_COMMAND_BARRIER_BIT;
     case Barrier::command:
         return GL_COMMAND_BARRIER_BIT;
     default:

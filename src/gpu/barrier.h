@@ -10,6 +10,7 @@ enum class Barrier {
     textureFetch,  // reading through samplers, buffer textures among them
     storage,       // reading and writing storage buffers
     command,       // Program::dispatchIndirect
+    draw,          // indirect draws
     bufferUpdate,  // Buffer::update, download and copyTo; these ask for it themselves
 };
 

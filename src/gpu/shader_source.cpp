@@ -237,6 +237,7 @@ const char* header300es() {
            "precision highp float;\n"
            "precision highp int;\n"
            "precision highp sampler2D;\n"
+           "precision highp usampler2D;\n"
            "precision highp sampler2DShadow;\n";
 }
 

@@ -44,6 +44,7 @@ class DrawOrder {
     std::vector<KeyIndex> download() const;  // for tests
     int count() const { return count_; }
     bool sorted() const { return sort_ != DrawSort::none; }
+    bool exact() const { return radix_ != nullptr; }  // sorted in every frame, in a buffer
 
   private:
     const gpu::Program& keysProgram(const StateView& state);

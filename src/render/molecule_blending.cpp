@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "render/molecule_drawer.h"
+#include "render/molecule_state.h"
 
 namespace shoal {
 
@@ -35,7 +36,13 @@ void MoleculeDrawer::makeOrders(gpu::Context& context, const Scene& scene, const
                                                   material.spreadFrames);
         std::vector<std::string>& defines = group.litOptions.defines;
         defines.push_back("ORDERED");
-        if (inSlabs) defines.push_back("SLABS");
+        if (inSlabs) defines.push_back(group.order->exact() ? "SLAB_DRAWS" : "SLABS");
+        if (inSlabs && group.order->exact()) {
+            const bool indexed = group.indexCount > 0;
+            group.slabDraws =
+                std::make_unique<SlabDraws>(context, shaderRoot_, slabs, *group.order,
+                                            indexed ? group.indexCount : group.vertexCount, indexed);
+        }
         for (const std::string& define : group.order->defines())
             defines.push_back(define);
         // The slabs are cut by the largest group that is sorted, else by the largest.
@@ -51,7 +58,10 @@ void MoleculeDrawer::makeOrders(gpu::Context& context, const Scene& scene, const
 void MoleculeDrawer::order(const StateView& state, const Eye& eye) {
     for (const Drawn& group : groups_)
         if (group.order) group.order->update(state, eye);
-    if (slabs_) slabs_->update(*groups_[slabsOf_].order);
+    if (!slabs_) return;
+    slabs_->update(*groups_[slabsOf_].order);
+    for (const Drawn& group : groups_)
+        if (group.slabDraws) group.slabDraws->update(*group.order, *slabs_);
 }
 
 // The alpha of the picture stays 1 throughout.
@@ -84,14 +94,29 @@ void MoleculeDrawer::drawBlended(const StateView& state, const Eye& eye, const L
             const gpu::Program& program = useLit(group, state, eye, lighting);
             program.set("opacity", group.opacity);
             if (group.order) group.order->bind(program);
-            if (slabs_) {
-                slabs_->bind(program);
-                program.set("slab", slab);
-            }
-            submit(program, group, state);
+            if (slabs_)
+                drawSlab(program, group, state, slab);
+            else
+                submit(program, group, state);
         }
     }
     setBlend(Blend::none);
+}
+
+void MoleculeDrawer::drawSlab(const gpu::Program& program, const Drawn& group, const StateView& state,
+                              int slab) const {
+    program.set("slab", slab);
+    if (!group.slabDraws) {
+        slabs_->bind(program);
+        return submit(program, group, state);
+    }
+    group.slabDraws->bind(program);
+    bindState(program, state, group.index, group.rows,
+              state.buffers ? &(*state.buffers)[group.index].parts()[0] : nullptr);
+    group.corners.bind();
+    if (group.indexCount == 0) glEnable(GL_PROGRAM_POINT_SIZE);
+    group.slabDraws->draw(slab);
+    glDisable(GL_PROGRAM_POINT_SIZE);
 }
 
 const DrawOrder* MoleculeDrawer::orderOf(size_t group) const {

@@ -18,6 +18,7 @@
 #include "render/depth_slabs.h"
 #include "render/draw_order.h"
 #include "render/lighting.h"
+#include "render/slab_draws.h"
 #include "render/view.h"
 #include "simulate/state_view.h"
 
@@ -55,12 +56,14 @@ class MoleculeDrawer {
         gpu::Texture image;  // none: plain colour
         Blend blend = Blend::none;
         float opacity = 1;
-        std::unique_ptr<DrawOrder> order;  // none: as they are numbered
+        std::unique_ptr<DrawOrder> order;      // none: as they are numbered
+        std::unique_ptr<SlabDraws> slabDraws;  // where there are slabs and the order is exact
     };
 
     Drawn make(const Group& group, const GroupPlan& plan, const Lighting& lighting) const;
     const gpu::Program& program(const Drawn& group, std::array<gpu::Program, 2>& programs,
                                 const gpu::ProgramOptions& options, const StateView& state) const;
+    void drawSlab(const gpu::Program& program, const Drawn& group, const StateView& state, int slab) const;
     void makeOrders(gpu::Context& context, const Scene& scene, const Plan& plan, int slabs);
     const gpu::Program& useLit(Drawn& group, const StateView& state, const Eye& eye,
                                const Lighting& lighting);

@@ -28,7 +28,7 @@ struct RenderOptions {
     int shadowSize = 2048;           // texels a side
     bool crownShade = true;          // leaves hide the sky from one another
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
-    int slabs = 32;     // of depth, where several groups are blended; 1 to 1024
+    int slabs = 128;    // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
 };
 

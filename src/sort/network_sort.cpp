@@ -121,7 +121,7 @@ void NetworkSort::run(const OddEvenPass& pass) {
     program_.texture("pairs", 0, pairs());
     program_.set("rowBits", std::countr_zero(unsigned(rowLength_)));
     program_.set("run", pass.run);
-    program_.set("distance", pass.distance);
+    program_.set("reach", pass.distance);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     flip();
 }

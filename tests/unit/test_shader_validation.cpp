@@ -340,8 +340,44 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
                                  "render/points.frag"})
             validator.add(file, set, header);
     }
+    const std::vector<Defines> orders = {{"ORDER_BUFFER"}, {"ORDER_PAIRED"}, {}};
+    for (const Defines& order : orders) {
+        for (const char* turns : {"", "SLABS", "SLAB_DRAWS"}) {
+            Defines set = order;
+            set.insert(set.end(), {"STATE_WIDTH 1024", "ORDERED", "BLENDED", "LINEAR_LIGHT"});
+            if (*turns != 0) set.emplace_back(turns);
+            for (const char* file :
+                 {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"})
+                validator.add(file, set, header);
+        }
+        Defines keys = order;
+        keys.emplace_back("STATE_WIDTH 1024");
+        validator.add("render/slabs.frag", order, header);
+        if (order != orders[0]) {
+            validator.add("render/order_keys.frag", keys, header);
+            continue;
+        }
+        keys.emplace_back("LANES 64");
+        validator.add("render/order_keys.comp", keys, gpu::header430());
+        validator.add("render/slab_draws.comp", keys, gpu::header430());
+    }
+    validator.add("render/molecule.frag", {"STATE_WIDTH 1024", "BLENDED", "FILTERS"}, header);
+    validator.add("render/sky.frag", {"LINEAR_LIGHT"}, header);
+    validator.add("render/picture.frag", {"LINEAR_LIGHT"}, header);
     validator.add("render/surface.vert", {"DEPTH_ONLY"}, header);
     validator.add("render/surface_shadow.frag", {"DEPTH_ONLY"}, header);
+    validator.check();
+}
+
+TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const char* file : {"sort/odd_even_merge.frag", "sort/bitonic.frag"})
+        validator.addBoth(file, {});
+    const Defines sizes = {"LANES 256", "MOST_DIGITS 2048", "TILE_PAIRS 2048"};
+    for (const char* file : {"sort/pieces_count.comp", "sort/pieces_scan.comp", "sort/pieces_scatter.comp",
+                             "sort/tiles_count.comp", "sort/tiles_scan.comp", "sort/tiles_scatter.comp"})
+        validator.add(file, sizes, gpu::header430());
     validator.check();
 }
 

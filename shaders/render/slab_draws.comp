@@ -1,0 +1,33 @@
+// Finds what of a sorted order lies in each slab of depth, and writes the draw of it: a lane a slab. A draw is 8 words:
+// corners, instances, 0, 0, 0 (an indirect draw, with or without indices); the first place in the order; 0, 0.
+#include "render/order.glsl"
+
+layout(local_size_x = LANES) in;
+
+uniform usampler2D slabs;  // texel s: x the first key of slab s, y the first one past it
+uniform int slabCount, moleculeCount, corners;
+
+layout(std430, binding = 0) writeonly buffer Draws { uint draws[]; };
+
+// The first place whose key is not below.
+int placeOf(uint key)
+{
+    int low = 0, high = moleculeCount;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (orderAt(middle).x < key) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}
+
+void main()
+{
+    int s = int(gl_GlobalInvocationID.x);
+    if (s >= slabCount) return;
+    uvec2 bounds = texelFetch(slabs, ivec2(s, 0), 0).xy;
+    int first = placeOf(bounds.x), end = placeOf(bounds.y);
+    draws[8 * s] = uint(corners);
+    draws[8 * s + 1] = uint(end - first);
+    for (int word = 2; word < 8; ++word) draws[8 * s + word] = word == 5 ? uint(first) : 0u;
+}
