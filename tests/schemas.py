@@ -62,6 +62,8 @@ broken_scenes = [
     (["colliders"], [{"type": "box"}]),
     (["colliders"], [{"type": "box", "center": [0, 0, 0], "size": [1, 0, 1]}]),
     (["colliders"], [{"type": "capsule", "from": [0, 0, 0], "to": [0, 0, 0], "radius": 0}]),
+    (["colliders"], [{"type": "plane", "path": {"keyframes": [{"time": 0}]}}]),
+    (["colliders"], [{"type": "plane", "path": {"keyframes": [{"time": 0}, {"time": 1, "turn": 2}]}}]),
     (["surfacePairs"], [{"between": ["leaf"], "friction": 0}]),
     (["surfacePairs"], [{"between": ["leaf", "ice"]}]),
     (["colliders"], [{"type": "plane", "restitution": 1.5}]),

@@ -8,17 +8,42 @@
 // colliders).
 vec3 touchPosition[VERTICES];
 vec3 touchVelocity[VERTICES];
+#ifdef JOINT_CONTACT
+vec3 driftedBy[VERTICES];  // m/s
+float contactTime = 0.0;   // s, of the substep's end since the frame's start; where colliders move
+
+// Negative where a vertex is inside a collider, or so near that it may have crossed one.
+float margin(vec3 position, vec3 velocity)
+{
+    vec2 free = clearances(anchor, position, contactTime);
+#ifdef SWEPT
+    return min(free.x, free.y - reachOf(velocity, substep));
+#else
+    return free.x;
+#endif
+}
+#endif
 
 // Whether a vertex that is not held lies inside a collider.
 bool findContacts()
 {
     float least = 1e30;
+#ifdef JOINT_CONTACT
+    for (int i = 0; i < VERTICES; ++i) {
+        touchPosition[i] = x[i];
+        driftedBy[i] = v[i];
+    }
+    for (int k = 0; k < VERTICES; ++k) {
+        if (!isHeld(pinned[k])) least = min(least, margin(touchPosition[k], driftedBy[k]));
+    }
+#else
     for (int i = 0; i < VERTICES; ++i) {
         touchPosition[i] = x[i];
     }
     for (int k = 0; k < VERTICES; ++k) {
         if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k]));
     }
+#endif
     return least < 0.0;
 }
 
@@ -31,7 +56,22 @@ void resolveContacts()
 #ifdef COMING_KICK
         touchVelocity[i] += comingKick[i];
 #endif
+#ifdef JOINT_CONTACT
+        driftedBy[i] = v[i];
+#endif
     }
+#ifdef JOINT_CONTACT
+    bool changed = false;
+    for (int n = 0; n < VERTICES; ++n) {
+        if (!isHeld(pinned[n]) && margin(touchPosition[n], driftedBy[n]) < 0.0) {
+            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], gravity,
+                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime);
+            changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
+            touchPosition[n] = c.position;
+            touchVelocity[n] = c.velocity;
+        }
+    }
+#else
     for (int k = 0; k < VERTICES; ++k) {
         if (!isHeld(pinned[k])) {
             Contact c = collideAll(anchor, touchPosition[k], touchVelocity[k], gravity,
@@ -40,6 +80,7 @@ void resolveContacts()
             touchVelocity[k] = c.velocity;
         }
     }
+#endif
     for (int i = 0; i < VERTICES; ++i) {
         vec3 whole = v[i];
 #ifdef COMING_KICK
@@ -51,6 +92,9 @@ void resolveContacts()
         x[i] = touchPosition[i];
     }
 #ifdef HISTORY
+#ifdef JOINT_CONTACT
+    if (changed)
+#endif
     forgetHistory();
 #endif
 }

@@ -65,6 +65,9 @@ void run()
     for (int done = 0; done < substeps; ++done) {
         advance(done);
 #ifdef COLLIDE
+#ifdef MOVING_COLLIDERS
+        contactTime = float(done + 1) * substep;
+#endif
         resolveContacts();
 #endif
     }

@@ -50,6 +50,9 @@ void run()
         do {
             advance(done);
             ++done;
+#ifdef MOVING_COLLIDERS
+            contactTime = float(done) * substep;
+#endif
             found = findContacts();
         } while (!anyInvocationARB(found) && done < substeps);
         if (found) resolveContacts();
@@ -57,6 +60,9 @@ void run()
 #else
     for (; done < substeps; ++done) {
         advance(done);
+#ifdef MOVING_COLLIDERS
+        contactTime = float(done + 1) * substep;
+#endif
         if (findContacts()) resolveContacts();
     }
 #endif

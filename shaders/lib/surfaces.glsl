@@ -11,6 +11,12 @@ vec4 planeSurface(vec3 origin, vec3 x, vec3 normal)
     return vec4(normal, dot(origin, normal) + dot(x, normal));
 }
 
+// Between two quaternions, by the straight way.
+vec4 turnAt(vec4 from, vec4 to, float share)
+{
+    return normalize(mix(from, to, share));
+}
+
 vec4 turnedSurface(vec4 q, vec4 surface)
 {
     return vec4(turned(q, surface.xyz), surface.w);

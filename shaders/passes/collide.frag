@@ -6,6 +6,11 @@
 
 uniform vec3 gravity;
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
+#ifdef MOVING_COLLIDERS
+uniform float contactTime;  // s, of the substep's end since the frame's start
+#else
+const float contactTime = 0.0;
+#endif
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -23,7 +28,17 @@ void main()
         kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);
 #endif
         vec3 whole = v + kick;
-        Contact contact = collideAll(anchor, x, whole, gravity, Drift(drift.x, drift.y, drift.z));
+        Drift drifted = Drift(drift.x, drift.y, drift.z);
+#ifdef JOINT_CONTACT
+        vec2 free = clearances(anchor, x, contactTime);
+#ifdef SWEPT
+        free.x = min(free.x, free.y - reachOf(v, drift.x));
+#endif
+        Contact contact = Contact(x, whole);
+        if (free.x < 0.0) contact = collideAll(anchor, x, whole, v, gravity, drifted, contactTime);
+#else
+        Contact contact = collideAll(anchor, x, whole, gravity, drifted);
+#endif
         x = contact.position;
         if (contact.velocity != whole) v = contact.velocity - kick;
     }

@@ -22,6 +22,11 @@ struct Drift {
 // A vertex within this of a surface, in m, may rest where it is: float's rounding a metre from the anchor.
 const float restingSlack = 1e-6f;
 
+// A vertex that was deeper than this, in m, when its drift began is caught: it did not come from outside.
+const float caughtDepth = 0.005f;
+// m/s: at most so fast a caught vertex is taken out, and leaves.
+const float pushSpeed = 1.0f;
+
 // The vertex at x with velocity v lies `distance` from the surface (negative: inside); n is the unit normal.
 //
 // The speed at the moment of impact follows from energy, v_i^2 = v_n^2 - 2 |g_n| depth, and the time since
@@ -68,8 +73,17 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     velocity = rests ? vec3(0.0f) : velocity;
 
     bool leaves = vn >= 0.0f;  // already on its way out
+    position = leaves ? surface : position;
+    velocity = leaves ? v : velocity;
+
+    // Deeper than it can have come within the step: out the short way, but not at once, and without a kick.
+    bool caught = depth > caughtDepth + 2.0f * abs(vn) * drift.step;
+    float way = min(depth, (pushSpeed - min(vn, 0.0f)) * drift.step);
+    position = caught ? x + n * way : position;
+    velocity = caught ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : velocity;
+
     bool outside = distance >= 0.0f;
-    return Contact(outside ? x : leaves ? surface : position, outside || leaves ? v : velocity);
+    return Contact(outside ? x : position, outside ? v : velocity);
 }
 
 // Height field cell: bilinear height from the four corner heights, fractions f in [0, 1].

@@ -7,6 +7,7 @@ layout(location = 2) in vec3 cornerColor;
 uniform mat4 toClip;
 uniform vec3 meshOrigin;  // relative to the origin of drawing, m
 uniform float meshScale;
+uniform mat3 meshTurn;
 #ifndef DEPTH_ONLY
 uniform vec3 grainOffset;  // of the mesh in the procedural grain, m
 #endif
@@ -20,11 +21,11 @@ out vec3 color;
 
 void main()
 {
-    vec3 at = meshOrigin + meshScale * corner;
+    vec3 at = meshOrigin + meshTurn * (meshScale * corner);
 #ifndef DEPTH_ONLY
     place = at;
     local = grainOffset + meshScale * corner;
-    normal = cornerNormal;
+    normal = meshTurn * cornerNormal;
     color = cornerColor;
 #endif
     gl_Position = toClip * vec4(at, 1.0);

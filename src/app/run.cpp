@@ -125,7 +125,8 @@ class HeadlessRun {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
-            if (draws) renderer_->draw(simulation_.state(), View::of(loaded_.scene.camera));
+            if (draws)
+                renderer_->draw(simulation_.state(), View::of(loaded_.scene.camera, simulation_.time()));
             addTo(report_.frames, context_.traffic() - before);
             outside([&] {
                 if (draws) {

@@ -189,7 +189,9 @@ class WindowRun {
         }
         if (width_ != renderer_->width() || height_ != renderer_->height())
             renderer_->resize(width_, height_);
-        renderer_->draw(simulation_->state(), camera_.view());
+        View view = camera_.view();
+        view.time = simulation_->time();
+        renderer_->draw(simulation_->state(), view);
         renderer_->present(width_, height_);
         lastFrame_ = context_.traffic() - before;
 

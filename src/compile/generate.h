@@ -3,11 +3,13 @@
 // text. Grids and height fields put their samples into one shared table.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
 
+#include "compile/moving_colliders.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -19,13 +21,22 @@ struct Generated {
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+// 4-vectors of uniforms that fields, and colliders, may each take: within what OpenGL 3.3 promises a fragment
+// shader (1024 components), with room for the passes' own.
+constexpr size_t maxParameters = 200;
+
 struct GeneratedColliders : Generated {
     // Of each collider: the parameter whose x is its restitution, y its friction.
     std::vector<size_t> materials;
+    std::vector<MovingCollider> moving;
+    std::optional<size_t> fastestSlot;  // setPoses
 };
 
-// Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift), and
-// float clearance(vec3 anchor, vec3 position): negative where collideAll would respond.
+// For one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3
+// velocity, vec3 gravity, Drift drift) and float clearance(vec3 anchor, vec3 position): negative where
+// collideAll would respond. For all else, with JOINT_CONTACT defined, those of
+// shaders/lib/joint_contact.glsl; what uniforms have no room for goes into the samples
+// (compile/collider_table.h).
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
 // The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:

@@ -1,6 +1,15 @@
+// Adding a collider: its struct in scene/scene.h, its distance in shaders/physics/solid.glsl, one overload of
+// `emit` here, its reader in scene/scene_colliders.cpp, its double-precision twin in reference/colliders.cpp,
+// one test.
+//
+// A scene with a single plane or height field that stands still asks for it at the end of every substep. Any
+// other has contact with all at once (shaders/lib/joint_contact.glsl).
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <tuple>
 
+#include "compile/collider_table.h"
 #include "compile/distance_samples.h"
 #include "compile/generate.h"
 
@@ -8,59 +17,77 @@ namespace shoal {
 
 namespace {
 
-constexpr double leastAxis = 1e-9;  // m: ends of a capsule that are nearer coincide
-
-// A unit vector across an axis of any length.
-glm::dvec3 across(const glm::dvec3& axis) {
-    const glm::dvec3 size = glm::abs(axis);
-    const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
-                             : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
-                                                                  : glm::dvec3(0, 0, 1);
-    const glm::dvec3 out = glm::cross(axis / std::max({size.x, size.y, size.z, 1e-300}), other);
-    return glm::length(out) > 0 ? glm::normalize(out) : glm::dvec3(0, 1, 0);
-}
+// Of colliders as text: what each needs before, its surface, and what to do with that.
+struct Text {
+    std::string comment, before, surface, material, velocity;
+    bool swept = false;
+    std::string slower = {};  // function of a distance that changes no faster than the vertex moves
+};
 
 class Emitter {
   public:
     explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
     GeneratedColliders result;
-    std::string clearance;  // statements of the function of that name
 
     std::string slot(const glm::dvec3& v, double w = 0) {
         result.parameters.push_back(glm::vec4(glm::vec3(v), float(w)));
         return concat("colliderParameters[", result.parameters.size() - 1, "]");
     }
 
-    void collider(const Collider& collider) {
-        result.materials.push_back(result.parameters.size());
-        const std::string material = slot({collider.restitution, collider.friction, collider.thickness});
-        const std::string surface =
-            std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        const std::string comment =
-            concat("    // ", kindName(collider.shape), " ", inComment(collider.name), "\n");
-        clearance += concat(comment, "    surface = ", surface, ";\n    least = min(least, surface.w - ",
-                            material, ".z);\n");
-        result.source += concat(comment, "    surface = ", surface,
-                                ";\n    c = respond(c.position, c.velocity, surface.w - ", material,
-                                ".z, surface.xyz, gravity, ", material, ".x, ", material, ".y, drift);\n");
+    Text text(const Collider& collider, size_t index) {
+        Text out;
+        out.comment = concat("    // ", kindName(collider.shape), " ", inComment(collider.name), "\n");
+        out.swept = isSwept(collider.shape);
+        out.velocity = "vec3(0.0)";
+        result.materials[index] = result.parameters.size();
+        out.material = slot({collider.restitution, collider.friction, collider.thickness});
+        anchor_ = "anchor", position_ = "c.position";
+        if (collider.path) place(collider, index, out);
+        out.surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
+        if (std::holds_alternative<DistanceFieldCollider>(collider.shape)) out.slower = "slower";
+        if (collider.path && collider.path->turns())
+            out.surface = concat("turnedSurface(turn", index, ", ", out.surface, ")");
+        return out;
     }
 
   private:
+    // Into the frame that moves.
+    void place(const Collider& collider, size_t index, Text& out) {
+        const bool turns = collider.path->turns();
+        result.moving.push_back(
+            {*collider.path, result.parameters.size(), turns, out.swept, out.swept ? reachOf(collider) : 0});
+        const std::string at = slot({}), rate = slot({});
+        out.before = concat("    vec3 arm", index, " = (anchor - ", at, ".xyz) + (c.position - ", rate,
+                            ".xyz * time);\n");
+        out.velocity = rate + ".xyz";
+        anchor_ = "vec3(0.0)", position_ = concat("arm", index);
+        if (!turns) return;
+        const std::string from = slot({}), to = slot({}), spin = slot({});
+        out.before +=
+            concat("    vec4 turn", index, " = turnAt(", from, ", ", to, ", time * ", spin,
+                   ".w);\n    vec3 local", index, " = turnedBack(turn", index, ", arm", index, ");\n");
+        out.velocity += concat(" + cross(", spin, ".xyz, arm", index, ")");
+        position_ = concat("local", index);
+    }
+
+    std::string relative(const std::string& origin) const {
+        return concat("(", anchor_, " - ", origin, ".xyz) + ", position_);
+    }
+
     // Each returns text of a vec4: unit normal, signed distance (negative inside).
     std::string emit(const PlaneCollider& plane) {
         const std::string point = slot(plane.point), normal = slot(glm::normalize(plane.normal));
-        return concat("planeSurface(anchor - ", point, ".xyz, c.position, ", normal, ".xyz)");
+        return concat("planeSurface(", anchor_, " - ", point, ".xyz, ", position_, ", ", normal, ".xyz)");
     }
 
     std::string emit(const SphereCollider& sphere) {
         const std::string center = slot(sphere.center, sphere.radius);
-        return concat("sphereSurface((anchor - ", center, ".xyz) + c.position, ", center, ".w)");
+        return concat("sphereSurface(", relative(center), ", ", center, ".w)");
     }
 
     std::string emit(const BoxCollider& box) {
-        const std::string center = slot(box.center), half = slot(box.size / 2.0);
-        const std::string x = concat("(anchor - ", center, ".xyz) + c.position");
+        const std::string center = slot(box.center), half = slot(box.size / 2.0), x = relative(center);
         if (box.rotation == glm::dquat(1, 0, 0, 0)) return concat("boxSurface(", x, ", ", half, ".xyz)");
         const std::string turn = slot({box.rotation.x, box.rotation.y, box.rotation.z}, box.rotation.w);
         return concat("turnedSurface(", turn, ", boxSurface(turnedBack(", turn, ", ", x, "), ", half,
@@ -68,13 +95,11 @@ class Emitter {
     }
 
     std::string emit(const CapsuleCollider& capsule) {
-        glm::dvec3 axis = capsule.to - capsule.from;
-        if (glm::length(axis) < leastAxis) axis = {};
-        const double squared = glm::dot(axis, axis);
+        const CapsuleAxis axis = axisOf(capsule);
         const std::string from = slot(capsule.from, capsule.radius);
-        const std::string along = slot(axis, squared > 0 ? 1 / squared : 0), aside = slot(across(axis));
-        return concat("capsuleSurface((anchor - ", from, ".xyz) + c.position, ", along, ".xyz, ", along,
-                      ".w, ", aside, ".xyz, ", from, ".w)");
+        const std::string along = slot(axis.along, axis.perLength), aside = slot(axis.aside);
+        return concat("capsuleSurface(", relative(from), ", ", along, ".xyz, ", along, ".w, ", aside,
+                      ".xyz, ", from, ".w)");
     }
 
     std::string emit(const HeightFieldCollider& field) {
@@ -83,9 +108,9 @@ class Emitter {
         appendSamples(field, cell);
         const std::string low = slot({field.low.x, 0, field.low.y});
         const std::string cells = slot({1 / cell.x, cell.x, cell.y}, 1 / cell.y);
-        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "((anchor - ",
-                      low, ".xyz) + c.position, ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ",
-                      base, ")");
+        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "(",
+                      relative(low), ", ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ", base,
+                      ")");
     }
 
     std::string emit(const DistanceFieldCollider& collider) {
@@ -93,8 +118,8 @@ class Emitter {
         const size_t base = appendDistances(field, *samples_);
         const std::string low = slot(field.grid.low, field.grid.cell);
         const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
-        return concat("distanceSurface((anchor - ", low, ".xyz) + c.position, ", low, ".w, ", last,
-                      ", ivec2(", field.grid.size.x, ", ", field.grid.size.z, "), ", base, ")");
+        return concat("distanceSurface(", relative(low), ", ", low, ".w, ", last, ", ivec2(",
+                      field.grid.size.x, ", ", field.grid.size.z, "), ", base, ")");
     }
 
     // One texel a sample: unit normal by central differences, and height.
@@ -118,24 +143,126 @@ class Emitter {
     }
 
     std::vector<glm::vec4>* samples_;
+    std::string anchor_, position_;  // text of what the surface at hand is relative to, and of the vertex
+};
+
+std::string sourceOfOne(const Text& text) {
+    return concat(
+        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
+        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", text.comment,
+        "    surface = ", text.surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
+        text.material, ".z, surface.xyz, gravity, ", text.material, ".x, ", text.material,
+        ".y, drift);\n    return c;\n}\n\n// m: from the nearest surface, less its thickness; negative ",
+        "inside.\nfloat clearance(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, ",
+        "vec3(0.0));\n    vec4 surface;\n    float least = 1e30;\n", text.comment,
+        "    surface = ", text.surface, ";\n    least = min(least, surface.w - ", text.material,
+        ".z);\n    return least;\n}\n");
+}
+
+class Joint {
+  public:
+    Joint(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples)
+        : colliders_(&colliders), samples_(&samples), emitter_(samples) {
+        emitter_.result.materials.resize(colliders.size());
+    }
+
+    GeneratedColliders generate() {
+        size_t slots = 0;
+        for (const Collider& collider : *colliders_)
+            slots += slotsOf(collider);
+        for (size_t i = 0; i < colliders_->size(); ++i) {
+            const Collider& collider = (*colliders_)[i];
+            swept_ = swept_ || isSwept(collider.shape);
+            if (slots > maxParameters && ColliderTable::holds(collider)) {
+                emitter_.result.materials[i] = tabledMaterial(collider);
+                table_.add(collider, i, emitter_.result.materials[i]);
+            } else {
+                write(emitter_.text(collider, i), i);
+            }
+        }
+        const ColliderTable::Loops loops = table_.write(*samples_);
+        clearances_ += loops.clearances;
+        survey_ += loops.survey;
+        std::string fastest = "0.0";
+        if (swept_ && !emitter_.result.moving.empty()) {
+            emitter_.result.fastestSlot = emitter_.result.parameters.size();
+            fastest = emitter_.slot({}) + ".x";
+        }
+        GeneratedColliders out = std::move(emitter_.result);
+        out.source = source(out, fastest);
+        return out;
+    }
+
+  private:
+    // As many uniforms as a collider takes at most.
+    static size_t slotsOf(const Collider& collider) {
+        return 4 + (collider.path ? (collider.path->turns() ? 5 : 2) : 0);
+    }
+
+    // Colliders of the same surface share the uniform of their material, since they share it for every group.
+    size_t tabledMaterial(const Collider& collider) {
+        const auto key = std::make_tuple(collider.surface, collider.restitution, collider.friction);
+        const auto [found, isNew] = materials_.try_emplace(key, emitter_.result.parameters.size());
+        if (isNew) emitter_.slot({collider.restitution, collider.friction, 0});
+        return found->second;
+    }
+
+    void write(const Text& t, size_t number) {
+        const std::string head = concat(t.comment, t.before, "    surface = ", t.surface, ";\n");
+        const char* part = t.swept ? "least.y" : "least.x";
+        clearances_ += concat(head, "    ", part, " = min(", part, ", ", t.slower, "(surface.w - ",
+                              t.material, ".z));\n");
+        survey_ += concat(head, "    ", t.swept ? "meetSwept" : "meetSolid", "(s, Touch(surface.xyz, ",
+                          t.slower, "(surface.w - ", t.material, ".z), ", t.material, ".xy, ", t.velocity,
+                          ", ", number, "), ", t.swept ? "" : "velocity, ", "skip);\n");
+    }
+
+    std::string source(const GeneratedColliders& out, const std::string& fastest) const {
+        return concat(
+            "#define JOINT_CONTACT\n", swept_ ? "#define SWEPT\n" : "",
+            out.moving.empty() ? "" : "#define MOVING_COLLIDERS\n", table_.empty() ? "" : "#define TABLED\n",
+            "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
+            "#include \"lib/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
+            "#ifdef TABLED\nvec2 materialAt(int index)\n{\n#ifdef FUSED\n",
+            "    return givenColliderParameters[index].xy;\n#else\n    return "
+            "colliderParameters[index].xy;\n",
+            "#endif\n}\n#endif\n\n",
+            "// m/s: no surface that is looked for on the way moves faster.\nfloat fastestSurface()\n{\n",
+            "    return ", fastest, ";\n}\n\n",
+            "// m: x from the nearest surface of all, y of those that are looked for on the way, less the\n",
+            "// thickness; negative inside. time: s since the frame's start.\n",
+            "vec2 clearances(vec3 anchor, vec3 position, float time)\n{\n",
+            "    Contact c = Contact(position, vec3(0.0));\n    vec4 surface;\n    vec2 least = "
+            "vec2(1e30);\n",
+            clearances_, "    return vec2(min(least.x, least.y), least.y);\n}\n\n",
+            "// Nearest and first: of all but those whose numbers are skip.xy.\n",
+            "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
+            "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
+            survey_, "    return s;\n}\n\n#include \"lib/joint_contact.glsl\"\n");
+    }
+
+    const std::vector<Collider>* colliders_;
+    std::vector<glm::vec4>* samples_;
+    Emitter emitter_;
+    ColliderTable table_;
+    std::map<std::tuple<std::string, double, double>, size_t> materials_;
+    std::string clearances_, survey_;  // statements
+    bool swept_ = false;
 };
 
 }  // namespace
 
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
                                      std::vector<glm::vec4>& samples) {
+    const bool joint =
+        colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0].shape)));
+    if (joint) return Joint(colliders, samples).generate();
     Emitter emitter(samples);
-    for (const Collider& collider : colliders)
-        emitter.collider(collider);
+    emitter.result.materials.resize(colliders.size());
+    const std::string body = colliders.empty() ? "" : sourceOfOne(emitter.text(colliders[0], 0));
     GeneratedColliders out = std::move(emitter.result);
-    out.source = concat(
-        "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
-        parameterArray("colliderParameters", out.parameters.size()),
-        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
-        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", out.source,
-        "    return c;\n}\n\n// m: from the nearest surface, less its thickness; negative inside.\n",
-        "float clearance(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, vec3(0.0));\n",
-        "    vec4 surface;\n    float least = 1e30;\n", emitter.clearance, "    return least;\n}\n");
+    out.source = concat("#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
+                        parameterArray("colliderParameters", out.parameters.size()), body);
     return out;
 }
 

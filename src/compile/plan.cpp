@@ -12,10 +12,6 @@ namespace shoal {
 
 namespace {
 
-// Uniform arrays of fields and of colliders each stay within what OpenGL 3.3 promises a fragment shader
-// (1024 components), with room for the passes' own uniforms.
-constexpr size_t maxParameters = 200;
-
 Needs findNeeds(const Scene& scene, const Group& group) {
     const Molecule& molecule = group.molecule;
     Needs needs;
@@ -136,6 +132,17 @@ std::vector<glm::vec4> parametersOf(const Scene& scene, const GroupPlan& group,
     return out;
 }
 
+// Within a frame a pose is followed only so far.
+void checkTurn(const Scene& scene, const Collider& collider) {
+    if (!collider.path) return;
+    const double turn = collider.path->fastestTurn() / scene.frameRate;
+    if (turn <= mostTurn) return;
+    throw Error(Location{scene.file, 0, 0, {}},
+                concat("the collider \"", collider.name, "\" turns by ", turn,
+                       " rad within a frame; at most ", mostTurn, " is followed: ",
+                       std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -160,6 +167,8 @@ size_t Plan::tableBytes() const {
 }
 
 Plan compile(const Scene& scene) {
+    for (const Collider& collider : scene.colliders)
+        checkTurn(scene, collider);
     Plan plan;
     plan.sceneName = scene.name;
     plan.frameRate = scene.frameRate;
@@ -214,6 +223,8 @@ Plan compile(const Scene& scene) {
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide) group.colliderParameters = parametersOf(scene, group, colliders);
+    plan.movingColliders = std::move(colliders.moving);
+    plan.fastestSlot = colliders.fastestSlot;
     plan.sampleRows = tableRows(plan.samples);
     return plan;
 }

@@ -24,6 +24,7 @@
 #include "compile/contact_plan.h"
 #include "compile/group_state.h"
 #include "compile/kernel.h"
+#include "compile/moving_colliders.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -95,7 +96,9 @@ struct Plan {
     std::string fieldSource;    // generated/fields.glsl
     std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters;
-    size_t colliderParameterCount = 0;  // of each group that collides
+    size_t colliderParameterCount = 0;            // of each group that collides
+    std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
+    std::optional<size_t> fastestSlot;            // setPoses
     size_t fieldCount = 0, colliderCount = 0;
     bool longFields = false;  // noise or grids: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;

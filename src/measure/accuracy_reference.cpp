@@ -36,6 +36,10 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.drag = group.drag;
     out.fields = scene.fields;
     out.colliders = collidersOf(scene, group);
+    for (const Collider& collider : out.colliders)
+        if (collider.path)
+            throw Error(group.location,
+                        "the reference knows no colliders that move: nothing to measure against");
     return out;
 }
 

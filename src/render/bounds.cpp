@@ -38,6 +38,14 @@ static bool isCrown(const Group& group, const Box& box) {
            extent.y > 0.35 * std::max(extent.x, extent.z);
 }
 
+static void includePlaced(Box& out, const Box& box, const Pose& pose) {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
+        const glm::dvec3 place = pose.position + pose.rotation * glm::mix(box.low, box.high, side);
+        include(out, place, place);
+    }
+}
+
 // Nothing of what has no end, and of height fields, which are not drawn.
 static std::optional<Box> boundsOf(const ColliderShape& shape) {
     if (const auto* sphere = std::get_if<SphereCollider>(&shape))
@@ -72,8 +80,12 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        if (const std::optional<Box> box = boundsOf(collider.shape))
-            include(bounds.casters, box->low, box->high);
+        const std::optional<Box> box = boundsOf(collider.shape);
+        if (!box) continue;
+        std::vector<ColliderPath::Keyframe> frames(1);
+        if (collider.path) frames = collider.path->keyframes;
+        for (const ColliderPath::Keyframe& frame : frames)
+            includePlaced(bounds.casters, *box, frame.pose);
     }
     if (isEmpty(bounds.casters)) {
         for (const Model& model : scene.models) {

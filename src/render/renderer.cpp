@@ -58,14 +58,14 @@ void Renderer::draw(const StateView& state, const View& view) {
         const auto timer = timers_.time("order");
         molecules_.order(state, eye);
     }
-    if (shadow_) drawShadows(state);
+    if (shadow_) drawShadows(state, view.time);
     samples_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
     glClear(GL_DEPTH_BUFFER_BIT);
     {
         const auto timer = timers_.time("surfaces");
-        surfaces_.draw(eye, lighting_);
+        surfaces_.draw(eye, lighting_, view.time);
     }
     {
         const auto timer = timers_.time("molecules");
@@ -78,10 +78,10 @@ void Renderer::draw(const StateView& state, const View& view) {
     timers_.endFrame();
 }
 
-void Renderer::drawShadows(const StateView& state) {
+void Renderer::drawShadows(const StateView& state, double time) {
     const auto timer = timers_.time("shadows");
     shadow_->begin();
-    surfaces_.drawShadows(*shadow_);
+    surfaces_.drawShadows(*shadow_, time);
     molecules_.drawShadows(state, *shadow_);
     shadow_->end();
 }

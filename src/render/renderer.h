@@ -57,7 +57,7 @@ class Renderer {
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
-    void drawShadows(const StateView& state);
+    void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const Eye& eye);
     void drawPicture(double exposure);

@@ -8,6 +8,14 @@ namespace shoal {
 static constexpr double planeReach = 60;   // how far a plane is drawn, in heights of the eye above it
 static constexpr double leastReach = 150;  // m
 
+static Pose poseOf(const std::optional<ColliderPath>& path, double time) {
+    return path ? poseAt(*path, time) : Pose{};
+}
+
+static glm::dvec3 placed(const Pose& pose, const glm::dvec3& x) {
+    return pose.position + pose.rotation * x;
+}
+
 SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
                              const Lighting& lighting, const ShadowMap* shadow, bool grid) {
     for (const Model& model : scene.models) {
@@ -23,6 +31,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         if (!collider.draw) continue;
         Drawn drawn;
         drawn.color = glm::vec3(collider.color);
+        drawn.path = collider.path;
         if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) {
             drawn.roughness = 0.5f;
             add(context, sphereMesh(*sphere), std::move(drawn), collider.name.c_str());
@@ -79,12 +88,14 @@ void SurfaceDrawer::submit(const Drawn& surface) const {
     glDrawElements(GL_TRIANGLES, surface.indexCount, GL_UNSIGNED_INT, nullptr);
 }
 
-void SurfaceDrawer::drawShadows(const ShadowMap& shadow) const {
+void SurfaceDrawer::drawShadows(const ShadowMap& shadow, double time) const {
     for (const Drawn& surface : surfaces_) {
         if (!surface.casts) continue;
         depth_.use();
         depth_.set("toClip", shadow.toClip());
-        depth_.set("meshOrigin", glm::vec3(surface.origin - shadow.origin().exact));
+        const Pose pose = poseOf(surface.path, time);
+        depth_.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
+        depth_.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
         depth_.set("meshScale", 1.0f);
         submit(surface);
     }
@@ -110,7 +121,7 @@ void SurfaceDrawer::placePlane(const gpu::Program& program, const PlaneCollider&
     program.set("grainOffset", glm::vec3(foot - kilometres));
 }
 
-void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting) const {
+void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time) const {
     for (const Drawn& surface : surfaces_) {
         const gpu::Program& program = surface.plane ? litPlane_ : lit_;
         program.use();
@@ -119,10 +130,13 @@ void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting) const {
         program.set("meshColor", surface.color);
         program.set("roughness", surface.roughness);
         program.set("detail", surface.detail);
+        const Pose pose = poseOf(surface.path, time);
+        program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
         if (surface.plane) {
-            placePlane(program, *surface.plane, eye);
+            placePlane(program, {placed(pose, surface.plane->point), pose.rotation * surface.plane->normal},
+                       eye);
         } else {
-            program.set("meshOrigin", glm::vec3(surface.origin - eye.origin.exact));
+            program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - eye.origin.exact));
             program.set("meshScale", 1.0f);
             program.set("grainOffset", glm::vec3(0));
         }

@@ -19,8 +19,8 @@ class SurfaceDrawer {
     SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
                   const Lighting& lighting, const ShadowMap* shadow, bool grid);
 
-    void drawShadows(const ShadowMap& shadow) const;
-    void draw(const Eye& eye, const Lighting& lighting) const;
+    void drawShadows(const ShadowMap& shadow, double time) const;
+    void draw(const Eye& eye, const Lighting& lighting, double time) const;
 
   private:
     struct Drawn {
@@ -32,6 +32,7 @@ class SurfaceDrawer {
         gpu::Buffer corners, indices;
         gpu::VertexArray array;
         std::optional<PlaneCollider> plane;  // the mesh follows the eye along it
+        std::optional<ColliderPath> path;    // of a collider that moves
     };
 
     void add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label);

@@ -6,8 +6,9 @@
 
 namespace shoal {
 
-View View::of(const Camera& camera) {
+View View::of(const Camera& camera, double time) {
     View view;
+    view.time = time;
     view.eye = camera.eye;
     view.target = camera.target;
     view.fieldOfView = camera.fieldOfView;

@@ -13,8 +13,9 @@ struct View {
     glm::dvec3 eye{0, 2, 8}, target{0, 1, 0}, up{0, 1, 0};  // m
     double fieldOfView = 0.8;                               // rad, vertical
     double exposure = 1;
+    double time = 0;  // s: where the colliders are that move
 
-    static View of(const Camera& camera);
+    static View of(const Camera& camera, double time = 0);
 };
 
 // A point that places are relative to, split so that floats subtract it exactly: a point of the anchors'

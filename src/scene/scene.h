@@ -13,6 +13,7 @@
 
 #include "core/error.h"
 #include "molecule/molecule.h"
+#include "scene/collider_path.h"
 #include "scene/distance_field.h"
 #include "scene/mesh.h"
 #include "scene/solver.h"
@@ -157,10 +158,11 @@ struct Collider {
     std::string name;
     std::string surface = {};  // what it is made of, for surfacePairs; empty: nothing in particular
     ColliderShape shape;
-    double restitution = 0.2;  // in [0, 1]
-    double friction = 0.5;     // Coulomb's mu, at least 0
-    double thickness = 0.002;  // m: vertices rest this far from the surface
-    bool draw = true;          // all but height and distance fields, which show as their model
+    double restitution = 0.2;               // in [0, 1]
+    double friction = 0.5;                  // Coulomb's mu, at least 0
+    double thickness = 0.002;               // m: vertices rest this far from the surface
+    std::optional<ColliderPath> path = {};  // nothing: it stands still
+    bool draw = true;                       // all but height and distance fields, which show as their model
     glm::dvec3 color{0.2, 0.21, 0.19};
 };
 

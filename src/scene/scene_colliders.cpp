@@ -85,6 +85,55 @@ CapsuleCollider readCapsule(JsonReader& r) {
     return capsule;
 }
 
+Pose readPose(JsonReader& r) {
+    Pose pose;
+    r.get("position", pose.position);
+    getRotation(r, "rotation", pose.rotation);
+    return pose;
+}
+
+// Rotations by the short way from one to the next.
+void addKeyframe(JsonReader& r, ColliderPath& path) {
+    ColliderPath::Keyframe frame;
+    r.need("time", frame.time);
+    if (!path.keyframes.empty() && !(frame.time > path.end()))
+        throw Error(r.at("time"), concat("expected a time after that of the keyframe before, ", path.end(),
+                                         " s, found ", frame.time));
+    frame.pose = readPose(r);
+    r.finish();
+    if (!path.keyframes.empty() && glm::dot(path.keyframes.back().pose.rotation, frame.pose.rotation) < 0)
+        frame.pose.rotation = -frame.pose.rotation;
+    path.keyframes.push_back(frame);
+}
+
+bool same(const Pose& a, const Pose& b) {
+    const double size = 1 + glm::length(a.position);
+    return glm::length(a.position - b.position) < 1e-9 * size &&
+           std::abs(glm::dot(a.rotation, b.rotation)) > 1 - 1e-9;
+}
+
+std::optional<ColliderPath> readPath(JsonReader& collider) {
+    auto r = collider.object("path");
+    if (!r) return {};
+    ColliderPath path;
+    int end = 0, interpolation = 0;
+    r->choose("end", {"hold", "repeat"}, end);
+    r->choose("interpolation", {"linear", "smooth"}, interpolation);
+    path.repeats = end == 1;
+    path.smooth = interpolation == 1;
+    r->require("keyframes");
+    for (JsonReader& frame : r->objects("keyframes"))
+        addKeyframe(frame, path);
+    if (path.keyframes.size() < 2)
+        throw Error(r->at("keyframes"),
+                    concat("expected at least two keyframes, found ", path.keyframes.size()));
+    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
+        throw Error(r->at("keyframes"),
+                    "expected the last pose to be the first again where the path repeats");
+    r->finish();
+    return path;
+}
+
 // A name of "between", which some collider or group must have.
 std::string needSurface(const JsonReader& r, const std::string& name, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return name;
@@ -131,6 +180,7 @@ std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>&
         getSurface(r, collider.surface);
         r.get("restitution", collider.restitution, Range::between(0, 1));
         r.get("friction", collider.friction, Range::atLeast(0));
+        collider.path = readPath(r);
         r.get("draw", collider.draw);
         getColor(r, "color", collider.color);
         r.finish();

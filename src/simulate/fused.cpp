@@ -136,6 +136,9 @@ void Fused::setUniforms(const Program& program, const GroupPlan& group, const Fr
     program.set("givenStageDecay", stage.drag.decay);
     program.set("givenStagePhi", stage.drag.phi);
     program.set("givenRestarts", int(frame.restarts));
+    if (group.needs.collide && !plan_->movingColliders.empty())
+        program.set("givenColliderParameters",
+                    std::span<const glm::vec4>(colliderParameters(*plan_, group, frame)));
 }
 
 void Fused::updateFactors(size_t index, const Frame& frame) {

@@ -92,14 +92,15 @@ std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
 VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
     if (options.lanes == Lanes::vertex)
-        return {group.vertexCount, Form::ownVertices, Form::ownVertices, Form::ownVertices};
+        return {group.vertexCount, Form::ownVertices, Form::ownVertices, Form::ownVertices,
+                Form::ownVertices};
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
     constexpr size_t longest = 48;  // calls of a field or a collider
     const size_t vertices = size_t(group.vertexCount);
     const size_t noiseAt = options.software ? 1 : 8;
     return {group.vertexCount, Form::writeOut,
             form((plan.longFields && vertices > noiseAt) || vertices * plan.fieldCount > longest),
-            form(vertices * plan.colliderCount > longest)};
+            form(vertices * plan.colliderCount > longest), Form::keep};
 }
 
 }  // namespace

@@ -79,7 +79,8 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
             plan.groups[pass.group].needs.fields)
             program.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (pass.kind == PassKind::collide)
-            program.set("colliderParameters", std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
+            program.set("colliderParameters",
+                        std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
 }
 
@@ -298,6 +299,12 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
+    if (!plan_->movingColliders.empty()) {
+        program.set("contactTime", float(step.time + step.h - step.frame.time));
+        if (step.first)
+            program.set("colliderParameters",
+                        std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
+    }
     drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
     state.position.flip(index);
     state.velocity.flip(index);

@@ -38,6 +38,12 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
     return {float(may ? group.release.force.value_or(never) : never), float(may ? chance : 0)};
 }
 
+std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame) {
+    std::vector<glm::vec4> out = group.colliderParameters;
+    setPoses(out, plan.movingColliders, plan.fastestSlot, frame.time, frame.parameters.frameTime);
+    return out;
+}
+
 glm::vec3 driftOf(SolverKind solver, double h, bool slips) {
     // the others of order 1 drift by the velocity that the step ends with
     const bool first = shoal::solver(solver).order == 1 || slips;

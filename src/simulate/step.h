@@ -46,6 +46,9 @@ struct ReleaseLimits {
 };
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
 
+// A group's, with the colliders where they are in this frame.
+std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame);
+
 // Step, kickDrift and lag of shaders/physics/collide.glsl.
 glm::vec3 driftOf(SolverKind solver, double h, bool slips);
 

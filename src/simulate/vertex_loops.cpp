@@ -50,7 +50,7 @@ std::vector<Line> linesOf(const gpu::ShaderSource& source) {
 char loopVariable(const std::string& line) {
     const size_t start = line.find_first_not_of(' ');
     if (start == std::string::npos) return 0;
-    for (const char name : {'i', 'j', 'k'}) {
+    for (const char name : {'i', 'j', 'k', 'n'}) {
         const std::string n(1, name);
         if (line.compare(start, std::string::npos,
                          "for (int " + n + " = 0; " + n + " < VERTICES; ++" + n + ") {") == 0)
@@ -85,7 +85,8 @@ class Expander {
             const char variable = loopVariable(lines_[k].text);
             const Form form = variable == 'i'   ? loops_.shortBodies
                               : variable == 'j' ? loops_.fields
-                                                : loops_.contacts;
+                              : variable == 'k' ? loops_.contacts
+                                                : loops_.touches;
             if (variable == 0 || form == Form::keep) {
                 add(lines_[k].text, lines_[k].origin);
             } else if (form == Form::writeOut) {

@@ -75,7 +75,7 @@ std::vector<double> bounceHeights(const Solver& solver, Simulation& simulation, 
 // a step's gravity would show: it is 3 % of the speed of the impact.
 TEST_CASE("hard: a bounce", "[hard][contact]") {
     const double h = 1 / 240.0;
-    for (double e : {0.0, 0.3, 0.7, 1.0}) {
+    for (double e : {0.0, 0.25, 0.5, 0.75, 1.0}) {
         test::holds(concat("bounce, restitution ", e), [&](const Solver& solver, Judge& judge) {
             std::vector<test::Item> items;
             std::vector<double> drops;
@@ -164,7 +164,7 @@ TEST_CASE("hard: resting contact", "[hard][contact]") {
 }
 
 // 200 m/s is 0.83 m a step. A plane and a height field are solid all the way down: nothing gets below them. A
-// ball of 0.05 m is looked for at the step's end only.
+// ball of 0.05 m is looked for along the way.
 TEST_CASE("hard: 200 m/s at a wall", "[hard][contact]") {
     const auto shoot = [](const Solver& solver, Judge& judge, ColliderShape shape, double radius) {
         std::vector<test::Item> items;
@@ -241,10 +241,10 @@ TEST_CASE("hard: the pole of a sphere", "[hard][contact]") {
             test::runChecked(simulation, 1);
             const Snapshot now = simulation.snapshot(0);
             judge.finite(now);
-            for (const glm::dvec3& x : now.positions)
-                deepest = std::max(deepest, radius - glm::length(x));
+            // the first three start inside, and come out at 1 m/s
+            for (size_t m = i < 45 ? 3 : 0; m < now.positions.size(); ++m)
+                deepest = std::max(deepest, radius - glm::length(now.positions[m]));
         }
-        // those in the middle are put outside in the first step, to the rest surface
         judge.atMost("deepest m", deepest, 1e-4);
     });
 }

@@ -189,7 +189,7 @@ TEST_CASE("contact leaves alone what is outside or on its way out", "[contact]")
     CHECK(outside.position == vec3(1, 0.1f, 2));
     CHECK(outside.velocity == vec3(3, -4, 5));
     const Contact leaving =
-        shader::respond({1, -0.1f, 2}, {3, 4, 5}, -0.1f, {0, 1, 0}, {0, -g, 0}, 0.5f, 0.5f, drift);
+        shader::respond({1, -0.03f, 2}, {3, 4, 5}, -0.03f, {0, 1, 0}, {0, -g, 0}, 0.5f, 0.5f, drift);
     CHECK(leaving.velocity == vec3(3, 4, 5));
     CHECK(leaving.position.y == Approx(0).margin(1e-7));
 }

@@ -1,0 +1,35 @@
+// Colliders that uniforms have no room for: spheres, boxes and capsules that stand still, as loops over the
+// shared table of samples, so that their number is not in the text's length. Texels of a collider:
+//
+//   sphere    center, radius | thickness, -, number, material
+//   box       center, thickness | half its size, - | quaternion | -, -, number, material
+//   capsule   from, radius | axis, 1 / axis^2 | aside, thickness | -, -, number, material
+//
+// material: index of the uniform whose x is the restitution and y the friction.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compile/collider_kinds.h"
+
+namespace shoal {
+
+class ColliderTable {
+  public:
+    // Whether a collider can lie in the table.
+    static bool holds(const Collider& collider);
+    void add(const Collider& collider, size_t number, size_t material);
+    bool empty() const { return spheres_.empty() && boxes_.empty() && capsules_.empty(); }
+
+    struct Loops {
+        std::string clearances, survey;  // statements of the functions of that name (compile/generate.h)
+    };
+    // Appends the texels.
+    Loops write(std::vector<glm::vec4>& samples) const;
+
+  private:
+    std::vector<glm::vec4> spheres_, boxes_, capsules_;
+};
+
+}  // namespace shoal
