@@ -8,8 +8,17 @@
 // colliders).
 vec3 touchPosition[VERTICES];
 vec3 touchVelocity[VERTICES];
+#ifdef RIGID_IMPACT
+vec3 startPlace[VERTICES];     // m, before contact
+vec3 driftedBy[VERTICES];      // m/s
+vec4 struck[VERTICES];         // the last surface's normal and friction; w negative: none
+vec3 struckSurface[VERTICES];  // m/s, its velocity
+#include "fused/body.glsl"
+#endif
 #ifdef JOINT_CONTACT
+#ifndef RIGID_IMPACT
 vec3 driftedBy[VERTICES];  // m/s
+#endif
 float contactTime = 0.0;   // s, of the substep's end since the frame's start; where colliders move
 
 // Negative where a vertex is inside a collider, or so near that it may have crossed one.
@@ -56,6 +65,11 @@ void resolveContacts()
 #ifdef COMING_KICK
         touchVelocity[i] += comingKick[i];
 #endif
+#ifdef RIGID_IMPACT
+        startPlace[i] = x[i];
+        driftedBy[i] = v[i];
+        struck[i] = vec4(0.0, 0.0, 0.0, -1.0);
+#endif
 #ifdef JOINT_CONTACT
         driftedBy[i] = v[i];
 #endif
@@ -69,6 +83,10 @@ void resolveContacts()
             changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
             touchPosition[n] = c.position;
             touchVelocity[n] = c.velocity;
+#ifdef RIGID_IMPACT
+            struck[n] = struckLast;
+            struckSurface[n] = struckVelocity;
+#endif
         }
     }
 #else
@@ -78,8 +96,15 @@ void resolveContacts()
                                    Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;
+#ifdef RIGID_IMPACT
+            struck[k] = struckLast;
+            struckSurface[k] = struckVelocity;
+#endif
         }
     }
+#endif
+#ifdef RIGID_IMPACT
+    answerAsBody();
 #endif
     for (int i = 0; i < VERTICES; ++i) {
         vec3 whole = v[i];

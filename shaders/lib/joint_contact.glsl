@@ -114,6 +114,9 @@ bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
 Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3 gravity, Drift drift, float time)
 {
     Contact c = Contact(position, velocity);
+#ifdef RIGID_IMPACT
+    struckLast = vec4(0.0, 0.0, 0.0, -1.0);
+#endif
     vec3 from = position - drifted * drift.step;
     float begin = time - drift.step;
 #ifdef SWEPT
@@ -142,6 +145,10 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         vec2 material = materialOf(t);
         Contact r = respond(c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x, material.y,
                             drift);
+#ifdef RIGID_IMPACT
+        struckLast = vec4(t.normal, material.y);
+        struckVelocity = t.velocity;
+#endif
         bool rests = dot(r.velocity, t.normal) < 1e-5;
         r.velocity += t.velocity;
         if (n > 0) {

@@ -3,6 +3,12 @@
 #include "physics/collide.glsl"
 #include "physics/solid.glsl"
 
+#ifdef RIGID_IMPACT
+// What a vertex has struck in this substep: the surface's normal and friction, and its velocity; w negative: nothing.
+vec4 struckLast;
+vec3 struckVelocity;
+#endif
+
 const vec4 noSurface = vec4(0.0, 1.0, 0.0, 1e30);
 
 // origin: of x, relative to a point of the plane; apart, so that its part is the same in every substep.

@@ -22,6 +22,12 @@ Analysis analyseGroup(const Group& group, const GroupPlan& plan) {
     return analyse(scaled, plan.needs.pins && !plan.needs.release);
 }
 
+// Free, without a soft mode, and every deformation is over within a step.
+bool isRigid(const Analysis& analysis, double step) {
+    return analysis.modesKnown && analysis.rigidModes == 6 && analysis.zeroModes == 0 &&
+           analysis.lowestFrequency * step > 1;
+}
+
 double stableStep(const Analysis& analysis, SolverKind kind) {
     switch (kind) {
     case SolverKind::euler:
@@ -91,6 +97,7 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
                                analysis.highestFrequency * step);
     }
     out.stableStep = stableStep(analysis, out.solver);
+    out.rigid = out.needs.collide && isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
 }
 

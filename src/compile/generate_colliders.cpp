@@ -152,7 +152,10 @@ std::string sourceOfOne(const Text& text) {
         "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", text.comment,
         "    surface = ", text.surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
         text.material, ".z, surface.xyz, gravity, ", text.material, ".x, ", text.material,
-        ".y, drift);\n    return c;\n}\n\n// m: from the nearest surface, less its thickness; negative ",
+        ".y, drift);\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, surface.w < ", text.material,
+        ".z ? ", text.material,
+        ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return c;\n}\n\n// m: from the nearest "
+        "surface, less its thickness; negative ",
         "inside.\nfloat clearance(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, ",
         "vec3(0.0));\n    vec4 surface;\n    float least = 1e30;\n", text.comment,
         "    surface = ", text.surface, ";\n    least = min(least, surface.w - ", text.material,

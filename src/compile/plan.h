@@ -54,6 +54,7 @@ struct GroupPlan {
     double size = 1;              // m, of the molecule
     double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;        // s, largest substep of the solver; infinite without springs
+    bool rigid = false;           // all its springs are too stiff for the step: it is struck as a body
     std::vector<bool> pinned;     // a vertex each: held at the start
     GroupState start;
     GroupConstants constants;

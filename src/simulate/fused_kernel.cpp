@@ -47,6 +47,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.collide, "COLLIDE");
+    define(group.rigid && perLane, "RIGID_IMPACT");
     define(solver(group.solver).history, "HISTORY");
     if (solver(group.solver).history) out.push_back("NO_HISTORY 1e30");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
