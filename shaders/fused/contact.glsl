@@ -19,6 +19,8 @@ vec3 struckSurface[VERTICES];  // m/s, its velocity
 #ifndef RIGID_IMPACT
 vec3 driftedBy[VERTICES];  // m/s
 #endif
+vec3 askedPosition[VERTICES];  // apart from the above, whose loop is always kept: these stay in registers
+vec3 askedVelocity[VERTICES];
 float contactTime = 0.0;   // s, of the substep's end since the frame's start; where colliders move
 
 // Negative where a vertex is inside a collider, or so near that it may have crossed one.
@@ -26,7 +28,7 @@ float margin(vec3 position, vec3 velocity)
 {
     vec2 free = clearances(anchor, position, contactTime);
 #ifdef SWEPT
-    return min(free.x, free.y - reachOf(velocity, substep));
+    return min(free.x, beyondReach(free.y, velocity, substep));
 #else
     return free.x;
 #endif
@@ -39,11 +41,11 @@ bool findContacts()
     float least = 1e30;
 #ifdef JOINT_CONTACT
     for (int i = 0; i < VERTICES; ++i) {
-        touchPosition[i] = x[i];
-        driftedBy[i] = v[i];
+        askedPosition[i] = x[i];
+        askedVelocity[i] = v[i];
     }
     for (int k = 0; k < VERTICES; ++k) {
-        if (!isHeld(pinned[k])) least = min(least, margin(touchPosition[k], driftedBy[k]));
+        if (!isHeld(pinned[k])) least = min(least, margin(askedPosition[k], askedVelocity[k]));
     }
 #else
     for (int i = 0; i < VERTICES; ++i) {

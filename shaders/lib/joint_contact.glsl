@@ -24,10 +24,16 @@ vec2 materialOf(Touch t)
 }
 
 #ifdef SWEPT
-// How far a vertex and the surfaces may move towards one another in a step, m.
-float reachOf(vec3 velocity, float step)
+// Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
+// because this is asked of every vertex in every substep.
+float beyondReach(float free, vec3 velocity, float step)
 {
-    return (length(velocity) + fastestSurface()) * step;
+#ifdef MOVING_COLLIDERS
+    float squared = 2.0 * (dot(velocity, velocity) + fastestSurface() * fastestSurface());
+#else
+    float squared = dot(velocity, velocity);
+#endif
+    return free * abs(free) - squared * (step * step);
 }
 
 // The first swept surface on the way from `from` to `to`, between two times: its distance is that of `to` from its

@@ -32,7 +32,7 @@ void main()
 #ifdef JOINT_CONTACT
         vec2 free = clearances(anchor, x, contactTime);
 #ifdef SWEPT
-        free.x = min(free.x, free.y - reachOf(v, drift.x));
+        free.x = min(free.x, beyondReach(free.y, v, drift.x));
 #endif
         Contact contact = Contact(x, whole);
         if (free.x < 0.0) contact = collideAll(anchor, x, whole, v, gravity, drifted, contactTime);

@@ -60,6 +60,31 @@ void addPins(std::vector<FeatureScene>& out) {
     }
 }
 
+// To and fro, turning by an angle about a slanted axis.
+ColliderPath swing(const glm::dvec3& way, double angle) {
+    ColliderPath path;
+    path.repeats = true;
+    const glm::dquat turned = glm::angleAxis(angle, glm::dvec3(0.6, 0.8, 0));
+    path.keyframes = {{0, {}}, {0.7, {way, turned}}, {1.3, {}}};
+    return path;
+}
+
+// A floor of spheres, boxes and capsules.
+std::vector<Collider> pebbles(int count) {
+    std::vector<Collider> out(static_cast<size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        const glm::dvec3 place(0.4 * (i % 10 - 4.5), 0.05 * (i % 4), 0.4 * (i / 10 - 4));
+        Collider& one = out[size_t(i)];
+        one.thickness = 0.01;
+        one.restitution = 0.1 * (i % 5);
+        one.shape = SphereCollider{place, 0.3};
+        if (i % 3 == 1)
+            one.shape = BoxCollider{place, {0.5, 0.4, 0.5}, glm::angleAxis(0.3 * i, glm::dvec3(0, 1, 0))};
+        if (i % 3 == 2) one.shape = CapsuleCollider{place, place + glm::dvec3(0.2, 0.1, 0), 0.25};
+    }
+    return out;
+}
+
 void addContact(std::vector<FeatureScene>& out) {
     const std::vector<Collider> colliders = everyCollider();
     for (const SolverKind solver : explicitSolvers) {
@@ -71,6 +96,22 @@ void addContact(std::vector<FeatureScene>& out) {
             setStableSubsteps(scene);
             out.push_back({concat("contact ", kind, ", ", name(solver)), std::move(scene)});
         }
+        Scene moving = swarm(shippedMolecule("quad"), 130, solver);
+        moving.gravity = down;
+        moving.colliders = {colliders[0], colliders[4], colliders[1]};
+        moving.colliders[0].path = swing({0.3, 0.1, 0}, 0);
+        moving.colliders[1].path = swing({0.4, 0.2, -0.1}, 0.8);
+        groupOf(moving).drag = {2, 2};
+        setStableSubsteps(moving);
+        out.push_back({concat("moving colliders, ", name(solver)), std::move(moving)});
+
+        Scene table = swarm(shippedMolecule("quad"), 130, solver);  // more than uniforms hold
+        table.gravity = down;
+        table.colliders = pebbles(90);
+        groupOf(table).drag = {2, 2};
+        setStableSubsteps(table);
+        out.push_back({concat("many colliders, ", name(solver)), std::move(table)});
+
         Scene many = swarm(shippedMolecule("fish"), 40, solver);  // more vertices than contacts at once
         many.gravity = down;
         many.colliders = {colliders[0], colliders[2]};
