@@ -1,8 +1,11 @@
-// A lane a sphere of one group, with spheres on triangles: how many contacts act on the same vertices as its own.
+// A lane a sphere of one group, with spheres on triangles: how much the contacts add up that act on the same vertices as
+// its own (contact/respond.comp, CROWD).
 #include "contact/shape.glsl"
+#include "physics/pair.glsl"
 
 uniform usamplerBuffer slots;
 uniform usamplerBuffer counts;
+uniform samplerBuffer normals;  // two texels a slot: NormalSum
 uniform int firstSphere;
 uniform int partSpheres;
 
@@ -10,17 +13,21 @@ layout(std430, binding = 0) writeonly buffer Crowds { uint newCrowds[]; };
 
 int moleculeSphere;
 
-uint countAt(int k)
+void add(inout NormalSum sum, int k)
 {
-    return texelFetch(counts, int(texelFetch(slots, moleculeSphere + k).x)).x;
+    int slot = int(texelFetch(slots, moleculeSphere + k).x);
+    if (texelFetch(counts, slot).x == 0u) return;
+    sum.diagonal += texelFetch(normals, 2 * slot).xyz;
+    sum.beside += texelFetch(normals, 2 * slot + 1).xyz;
 }
 
-uint crowdOf(int vertex)
+float crowdOf(int vertex)
 {
     vec4 shape = shapeOf(vertex);
-    uint sum = countAt(vertex);
-    for (int i = 0; i < int(shape.w); ++i) sum += countAt(int(shapeOf(int(shape.z) + i).x));
-    return sum;
+    NormalSum sum = NormalSum(vec3(0.0), vec3(0.0));
+    add(sum, vertex);
+    for (int i = 0; i < int(shape.w); ++i) add(sum, int(shapeOf(int(shape.z) + i).x));
+    return largestEigenvalue(sum);
 }
 
 void main()
@@ -30,7 +37,7 @@ void main()
     int k = lane - molecule * SPHERES;
     moleculeSphere = firstSphere + molecule * SPHERES;
     vec4 shape = shapeOf(k);
-    uint crowd = crowdOf(k < VERTICES ? k : int(shape.x));
+    float crowd = crowdOf(k < VERTICES ? k : int(shape.x));
     if (k >= VERTICES) crowd = max(crowd, max(crowdOf(int(shape.y)), crowdOf(int(shape.z))));
-    newCrowds[int(texelFetch(slots, moleculeSphere + k).x)] = crowd;
+    newCrowds[int(texelFetch(slots, moleculeSphere + k).x)] = floatBitsToUint(crowd);
 }

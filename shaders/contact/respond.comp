@@ -1,19 +1,25 @@
 // A lane a slot in contact: the impulses of all its contacts at once (docs/contact.md). In the order of the stages:
 //
-//   BEGIN    where spheres rest on one another, the impulse that pushes them apart in this step
+//   CROWD    by how much the contacts of a sphere together outdo one alone
+//   BEGIN    where spheres rest on one another, a first guess from how far they overlap
 //   RELAX    one Jacobi iteration towards each contact's speed after it: -e times that of the impact, or none
 //   SETTLE   Coulomb friction, and how far all of it moves the spheres
+//   KEEP     spheres that are pushed apart while they sink keep that as velocity, so that a pile does not fall for ever
 //
 // Only gathers: both spheres of a contact compute its impulse, to the same bit, from the same numbers. `impulses` are
 // totals; what a slot without contact has there is undefined and never read.
 #include "contact/active.glsl"
 #include "contact/records.glsl"
+#ifndef CROWD
 #include "contact/velocity.glsl"
+#endif
 #include "physics/pair.glsl"
 
 uniform usamplerBuffer lists;
 uniform usamplerBuffer counts;
-uniform usamplerBuffer crowds;     // contacts that a contact of this slot shares its vertices with
+#ifndef CROWD
+uniform usamplerBuffer crowds;     // by slot, as bits: the largest eigenvalue of its contacts' normals, or more
+#endif
 uniform samplerBuffer materials;   // x restitution, y friction, by group * groupCount + group
 uniform int groupCount;
 uniform int listStride;
@@ -21,8 +27,29 @@ uniform float stepTime;            // s, of a contact step
 uniform float restSpeed;           // m/s
 uniform float restPush;            // share of an overlap that a step takes away
 
+#ifdef CROWD
+#ifdef TRIANGLES
+layout(std430, binding = 0) writeonly buffer Normals { vec4 normals[]; };  // two a slot: contact/crowd.comp
+#else
+layout(std430, binding = 0) writeonly buffer NewCrowds { uint newCrowds[]; };
+#endif
+#else
 layout(std430, binding = 0) writeonly buffer NewImpulses { vec4 newImpulses[]; };
-layout(std430, binding = 1) buffer Pushed { float pushed[]; };  // N s, of each entry of the lists
+#endif
+#ifdef WALLS
+uniform samplerBuffer walls;       // by sphere: xyz normal, w distance
+uniform samplerBuffer wallFriction;  // x friction, by group
+
+#ifndef CROWD
+layout(std430, binding = 4) buffer WallPushed { vec2 wallPushed[]; };
+#endif
+#endif
+#ifndef CROWD
+layout(std430, binding = 1) buffer Pushed { vec2 pushed[]; };  // N s, of each entry of the lists; and the time before
+#endif
+#ifdef KEEP
+uniform samplerBuffer kept;  // w: of shifts
+#endif
 #ifdef SETTLE
 layout(std430, binding = 2) writeonly buffer Shifts { vec4 shifts[]; };  // kg m
 #endif
@@ -40,6 +67,12 @@ bool holds(int slot, int other)
     return found;
 }
 
+// Contacts that friction shares a sphere with, the wall among them.
+int numberOf(int slot)
+{
+    return int(texelFetch(counts, slot).x) + 1;
+}
+
 void main()
 {
     int taken = activeSlot();
@@ -52,10 +85,19 @@ void main()
     vec3 ownStart = uintBitsToFloat(ownMotion.xyz);
     float ownWeight = uintBitsToFloat(ownMotion.w);
     float ownRadius = uintBitsToFloat(texelFetch(cells, sphere).w);
-    uint ownCrowd = texelFetch(crowds, slot).x;
     vec3 impulse = vec3(0.0);
     vec3 shift = vec3(0.0);
-#ifndef BEGIN
+    vec3 rest = vec3(0.0);
+#ifdef CROWD
+    NormalSum normalSum = NormalSum(vec3(0.0), vec3(0.0));
+#else
+    float ownCrowd = uintBitsToFloat(texelFetch(crowds, slot).x);
+#endif
+#ifdef KEEP
+    impulse = impulseOf(slot);
+    float ownKept = texelFetch(kept, slot).w;
+#endif
+#if defined(RELAX) || defined(SETTLE)
     vec3 ownVelocity = velocityOf(slot, ownStart, ownWeight);
     impulse = impulseOf(slot);
 #endif
@@ -71,38 +113,90 @@ void main()
         float reach = ownRadius + uintBitsToFloat(texelFetch(cells, otherSphere).w);
         PairContact contact = pairContact(localDifference(ownPlace, uintBitsToFloat(place.xyz), cell),
                                           ownStart - start, reach, stepTime, restSpeed, slot < other ? 1.0 : -1.0);
-        float share = 1.0 / float(max(ownCrowd, texelFetch(crowds, other).x));
-        bool counts = w > 0.0 && holds(other, slot);
+        bool meets = w > 0.0 && holds(other, slot);
+#ifdef CROWD
+        if (meets) normalSum = withNormal(normalSum, contact.normal);
+#else
+        float share = 1.0 / max(ownCrowd, uintBitsToFloat(texelFetch(crowds, other).x));
         float push = contact.impact ? 0.0 : share * restPush * contact.depth / max(w, 1e-30);
         vec2 material = texelFetch(materials, int(ownRecord.w >> 26u) * groupCount + int(place.w >> 26u)).xy;
 #ifdef BEGIN
-        float total = counts ? push / stepTime : 0.0;
-        pushed[entry] = total;
+        float total = meets ? push / stepTime : 0.0;
+        pushed[entry] = vec2(total);
         impulse += contact.normal * total;
+#elif defined(KEEP)
+        float part = min(ownKept, texelFetch(kept, other).w);
+        impulse += meets ? contact.normal * (push / stepTime * part) : vec3(0.0);
 #else
         vec3 relative = ownVelocity - velocityOf(other, start, weight);
         float speed = dot(relative, contact.normal);
-        float before = pushed[entry];
+        vec2 pushes = pushed[entry];
 #ifdef RELAX
+        float before = max(pushes.x + (pushes.x - pushes.y) * momentum, -1e30);
         float target = contact.impact ? -material.x * contact.speed : max(contact.speed, 0.0);
-        float change = counts ? pairImpulse(speed, target, before, w, share) : 0.0;
-        pushed[entry] = before + change;
+        float change = meets ? pairImpulse(speed, target, before, w, share) : 0.0;
+        pushed[entry] = vec2(before + change, pushes.x);
         impulse += contact.normal * change;
 #else
         vec3 along = relative - contact.normal * speed;
         float slip = length(along);
-        float grip = counts ? min(material.y * before, share * slip / w) : 0.0;
+        float before = pushes.x;
+        float most = 1.0 / float(max(numberOf(slot), numberOf(other)));
+        float grip = meets ? min(material.y * before, most * slip / w) : 0.0;
         vec3 rub = along * (-grip / max(slip, 1e-30));
         impulse += rub;
         vec3 bounce = (contact.normal * before + rub) * contact.since;
-        shift += counts ? (contact.impact ? bounce : contact.normal * push) : vec3(0.0);
+        shift += meets && contact.impact ? bounce : vec3(0.0);
+        rest += meets ? contact.normal * push : vec3(0.0);
+#endif
 #endif
 #endif
     }
+#ifdef WALLS
+    // what the sphere lies on, or comes to lie on within a step, holds it like a sphere without end
+    vec4 wall = texelFetch(walls, sphere);
+    if (taken >= 0 && wall.w < 1e20 && ownWeight > 0.0) {
+#ifdef CROWD
+        normalSum = withNormal(normalSum, wall.xyz);
+#else
+        float share = 1.0 / ownCrowd;
+#ifdef KEEP
+#elif defined(BEGIN)
+        wallPushed[slot] = vec2(0.0);
+#else
+        vec2 pushes = wallPushed[slot];
+        float speed = dot(ownVelocity, wall.xyz);
+#ifdef RELAX
+        float before = pushes.x + (pushes.x - pushes.y) * momentum;
+        float change = pairImpulse(speed, -wall.w / stepTime, before, ownWeight, share);
+        wallPushed[slot] = vec2(before + change, pushes.x);
+        impulse += wall.xyz * change;
+#else
+        vec3 along = ownVelocity - wall.xyz * speed;
+        float slip = length(along);
+        float friction = texelFetch(wallFriction, int(ownRecord.w >> 26u)).x;
+        float most = 1.0 / float(numberOf(slot));
+        impulse -= along * (min(friction * pushes.x, most * slip / ownWeight) / max(slip, 1e-30));
+#endif
+#endif
+#endif
+    }
+#endif
     if (taken >= 0) {
+#ifdef CROWD
+#ifdef TRIANGLES
+        normals[2 * slot] = vec4(normalSum.diagonal, 0.0);
+        normals[2 * slot + 1] = vec4(normalSum.beside, 0.0);
+#else
+        newCrowds[slot] = floatBitsToUint(largestEigenvalue(normalSum));
+#endif
+#else
         newImpulses[slot] = vec4(impulse, 0.0);
 #ifdef SETTLE
-        shifts[slot] = vec4(shift, 0.0);
+        vec3 change = rest * (ownWeight / stepTime);
+        float kept = clamp(-dot(ownVelocity, change) / max(dot(change, change), 1e-30), 0.0, 1.0);
+        shifts[slot] = vec4(shift + rest, kept);
+#endif
 #endif
     }
 }

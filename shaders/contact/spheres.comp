@@ -23,6 +23,42 @@ layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
 #endif
 
+#ifdef WALLS
+#include "generated/colliders.glsl"
+
+uniform float wallTime;   // s, since the frame's start
+uniform float wallStep;   // s, of a contact step
+uniform float wallNudge;  // m
+
+// Of the collider nearest to a sphere: xyz unit normal, w m from its surface; 1e30: none is near.
+layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
+
+float wallDistance(vec3 anchor, vec3 position)
+{
+#ifdef JOINT_CONTACT
+    return clearances(anchor, position, wallTime).x;
+#else
+    return clearance(anchor, position);
+#endif
+}
+
+void findWall(int sphere, vec3 anchor, vec3 position, vec3 velocity, float radius)
+{
+    float distance = wallDistance(anchor, position);
+    vec4 wall = vec4(0.0, 1.0, 0.0, 1e30);
+    bool near = distance < 0.25 * radius + length(velocity) * wallStep;
+    while (near) {
+        vec3 slope = vec3(wallDistance(anchor, position + vec3(wallNudge, 0.0, 0.0)),
+                          wallDistance(anchor, position + vec3(0.0, wallNudge, 0.0)),
+                          wallDistance(anchor, position + vec3(0.0, 0.0, wallNudge))) - distance;
+        float steep = length(slope);
+        if (steep > 0.1 * wallNudge && steep < 1e20) wall = vec4(slope / steep, max(distance, 0.0));
+        near = false;
+    }
+    newWalls[sphere] = wall;
+}
+#endif
+
 void main()
 {
     int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
@@ -62,5 +98,8 @@ void main()
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(velocity), floatBitsToUint(weight));
     newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(radius * scale));
+#ifdef WALLS
+    findWall(sphere, record.xyz, position, velocity, radius * scale);
+#endif
 #endif
 }

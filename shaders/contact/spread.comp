@@ -4,7 +4,9 @@
 uniform usamplerBuffer slots;  // of a sphere
 uniform usamplerBuffer counts;
 uniform usamplerBuffer motions;
-uniform samplerBuffer impulses;
+uniform samplerBuffer impulses;  // as in contact/velocity.glsl
+uniform samplerBuffer earlier;
+uniform float momentum;
 uniform samplerBuffer oldRecords;
 uniform int firstSphere;
 uniform int partSpheres;
@@ -17,7 +19,10 @@ vec3 impulseAt(int k)
 {
     int slot = int(texelFetch(slots, moleculeSphere + k).x);
     vec3 impulse = vec3(0.0);
-    if (texelFetch(counts, slot).x > 0u) impulse = texelFetch(impulses, slot).xyz;
+    if (texelFetch(counts, slot).x > 0u) {
+        impulse = texelFetch(impulses, slot).xyz;
+        if (momentum != 0.0) impulse += (impulse - texelFetch(earlier, slot).xyz) * momentum;
+    }
     return impulse;
 }
 

@@ -1,12 +1,19 @@
-// Velocities of slots in contact, of the iteration before.
+// Velocities of slots in contact, as the totals of the impulses make them: `impulses` of the last iteration, `earlier` of
+// the one before, from which the next goes on beyond the last by `momentum` (Nesterov).
 #ifdef TRIANGLES
 uniform samplerBuffer velocities;  // written by contact/spread.comp
 #endif
 uniform samplerBuffer impulses;
+uniform samplerBuffer earlier;
+uniform float momentum;
 
 vec3 impulseOf(int slot)
 {
-    return texelFetch(impulses, slot).xyz;
+    vec3 impulse = texelFetch(impulses, slot).xyz;
+#ifdef RELAX
+    impulse += (impulse - texelFetch(earlier, slot).xyz) * momentum;
+#endif
+    return impulse;
 }
 
 vec3 velocityOf(int slot, vec3 start, float weight)

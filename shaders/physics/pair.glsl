@@ -34,8 +34,30 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
 
 // What an impulse (N s) between spheres of inverse masses that sum up to w must still add so that their speed along the
 // normal becomes `target`. `pushed`: what they have exchanged so far; together they never pull. `share`: of several
-// contacts, so that together they do no more than each alone would (docs/contact.md).
+// contacts, so that together they do not outdo themselves (docs/contact.md).
 float pairImpulse(float speed, float target, float pushed, float w, float share)
 {
     return max(share * (target - speed) / w, -pushed);
+}
+
+// Normals of the contacts that act on one thing: the sum of n n^T, as its diagonal and what lies beside it (yz, xz, xy).
+struct NormalSum {
+    vec3 diagonal;
+    vec3 beside;
+};
+
+NormalSum withNormal(NormalSum sum, vec3 n)
+{
+    return NormalSum(sum.diagonal + n * n, sum.beside + vec3(n.y * n.z, n.x * n.z, n.x * n.y));
+}
+
+// At least the largest eigenvalue: by how much contacts that act on one thing together may outdo what each does alone.
+// The number of contacts where they all push the same way, a third of it where they come from all sides.
+float largestEigenvalue(NormalSum sum)
+{
+    vec3 d = sum.diagonal;
+    vec3 o = abs(sum.beside);
+    float rows = max(d.x + o.y + o.z, max(d.y + o.x + o.z, d.z + o.x + o.y));  // Gershgorin
+    float norm = sqrt(dot(d, d) + 2.0f * dot(o, o));                           // Frobenius
+    return max(min(rows, norm), 1.0f);
 }

@@ -149,7 +149,13 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
         ++out.tableBits;
     out.tableBits = std::max(out.tableBits, 4);
     const int substeps = scene.solver.substeps;
-    out.steps = std::min(scene.contact.steps > 0 ? scene.contact.steps : (substeps + 1) / 2, substeps);
+    out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
+    for (const ContactGroup& group : out.groups) {
+        double least = 1e300;
+        for (const Collider& collider : collidersOf(scene, scene.groups[groups[group.group].index]))
+            least = std::min(least, collider.friction);
+        out.wallFriction.push_back(least > 1e299 ? 0 : least);
+    }
     for (const ContactGroup& a : out.groups) {
         for (const ContactGroup& b : out.groups) {
             const SurfacePair pair = surfacePair(scene, groups[a.group].index, groups[b.group].index);

@@ -47,6 +47,9 @@ struct ContactPlan {
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
 
+    // Of each group with contact, where it lies on colliders: the least that the scene's have for it.
+    std::vector<double> wallFriction;
+
     bool any() const { return !groups.empty(); }
     // Substeps of contact step i: the frame's, as evenly as can be.
     static int substepsOf(int step, int steps, int substeps) {

@@ -58,63 +58,157 @@ Contacts touching(const std::vector<Sphere>& spheres) {
     return out;
 }
 
-void respond(std::vector<Sphere>& spheres, const Contacts& contacts, const SphereResponse& settings) {
-    std::vector<int> crowd(spheres.size());
-    for (const auto& [a, b] : contacts) {
-        ++crowd[size_t(a)];
-        ++crowd[size_t(b)];
+namespace {
+
+// The same bound of the largest eigenvalue of the sum of n n^T.
+double crowdOf(const glm::dmat3& sum) {
+    double rows = 0, squares = 0;
+    for (int i = 0; i < 3; ++i) {
+        double row = 0;
+        for (int k = 0; k < 3; ++k) {
+            row += std::abs(sum[i][k]);
+            squares += sum[i][k] * sum[i][k];
+        }
+        rows = std::max(rows, row);
     }
-    std::vector<Meeting> meetings;
-    std::vector<double> pushed;
-    std::vector<glm::dvec3> impulse(spheres.size()), shift(spheres.size());
-    const auto exchange = [&](std::vector<glm::dvec3>& sums, const std::pair<int, int>& contact,
-                              const glm::dvec3& amount) {
-        sums[size_t(contact.first)] += amount;
-        sums[size_t(contact.second)] -= amount;
-    };
-    for (const auto& contact : contacts) {
-        const Sphere &a = spheres[size_t(contact.first)], &b = spheres[size_t(contact.second)];
-        Meeting m = meetingOf(a, b, settings);
-        m.share = 1.0 / std::max(crowd[size_t(contact.first)], crowd[size_t(contact.second)]);
-        const double push = m.impact || m.weight == 0 ? 0 : m.share * m.depth / m.weight;
-        exchange(shift, contact, push * m.normal);
-        pushed.push_back(push / settings.stepTime);
-        exchange(impulse, contact, pushed.back() * m.normal);
-        meetings.push_back(m);
+    return std::max(std::min(rows, std::sqrt(squares)), 1.0);
+}
+
+class Response {
+  public:
+    Response(std::vector<Sphere>& spheres, const Contacts& contacts, const SphereResponse& settings)
+        : spheres_(&spheres),
+          contacts_(&contacts),
+          settings_(settings),
+          impulse_(spheres.size()),
+          number_(spheres.size()) {
+        std::vector<glm::dmat3> normals(spheres.size(), glm::dmat3(0));
+        for (const auto& [a, b] : contacts) {
+            meetings_.push_back(meetingOf(spheres[size_t(a)], spheres[size_t(b)], settings));
+            const glm::dvec3& n = meetings_.back().normal;
+            for (const int i : {a, b}) {
+                normals[size_t(i)] += glm::outerProduct(n, n);
+                ++number_[size_t(i)];
+            }
+        }
+        for (size_t c = 0; c < contacts.size(); ++c)
+            meetings_[c].share = 1 / std::max(crowdOf(normals[size_t(contacts[c].first)]),
+                                              crowdOf(normals[size_t(contacts[c].second)]));
     }
-    const auto relativeTo = [&](const std::pair<int, int>& contact, const std::vector<glm::dvec3>& sums) {
-        const auto velocity = [&](int i) {
-            return spheres[size_t(i)].velocity + spheres[size_t(i)].weight * sums[size_t(i)];
-        };
-        return velocity(contact.first) - velocity(contact.second);
-    };
-    for (int i = 0; i < settings.iterations; ++i) {
-        const std::vector<glm::dvec3> before = impulse;
-        for (size_t c = 0; c < contacts.size(); ++c) {
-            const Meeting& m = meetings[c];
-            if (m.weight == 0) continue;
-            const double speed = glm::dot(relativeTo(contacts[c], before), m.normal);
-            const double change = std::max(m.share * (m.target - speed) / m.weight, -pushed[c]);
-            pushed[c] += change;
-            exchange(impulse, contacts[c], change * m.normal);
+
+    void run() {
+        begin();
+        std::vector<glm::dvec3> earlierImpulse = impulse_;
+        std::vector<double> earlier = pushed_;
+        for (int i = 0; i < settings_.iterations; ++i) {
+            const double momentum = i == 0 ? 0 : double(i) / (i + 3);
+            const std::vector<glm::dvec3> last = impulse_;
+            const std::vector<double> lastPushed = pushed_;
+            for (size_t k = 0; k < impulse_.size(); ++k)
+                impulse_[k] += momentum * (last[k] - earlierImpulse[k]);
+            for (size_t c = 0; c < pushed_.size(); ++c)
+                pushed_[c] += momentum * (lastPushed[c] - earlier[c]);
+            relax();
+            earlierImpulse = last;
+            earlier = lastPushed;
+        }
+        settle();
+    }
+
+  private:
+    // A rest's push apart, in kg m.
+    double push(size_t c) const {
+        const Meeting& m = meetings_[c];
+        return m.impact || m.weight == 0 ? 0 : m.share * m.depth / m.weight;
+    }
+
+    void exchange(std::vector<glm::dvec3>& sums, size_t c, const glm::dvec3& amount) const {
+        sums[size_t((*contacts_)[c].first)] += amount;
+        sums[size_t((*contacts_)[c].second)] -= amount;
+    }
+
+    glm::dvec3 velocity(int i, const std::vector<glm::dvec3>& sums) const {
+        const Sphere& sphere = (*spheres_)[size_t(i)];
+        return sphere.velocity + sphere.weight * sums[size_t(i)];
+    }
+
+    glm::dvec3 relative(size_t c, const std::vector<glm::dvec3>& sums) const {
+        return velocity((*contacts_)[c].first, sums) - velocity((*contacts_)[c].second, sums);
+    }
+
+    void begin() {
+        for (size_t c = 0; c < meetings_.size(); ++c) {
+            pushed_.push_back(push(c) / settings_.stepTime);
+            exchange(impulse_, c, pushed_[c] * meetings_[c].normal);
         }
     }
-    const std::vector<glm::dvec3> before = impulse;
-    for (size_t c = 0; c < contacts.size(); ++c) {
-        const Meeting& m = meetings[c];
-        if (m.weight == 0) continue;
-        const glm::dvec3 relative = relativeTo(contacts[c], before);
-        const glm::dvec3 along = relative - glm::dot(relative, m.normal) * m.normal;
-        const double slip = glm::length(along);
-        const double grip = std::min(settings.friction * pushed[c], m.share * slip / m.weight);
-        const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
-        exchange(impulse, contacts[c], rub);
-        if (m.impact) exchange(shift, contacts[c], (pushed[c] * m.normal + rub) * m.since);
+
+    void relax() {
+        const std::vector<glm::dvec3> before = impulse_;
+        for (size_t c = 0; c < meetings_.size(); ++c) {
+            const Meeting& m = meetings_[c];
+            if (m.weight == 0) continue;
+            const double speed = glm::dot(relative(c, before), m.normal);
+            const double change = std::max(m.share * (m.target - speed) / m.weight, -pushed_[c]);
+            pushed_[c] += change;
+            exchange(impulse_, c, change * m.normal);
+        }
     }
-    for (size_t i = 0; i < spheres.size(); ++i) {
-        spheres[i].velocity += spheres[i].weight * impulse[i];
-        spheres[i].position += spheres[i].weight * shift[i];
+
+    void settle() {
+        const std::vector<glm::dvec3> before = impulse_;
+        std::vector<glm::dvec3> bounce(impulse_.size()), rest(impulse_.size());
+        for (size_t c = 0; c < meetings_.size(); ++c) {
+            const Meeting& m = meetings_[c];
+            if (m.weight == 0) continue;
+            const glm::dvec3 u = relative(c, before);
+            const glm::dvec3 along = u - glm::dot(u, m.normal) * m.normal;
+            const double slip = glm::length(along);
+            // the wall that may be there counts as one more
+            const int crowd =
+                1 + std::max(number_[size_t((*contacts_)[c].first)], number_[size_t((*contacts_)[c].second)]);
+            const double grip = std::min(settings_.friction * pushed_[c], slip / m.weight / crowd);
+            const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
+            exchange(impulse_, c, rub);
+            if (m.impact) exchange(bounce, c, (pushed_[c] * m.normal + rub) * m.since);
+            exchange(rest, c, push(c) * m.normal);
+        }
+        keep(before, rest);
+        for (size_t i = 0; i < spheres_->size(); ++i) {
+            Sphere& sphere = (*spheres_)[i];
+            sphere.velocity += sphere.weight * impulse_[i];
+            sphere.position += sphere.weight * (bounce[i] + rest[i]);
+        }
     }
+
+    void keep(const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& rest) {
+        std::vector<double> kept(rest.size());
+        for (size_t i = 0; i < rest.size(); ++i) {
+            const glm::dvec3 change = (*spheres_)[i].weight * rest[i] / settings_.stepTime;
+            const double square = glm::dot(change, change);
+            if (square > 0)
+                kept[i] = std::clamp(-glm::dot(velocity(int(i), before), change) / square, 0.0, 1.0);
+        }
+        for (size_t c = 0; c < meetings_.size(); ++c) {
+            const double part =
+                std::min(kept[size_t((*contacts_)[c].first)], kept[size_t((*contacts_)[c].second)]);
+            exchange(impulse_, c, push(c) / settings_.stepTime * part * meetings_[c].normal);
+        }
+    }
+
+    std::vector<Sphere>* spheres_;
+    const Contacts* contacts_;
+    SphereResponse settings_;
+    std::vector<Meeting> meetings_;
+    std::vector<double> pushed_;  // N s
+    std::vector<glm::dvec3> impulse_;
+    std::vector<int> number_;
+};
+
+}  // namespace
+
+void respond(std::vector<Sphere>& spheres, const Contacts& contacts, const SphereResponse& settings) {
+    Response(spheres, contacts, settings).run();
 }
 
 }  // namespace shoal::reference

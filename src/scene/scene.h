@@ -308,7 +308,7 @@ struct ContactSettings {
     ContactSearch search = ContactSearch::exact;
     ContactResponse response = ContactResponse::simultaneous;
     int neighbors = 8;           // of the UberFlow searches, to either side
-    int steps = 0;               // contact steps of a frame; 0: one for every two substeps
+    int steps = 0;               // contact steps of a frame; 0: one a substep
     int iterations = 4;          // of the simultaneous response
     std::optional<double> cell;  // m; nothing: as large as the largest spheres need
     Location location;

@@ -77,7 +77,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         made.normals = Program(context, shaderRoot, program);
     }
     if (plan.contact.any())
-        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, options.cache);
+        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options.cache);
 }
 
 void Fused::makeStep(size_t index) {
@@ -198,7 +198,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         run(piece, timers);
-        contact_->step(piece.parameters.frameTime, piece.parameters, state, timers);
+        contact_->step(piece, state, timers);
     }
     if (drawn_) computeNormals(timers);
 }

@@ -22,20 +22,6 @@ size_t wordsOf(Texel texel) {
     return words[size_t(texel)];
 }
 
-// Binds samplers to one unit after another.
-class Textures {
-  public:
-    explicit Textures(const Program& program) : program_(&program) { program.use(); }
-    Textures& add(const char* name, const BufferTexture& texture) {
-        program_->texture(name, unit_++, texture);
-        return *this;
-    }
-
-  private:
-    const Program* program_;
-    int unit_ = 0;
-};
-
 void store(const Program& program, const char* block, int at, const gpu::Buffer& buffer) {
     program.storage(block, at, buffer, 0, buffer.bytes());
 }
@@ -62,16 +48,18 @@ MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel,
       texture(context, buffer, texel, label) {}
 
 MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                                 gpu::ProgramCache* cache)
+                                 const Tables& tables, gpu::ProgramCache* cache)
     : context_(&context),
       plan_(&plan),
       contact_(&plan.contact),
+      tables_(&tables),
       padded_((size_t(plan.contact.spheres) + lanes - 1) / lanes * lanes),
       sort_((checkLimits(context.info(), plan.contact, plan.contact.settings.location), context), shaderRoot,
             padded_, cache) {
     for (const ContactGroup& group : contact_->groups) {
         triangles_ |= group.triangles;
         self_ |= group.self;
+        walls_ |= plan.groups[group.group].needs.collide;
     }
     const auto array = [&](size_t texels, Texel texel, const char* label) {
         return Array(context, texels, texel, label);
@@ -91,9 +79,17 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     for (Array& impulses : impulses_)
         impulses = array(padded_, Texel::float4, "contact impulses");
     if (contact_->settings.response == ContactResponse::simultaneous)
-        pushed_ = array(padded_ * size_t(contact_->listLength), Texel::uint1, "contact pushes");
-    if (triangles_) {
+        pushed_ = array(padded_ * size_t(contact_->listLength), Texel::uint2, "contact pushes");
+    if (contact_->settings.response == ContactResponse::simultaneous)
         crowds_ = array(padded_, Texel::uint1, "contact crowds");
+    if (walls_) {
+        // groups that do not collide leave theirs as they are now
+        const std::vector<glm::vec4> none(padded_, glm::vec4(0, 1, 0, 1e30f));
+        nearWalls_ = Array(context, padded_, Texel::float4, "walls", none.data());
+        wallPushed_ = array(padded_, Texel::uint2, "wall pushes");
+    }
+    if (triangles_) {
+        normals_ = array(2 * padded_, Texel::float4, "contact normals");
         velocities_ = array(padded_, Texel::float4, "contact velocities");
     }
     const std::vector<uint32_t> none(activeHead + padded_);
@@ -110,6 +106,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
                                        concat("NEIGHBORS ", contact_->settings.neighbors)};
     if (self_) common.push_back("SELF");
     if (triangles_) common.push_back("TRIANGLES");
+    if (walls_) common.push_back("WALLS");
     const auto make = [&](const char* file, std::vector<std::string> defines) {
         defines.insert(defines.end(), common.begin(), common.end());
         gpu::ProgramOptions options;
@@ -132,9 +129,11 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         nearest_ = make("nearest", {});
         return;
     }
+    crowd_ = make("respond", {"CROWD"});
     begin_ = make("respond", {"BEGIN"});
     relax_ = make("respond", {"RELAX"});
     settle_ = make("respond", {"SETTLE"});
+    keep_ = make("respond", {"KEEP"});
 }
 
 void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& shaderRoot,
@@ -158,10 +157,11 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
         options.label = concat("contact ", file, " of ", plan.name);
         options.defines = std::move(defines);
         options.cache = cache;
+        options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
         return Program(*context_, shaderRoot, options);
     };
     GroupPrograms& out = groups_.emplace_back();
-    out.spheres = make("spheres");
+    out.spheres = plan.needs.collide ? make("spheres", {"WALLS"}) : make("spheres");
     if (staggered_.buffer) out.staggeredKeys = make("spheres", {"ONLY_KEYS"});
     out.apply = make("apply");
     if (triangles_) {
@@ -189,6 +189,11 @@ void MoleculeContact::makeMaterials() {
     for (const glm::vec2& pair : contact_->pairs)
         pairs.emplace_back(pair, 0, 0);
     materials_ = Array(*context_, pairs.size(), Texel::float4, "contact materials", pairs.data());
+    if (!walls_) return;
+    std::vector<glm::vec4> friction;
+    for (const double mu : contact_->wallFriction)
+        friction.emplace_back(float(mu), 0, 0, 0);
+    wallFriction_ = Array(*context_, friction.size(), Texel::float4, "wall friction", friction.data());
 }
 
 void MoleculeContact::dispatch(const Program& program, size_t count) const {
@@ -210,7 +215,16 @@ void MoleculeContact::forParts(const std::vector<GroupBuffers>& state, const Run
     }
 }
 
-void MoleculeContact::makeKeys(bool staggered, const std::vector<GroupBuffers>& state) {
+void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
+    program.set("colliderParameters",
+                std::span<const glm::vec4>(plan_->groups[group.group].colliderParameters));
+    program.set("wallTime", float(frame.parameters.frameTime));
+    program.set("wallStep", float(frame.parameters.frameTime));
+    program.set("wallNudge", float(0.05 * group.radius));
+    store(program, "Walls", 4, nearWalls_.buffer);
+}
+
+void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::vector<GroupBuffers>& state) {
     forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
         const ContactGroup& group = contact_->groups[g];
         const Program& program = staggered ? groups_[g].staggeredKeys : groups_[g].spheres;
@@ -218,6 +232,10 @@ void MoleculeContact::makeKeys(bool staggered, const std::vector<GroupBuffers>& 
         textures.add("oldState", buffers.oldState(part)).add("oldRecords", part.record);
         textures.add("shapes", groups_[g].shapes.texture);
         if (buffers.hasConstants()) textures.add("constants", part.constant);
+        if (!staggered && plan_->groups[group.group].needs.collide) {
+            textures.add("samples", tables_->samples);
+            setWalls(program, group, frame);
+        }
         const int spheres = part.count * group.spheresOf;
         program.set("firstSphere", first);
         program.set("partSpheres", spheres);
@@ -250,12 +268,12 @@ void MoleculeContact::order() {
     settled();
 }
 
-void MoleculeContact::buildGrid(const std::vector<GroupBuffers>& state) {
+void MoleculeContact::buildGrid(const Frame& frame, const std::vector<GroupBuffers>& state) {
     const size_t count = size_t(contact_->spheres);
-    makeKeys(false, state);
+    makeKeys(false, frame, state);
     sort_.sort(pairs_.buffer, count, contact_->tableBits);
     if (staggered_.buffer) {
-        makeKeys(true, state);
+        makeKeys(true, frame, state);
         sort_.sort(staggered_.buffer, count, contact_->tableBits);
     }
     settled();
@@ -283,15 +301,53 @@ void MoleculeContact::find(const Program& program) {
     settled();
 }
 
-void MoleculeContact::search(const std::vector<GroupBuffers>& state) {
+void MoleculeContact::search() {
     find(find_);
     if (findStaggered_) find(findStaggered_);
+}
+
+// What all stages of the response read.
+MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, double stepTime,
+                                                        double restSpeed) const {
+    Textures textures(program);
+    textures.add("places", places_.texture)
+        .add("sorted", pairs_.texture)
+        .add("motions", motions_.texture)
+        .add("cells", cells_.texture)
+        .add("lists", lists_.texture)
+        .add("counts", counts_.texture)
+        .add("materials", materials_.texture);
+    program.set("count", contact_->spheres);
+    program.set("cell", float(contact_->cell));
+    program.set("groupCount", int(contact_->groups.size()));
+    program.set("listStride", int(padded_));
+    program.set("stepTime", float(stepTime));
+    program.set("restSpeed", float(restSpeed));
+    return textures;
+}
+
+void MoleculeContact::runNearest(double stepTime, double restSpeed, const Totals& totals) {
+    bindResponse(nearest_, stepTime, restSpeed);
+    store(nearest_, "NewImpulses", 0, impulses_[totals.next].buffer);
+    store(nearest_, "Shifts", 2, shifts_.buffer);
+    dispatchActive(nearest_);
+    settled();
+}
+
+// How much the contacts add up that act on the same vertices.
+void MoleculeContact::runCrowd(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state) {
+    Textures textures = bindResponse(crowd_, stepTime, restSpeed);
+    if (walls_) textures.add("walls", nearWalls_.texture);
+    store(crowd_, triangles_ ? "Normals" : "NewCrowds", 0, triangles_ ? normals_.buffer : crowds_.buffer);
+    dispatchActive(crowd_);
+    settled();
     if (!triangles_) return;
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].crowd;
         Textures(program)
             .add("slots", slots_.texture)
             .add("counts", counts_.texture)
+            .add("normals", normals_.texture)
             .add("shapes", groups_[g].shapes.texture);
         program.set("firstSphere", first);
         program.set("partSpheres", part.count * contact_->groups[g].spheresOf);
@@ -301,36 +357,28 @@ void MoleculeContact::search(const std::vector<GroupBuffers>& state) {
     settled();
 }
 
-void MoleculeContact::runResponse(const Program& program, double stepTime, double restSpeed, size_t from) {
-    Textures textures(program);
-    textures.add("places", places_.texture)
-        .add("sorted", pairs_.texture)
-        .add("motions", motions_.texture)
-        .add("cells", cells_.texture)
-        .add("lists", lists_.texture)
-        .add("counts", counts_.texture)
-        .add("materials", materials_.texture);
-    const bool alone = &program == &nearest_;
-    if (!alone) {
-        textures.add("crowds", triangles_ ? crowds_.texture : counts_.texture);
-        textures.add("impulses", impulses_[from].texture);
-        if (triangles_) textures.add("velocities", velocities_.texture);
-        program.set("restPush", 1.0f);
-        store(program, "Pushed", 1, pushed_.buffer);
+void MoleculeContact::runStage(const Program& program, double stepTime, double restSpeed,
+                               const Totals& totals) {
+    Textures textures = bindResponse(program, stepTime, restSpeed);
+    textures.add("crowds", crowds_.texture)
+        .add("impulses", impulses_[totals.last].texture)
+        .add("earlier", impulses_[totals.earlier].texture);
+    program.set("momentum", totals.momentum);
+    program.set("restPush", 1.0f);
+    if (triangles_) textures.add("velocities", velocities_.texture);
+    if (walls_) {
+        textures.add("walls", nearWalls_.texture).add("wallFriction", wallFriction_.texture);
+        store(program, "WallPushed", 4, wallPushed_.buffer);
     }
-    program.set("count", contact_->spheres);
-    program.set("cell", float(contact_->cell));
-    program.set("groupCount", int(contact_->groups.size()));
-    program.set("listStride", int(padded_));
-    program.set("stepTime", float(stepTime));
-    program.set("restSpeed", float(restSpeed));
-    store(program, "NewImpulses", 0, impulses_[1 - from].buffer);
-    if (alone || &program == &settle_) store(program, "Shifts", 2, shifts_.buffer);
+    store(program, "NewImpulses", 0, impulses_[totals.next].buffer);
+    store(program, "Pushed", 1, pushed_.buffer);
+    if (&program == &keep_) textures.add("kept", shifts_.texture);
+    if (&program == &settle_) store(program, "Shifts", 2, shifts_.buffer);
     dispatchActive(program);
     settled();
 }
 
-void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Array& impulses) {
+void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Totals& totals) {
     if (!triangles_) return;
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].spread;
@@ -338,9 +386,11 @@ void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Array
             .add("slots", slots_.texture)
             .add("counts", counts_.texture)
             .add("motions", motions_.texture)
-            .add("impulses", impulses.texture)
+            .add("impulses", impulses_[totals.last].texture)
+            .add("earlier", impulses_[totals.earlier].texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
+        program.set("momentum", totals.momentum);
         program.set("firstSphere", first);
         program.set("partSpheres", part.count * contact_->groups[g].spheresOf);
         store(program, "Velocities", 0, velocities_.buffer);
@@ -373,41 +423,44 @@ void MoleculeContact::apply(const std::vector<GroupBuffers>& state, const Array&
     settled();
 }
 
-void MoleculeContact::respond(double stepTime, const Parameters& parameters,
-                              const std::vector<GroupBuffers>& state) {
+void MoleculeContact::respond(const Frame& frame, const std::vector<GroupBuffers>& state) {
+    const double stepTime = frame.parameters.frameTime;
     // what gravity adds in two steps is no bounce
-    const double restSpeed = 2 * glm::length(parameters.gravity) * stepTime;
+    const double restSpeed = 2 * glm::length(frame.parameters.gravity) * stepTime;
+    Totals totals;
     if (nearest_) {
-        runResponse(nearest_, stepTime, restSpeed, 0);
-        return apply(state, impulses_[1]);
+        runNearest(stepTime, restSpeed, totals);
+        return apply(state, impulses_[totals.next]);
     }
-    size_t current = 0;
+    runCrowd(stepTime, restSpeed, state);
     const auto run = [&](const Program& program) {
-        runResponse(program, stepTime, restSpeed, current);
-        current = 1 - current;
+        runStage(program, stepTime, restSpeed, totals);
+        totals = {totals.next, totals.last, totals.earlier};
     };
     run(begin_);
     for (int i = 0; i < contact_->settings.iterations; ++i) {
-        spread(state, impulses_[current]);
+        totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
+        spread(state, totals);
         run(relax_);
     }
-    spread(state, impulses_[current]);
+    spread(state, totals);
     run(settle_);
-    apply(state, impulses_[current]);
+    run(keep_);
+    apply(state, impulses_[totals.last]);
 }
 
-void MoleculeContact::step(double stepTime, const Parameters& parameters,
-                           const std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
+void MoleculeContact::step(const Frame& frame, const std::vector<GroupBuffers>& state,
+                           gpu::PassTimers& timers) {
     {
         const auto timer = timers.time("contact grid");
-        buildGrid(state);
+        buildGrid(frame, state);
     }
     {
         const auto timer = timers.time("contact search");
-        search(state);
+        search();
     }
     const auto timer = timers.time("contact response");
-    respond(stepTime, parameters, state);
+    respond(frame, state);
 }
 
 uint32_t MoleculeContact::dropped() const {
@@ -438,9 +491,11 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 
 size_t MoleculeContact::bytes() const {
     size_t out = 0;
-    for (const Array* array : {&pairs_, &staggered_, &starts_, &slots_, &lists_, &counts_, &crowds_, &pushed_,
-                               &shifts_, &velocities_, &apart_, &groupsOf_, &materials_, &impulses_[0],
-                               &impulses_[1], &spherePlaces_, &motions_, &cells_, &places_})
+    for (const Array* array :
+         {&pairs_,       &staggered_,    &starts_,   &slots_,      &lists_,       &counts_,
+          &crowds_,      &pushed_,       &shifts_,   &velocities_, &normals_,     &nearWalls_,
+          &wallPushed_,  &apart_,        &groupsOf_, &materials_,  &impulses_[0], &impulses_[1],
+          &impulses_[2], &spherePlaces_, &motions_,  &cells_,      &places_})
         out += array->buffer ? array->buffer.bytes() : 0;
     return out;
 }

@@ -23,21 +23,22 @@
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
-#include "simulate/parameters.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
 
 class MoleculeContact {
   public:
-    // Borrows the plan. Error: more spheres than the context can hold, with how many it can; out of memory.
+    // Borrows the plan and the tables. Error: more spheres than the context can hold, with how many it can;
+    // out of memory.
     MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                    gpu::ProgramCache* cache);
+                    const Tables& tables, gpu::ProgramCache* cache);
 
     // Spheres that touch are pushed apart and bounce, rub and rest, in the current side of the state.
-    // `stepTime`: s, since the last contact step.
-    void step(double stepTime, const Parameters& parameters, const std::vector<GroupBuffers>& state,
-              gpu::PassTimers& timers);
+    // `frame`: the substeps since the last contact step.
+    void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
     // Contacts that were left out, of all steps so far, because a sphere touched more than a list holds.
     uint32_t dropped() const;
@@ -55,6 +56,20 @@ class MoleculeContact {
         Array(gpu::Context& context, size_t texels, gpu::Texel texel, const char* label,
               const void* data = nullptr);
     };
+    // Binds samplers to one unit after another.
+    class Textures {
+      public:
+        explicit Textures(const gpu::Program& program) : program_(&program) { program.use(); }
+        template <typename Texture>
+        Textures& add(const char* name, const Texture& texture) {
+            program_->texture(name, unit_++, texture);
+            return *this;
+        }
+
+      private:
+        const gpu::Program* program_;
+        int unit_ = 0;
+    };
     struct GroupPrograms {
         gpu::Program spheres, staggeredKeys, crowd, spread, apply;
         Array shapes;
@@ -65,14 +80,23 @@ class MoleculeContact {
     void makeExclusions();
     void makeMaterials();
 
-    void buildGrid(const std::vector<GroupBuffers>& state);
-    void makeKeys(bool staggered, const std::vector<GroupBuffers>& state);
+    void buildGrid(const Frame& frame, const std::vector<GroupBuffers>& state);
+    void makeKeys(bool staggered, const Frame& frame, const std::vector<GroupBuffers>& state);
+    void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
     void order();
-    void search(const std::vector<GroupBuffers>& state);
+    void search();
     void find(const gpu::Program& program);
-    void respond(double stepTime, const Parameters& parameters, const std::vector<GroupBuffers>& state);
-    void runResponse(const gpu::Program& program, double stepTime, double restSpeed, size_t from);
-    void spread(const std::vector<GroupBuffers>& state, const Array& impulses);
+    void respond(const Frame& frame, const std::vector<GroupBuffers>& state);
+    // An iteration reads the totals of the two before it, which lie in these.
+    struct Totals {
+        size_t last = 0, earlier = 1, next = 2;
+        float momentum = 0;  // by how much it goes on beyond the last
+    };
+    Textures bindResponse(const gpu::Program& program, double stepTime, double restSpeed) const;
+    void runNearest(double stepTime, double restSpeed, const Totals& totals);
+    void runCrowd(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state);
+    void runStage(const gpu::Program& program, double stepTime, double restSpeed, const Totals& totals);
+    void spread(const std::vector<GroupBuffers>& state, const Totals& totals);
     void apply(const std::vector<GroupBuffers>& state, const Array& impulses);
     template <typename Run>
     void forParts(const std::vector<GroupBuffers>& state, const Run& run);
@@ -82,16 +106,19 @@ class MoleculeContact {
     gpu::Context* context_;
     const Plan* plan_;
     const ContactPlan* contact_;
+    const Tables* tables_;
     size_t padded_;  // spheres, to whole workgroups
-    bool triangles_ = false, self_ = false;
+    bool triangles_ = false, self_ = false, walls_ = false;
     std::vector<GroupPrograms> groups_;
-    gpu::Program order_, find_, findStaggered_, begin_, relax_, settle_, nearest_;
+    gpu::Program order_, find_, findStaggered_, crowd_, begin_, relax_, settle_, keep_, nearest_;
     RadixSort sort_;
-    Array pairs_, staggered_, starts_, slots_, lists_, counts_, crowds_, pushed_, shifts_, velocities_;
+    Array pairs_, staggered_, starts_, slots_, lists_, counts_, crowds_, pushed_, shifts_, normals_,
+        velocities_;
     Array apart_, groupsOf_, materials_;
-    std::array<Array, 2> impulses_;
+    std::array<Array, 3> impulses_;
     Array spherePlaces_, motions_, cells_, places_;
-    gpu::Buffer active_;  // shaders/contact/active.glsl
+    Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
+    gpu::Buffer active_;                           // shaders/contact/active.glsl
 };
 
 }  // namespace shoal

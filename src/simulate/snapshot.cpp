@@ -29,7 +29,8 @@ SavedState Simulation::save() const {
 std::optional<SavedState> Simulation::saveBefore() const {
     const auto* fused = std::get_if<Fused>(&path_);
     if (!fused || !before_) return std::nullopt;
-    if (fused->contact() && plan_.contact.steps > 1) return std::nullopt;  // the side of a step within the frame
+    if (fused->contact() && plan_.contact.steps > 1)
+        return std::nullopt;  // the side of a step within the frame
     SavedState out{before_->time, before_->frames, {}, before_->step};
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
         if (fused->state[g].inPlace()) return std::nullopt;
