@@ -86,9 +86,21 @@ Verdict checkScene(const std::string& file) {
     out.facts.add("name", JsonValue::makeString(scene.name))
         .add("groups", JsonValue::makeNumber(double(plan.groups.size())))
         .add("molecules", JsonValue::makeNumber(molecules));
+    JsonValue gaps = JsonValue::makeObject();
+    std::string gapText;
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        const Group& source = scene.groups[group.index];
+        const ContactGap gap = largestGap(source.molecule, *source.contact);
+        gaps.add(group.name, JsonValue::makeNumber(gap.radius));
+        gapText += concat("\n  contact of \"", group.name, "\": spheres of ", contact.radius, " m, ");
+        gapText +=
+            gap.triangle < 0 ? "no gap" : concat("largest gap ", gap.radius, " m in triangle ", gap.triangle);
+    }
+    if (plan.contact.any()) out.facts.add("contactGaps", std::move(gaps));
     out.summary = concat("scene \"", scene.name, "\": ", many(plan.groups.size(), "group"), ", ",
                          many(size_t(molecules), "molecule"), ", ", many(scene.fields.size(), "field"), ", ",
-                         many(scene.colliders.size(), "collider"));
+                         many(scene.colliders.size(), "collider"), gapText);
     return out;
 }
 

@@ -62,6 +62,9 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
         .add("hash", JsonValue::makeString(hashText));
     if (!times.empty()) out.add("passes", asJson(times));
     out.add("written", std::move(written));
+    if (simulation.contact())
+        out.add("contactBytes", JsonValue::makeNumber(double(simulation.contact()->bytes())))
+            .add("contactsDropped", JsonValue::makeNumber(simulation.contact()->dropped()));
     return out;
 }
 

@@ -143,6 +143,7 @@ class HeadlessRun {
     void tell() {
         uint64_t hash = 0;
         outside([&] { hash = simulation_.hash(); });
+        tellDropped();
         if (options_.json) {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
@@ -157,6 +158,14 @@ class HeadlessRun {
     }
 
   private:
+    void tellDropped() {
+        const uint32_t dropped = simulation_.contact() ? simulation_.contact()->dropped() : 0;
+        if (dropped == 0) return;
+        std::cerr << "shoal: warning: " << dropped
+                  << " contacts were left out, because a sphere touched more than "
+                  << simulation_.plan().contact.listLength
+                  << " others: a smaller radius, or molecules that start further apart, touch fewer\n";
+    }
     std::vector<gpu::PassTime> passTimes() {
         std::vector<gpu::PassTime> out = simulation_.timers().report();
         if (!renderer_) return out;

@@ -170,7 +170,8 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
 ContactGap largestGap(const Molecule& molecule, const GroupContact& contact) {
     const std::vector<glm::dvec3> spheres = restSpheres(molecule, contact.triangles);
     ContactGap out;
-    constexpr int cuts = 64;
+    // a shape with many spheres has small triangles
+    const int cuts = spheres.size() > 200 ? 8 : 32;
     for (size_t t = 0; t < molecule.triangles.size(); ++t) {
         const Triangle& triangle = molecule.triangles[t];
         const glm::dvec3 &a = spheres[size_t(triangle.a)], &b = spheres[size_t(triangle.b)],

@@ -44,7 +44,7 @@ static std::string kernelParts(const GroupPlan& group) {
     with(needs.drag && !needs.directionalDrag, "drag");
     with(needs.directionalDrag, "drag by direction");
     with(needs.fields, "fields");
-    with(needs.collide, "contact");
+    with(needs.collide, "colliders");
     with(needs.normals, "normals where drawn");
     with(true, "watched");
     return parts;
@@ -65,6 +65,16 @@ static std::string leftOut(const GroupPlan& group, bool fused) {
     return absent;
 }
 
+static void tellContact(std::ostringstream& out, const Plan& plan) {
+    const ContactPlan& contact = plan.contact;
+    if (!contact.any()) return;
+    out << "contact  " << contact.spheres << " spheres, found by the " << name(contact.settings.search)
+        << " search in cells of " << contact.cell << " m, " << contact.steps
+        << (contact.steps == 1 ? " time" : " times") << " a frame, in " << contact.settings.iterations
+        << " iterations\n         up to " << contact.safeSpeed(1 / plan.frameRate)
+        << " m/s relative to one another none passes through another between two contact steps\n";
+}
+
 std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
@@ -75,6 +85,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         out << "fields   " << name(plan.fieldSampling) << "\n";
     out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true, inPlace)) << ", tables "
         << mebibytes(plan.tableBytes()) << "\n";
+    tellContact(out, plan);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         out << "\ngroup \"" << group.name << "\": " << group.count << " molecules of " << group.vertexCount
@@ -136,6 +147,16 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
         .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true, inPlace))))
         .add("tableBytes", JsonValue::makeNumber(double(plan.tableBytes())))
         .add("groups", std::move(groups));
+    if (!plan.contact.any()) return out;
+    JsonValue contact = JsonValue::makeObject();
+    contact.add("spheres", JsonValue::makeNumber(plan.contact.spheres))
+        .add("cell", JsonValue::makeNumber(plan.contact.cell))
+        .add("steps", JsonValue::makeNumber(plan.contact.steps))
+        .add("search", JsonValue::makeString(name(plan.contact.settings.search)))
+        .add("response", JsonValue::makeString(name(plan.contact.settings.response)))
+        .add("iterations", JsonValue::makeNumber(plan.contact.settings.iterations))
+        .add("safeSpeed", JsonValue::makeNumber(plan.contact.safeSpeed(1 / plan.frameRate)));
+    out.add("contact", std::move(contact));
     return out;
 }
 

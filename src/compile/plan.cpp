@@ -143,6 +143,22 @@ void checkTurn(const Scene& scene, const Collider& collider) {
                        std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
 }
 
+// What the spheres of a molecule leave open of its surface, where a like sphere passes.
+void warnOfGaps(const Scene& scene, Plan& plan) {
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        const GroupContact& asked = *scene.groups[group.index].contact;
+        const ContactGap gap = largestGap(scene.groups[group.index].molecule, asked);
+        if (gap.radius <= asked.radius) continue;
+        plan.warnings.push_back(
+            {asked.location,
+             concat("the spheres of \"", group.name, "\" leave a gap in triangle ", gap.triangle,
+                    " through which a sphere of radius ", gap.radius, " m passes, larger than their own: ",
+                    asked.triangles ? "a larger radius closes it"
+                                    : "\"triangles\": true or a larger radius closes it")});
+    }
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -196,6 +212,7 @@ Plan compile(const Scene& scene) {
     }
     plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
+    warnOfGaps(scene, plan);
 
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),

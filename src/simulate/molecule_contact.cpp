@@ -216,8 +216,8 @@ void MoleculeContact::forParts(const std::vector<GroupBuffers>& state, const Run
 }
 
 void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
-    program.set("colliderParameters",
-                std::span<const glm::vec4>(plan_->groups[group.group].colliderParameters));
+    const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
+    program.set("colliderParameters", std::span<const glm::vec4>(parameters));
     program.set("wallTime", float(frame.parameters.frameTime));
     program.set("wallStep", float(frame.parameters.frameTime));
     program.set("wallNudge", float(0.05 * group.radius));

@@ -296,4 +296,132 @@ TEST_CASE("contact keeps momentum and never adds energy, and a repeat gives the 
     }
 }
 
+namespace {
+
+// A marble of 1 kg that flies up at the middle of a triangle of a quad at rest.
+Scene marbleAtQuad(bool triangles) {
+    Scene scene = test::sceneOf(test::shippedMolecule("quad"), SolverKind::leapfrog, {test::at({0, 1, 0})});
+    scene.groups[0].contact.emplace().radius = 0.03;
+    scene.groups[0].contact->triangles = triangles;
+    const Triangle& t = scene.groups[0].molecule.triangles[0];
+    dvec3 middle(0);
+    for (const int corner : {t.a, t.b, t.c})
+        middle += scene.groups[0].molecule.vertices[size_t(corner)].position / 3.0;
+    Scene marble = marbles({middle + dvec3(0, 0.8, 0)}, 0.02, 0.002);
+    scene.groups.push_back(marble.groups[0]);
+    scene.groups[1].name = "marble";
+    scene.groups[1].velocity = {0, 1.5, 0};
+    test::setSteps(scene, 1 / 60.0, 8);
+    return scene;
+}
+
+double momentumAlongY(const Simulation& simulation) {
+    double sum = 0;
+    for (size_t g = 0; g < 2; ++g) {
+        const Snapshot snapshot = simulation.snapshot(g);
+        for (size_t v = 0; v < snapshot.velocities.size(); ++v)
+            sum += snapshot.velocities[v].y / double(simulation.plan().contact.groups[g].shapes[v].x);
+    }
+    return sum;
+}
+
+}  // namespace
+
+TEST_CASE("a sphere on a triangle stops what its corners let through", "[molecule contact]") {
+    for (const bool triangles : {false, true}) {
+        Simulation simulation = test::simulationOf(marbleAtQuad(triangles));
+        const double before = momentumAlongY(simulation);
+        test::run(simulation, 20);
+        const Snapshot marble = simulation.snapshot(1);
+        CAPTURE(triangles);
+        CHECK((marble.velocities[0].y < 0.8) == triangles);
+        CHECK(std::abs(momentumAlongY(simulation) - before) < 1e-5 * before);
+    }
+}
+
+TEST_CASE("spheres of one molecule meet only where it says so", "[molecule contact]") {
+    Molecule molecule = test::pair(1, 1, 0, 0);
+    molecule.springs.clear();
+    for (const bool self : {false, true}) {
+        Scene scene =
+            test::sceneOf(molecule, SolverKind::leapfrog, {test::at({0, 0, 0}), test::at({0, 3, 0})});
+        scene.groups[0].contact.emplace().radius = 0.1;
+        scene.groups[0].contact->self = self;
+        test::setSteps(scene, 0.01, 1);
+        Simulation simulation =
+            startedWith(scene, {{1, 0, 0}, {-1, 0, 0}, {1, 0, 0}, {-1, 0, 0}}, vec2(1, 0));
+        test::run(simulation, 60);
+        for (const size_t first : {size_t(0), size_t(2)})
+            CHECK(std::abs(simulation.snapshot(0).velocities[first].x - (self ? -1 : 1)) < 1e-5);
+    }
+    // in their rest shape these touch already, and so they never meet
+    Scene close = test::sceneOf(molecule, SolverKind::leapfrog);
+    close.groups[0].contact.emplace().radius = 0.6;
+    close.groups[0].contact->self = true;
+    test::setSteps(close, 0.01, 1);
+    Simulation simulation = startedWith(close, {{1, 0, 0}, {-1, 0, 0}}, vec2(1, 0));
+    test::run(simulation, 60);
+    CHECK(simulation.snapshot(0).velocities[0].x == 1);
+}
+
+TEST_CASE("UberFlow's response loses momentum where three meet, and only there", "[molecule contact]") {
+    const auto lost = [](std::vector<dvec3> places, std::vector<dvec3> velocities, ContactResponse response) {
+        Scene scene = marbles(places, 0.05);
+        scene.contact.response = response;
+        Simulation simulation = startedWith(scene, velocities, vec2(1, 0));
+        test::run(simulation, 30);
+        dvec3 sum(0);
+        for (const dvec3& v : simulation.snapshot(0).velocities)
+            sum += v;
+        for (const dvec3& v : velocities)
+            sum -= v;
+        return glm::length(sum);
+    };
+    const std::vector<dvec3> places = {{0, 0, 0}, {0.2, 0, 0}, {-0.201, 0.01, 0}};
+    const std::vector<dvec3> velocities = {{0, 0, 0}, {-1, 0, 0}, {1, 0, 0}};
+    CHECK(lost(places, velocities, ContactResponse::nearest) > 0.1);
+    CHECK(lost(places, velocities, ContactResponse::simultaneous) < 1e-5);
+    CHECK(lost({places[0], places[1]}, {velocities[0], velocities[1]}, ContactResponse::nearest) < 1e-5);
+}
+
+TEST_CASE("UberFlow's searches find some of the contacts and nothing else", "[molecule contact]") {
+    Scene scene = strewn(600, dvec3(1.5), 0.04);
+    size_t found[3] = {};
+    for (const ContactSearch search :
+         {ContactSearch::single, ContactSearch::staggered, ContactSearch::exact}) {
+        scene.contact.search = search;
+        Simulation simulation = test::simulationOf(scene);
+        simulation.frame();
+        const Pairs pairs = simulation.contact()->found();
+        found[size_t(search)] = pairs.size();
+        const std::vector<reference::Sphere> spheres = spheresOf(compile(scene));
+        for (const auto& pair : missing(reference::touching(spheres), pairs))
+            CHECK(isClose(spheres, pair));
+    }
+    const size_t exact = found[size_t(ContactSearch::exact)];
+    CHECK(found[size_t(ContactSearch::single)] > exact / 4);
+    CHECK(found[size_t(ContactSearch::staggered)] > found[size_t(ContactSearch::single)]);
+    CHECK(found[size_t(ContactSearch::staggered)] <= exact);
+}
+
+TEST_CASE("a run with contact goes on from a saved state bit for bit", "[molecule contact]") {
+    for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::bdf2Xpbd}) {
+        Scene scene = strewn(200, dvec3(0.9), 0.03);
+        scene.solver.kind = solver;
+        scene.gravity = {0, -9.81, 0};
+        scene.colliders.emplace_back();
+        scene.colliders.back().shape = PlaneCollider{};
+        scene.contact.steps = 3;
+        test::setSteps(scene, 1 / 60.0, 8);
+        Simulation whole = test::simulationOf(scene, true), first = test::simulationOf(scene),
+                   second = test::simulationOf(scene);
+        test::run(whole, 12);
+        test::run(first, 7);
+        second.load(first.save());
+        test::run(second, 5);
+        CHECK(second.hash() == whole.hash());
+        CHECK(whole.contact()->found().size() > 50);
+    }
+}
+
 }  // namespace shoal

@@ -19,10 +19,12 @@ namespace {
 
 // clang-format off: field.glsl includes noise.glsl itself
 #include "physics/anchor.glsl"
+#include "physics/cells.glsl"
 #include "physics/collide.glsl"
 #include "physics/drag.glsl"
 #include "physics/field.glsl"
 #include "physics/normal.glsl"
+#include "physics/pair.glsl"
 #include "physics/random.glsl"
 #include "physics/relaxation.glsl"
 #define FASTEST_SQUARED 1e8

@@ -1,0 +1,222 @@
+// Contact of molecules with one another. On the ping-pong path nothing of this runs that needs the fused one.
+#include <algorithm>
+#include <cmath>
+
+#include "hard/outcome.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using test::at;
+using test::Judge;
+using test::setSteps;
+
+namespace {
+
+constexpr double g = 9.81;
+
+Group marbles(const std::vector<glm::dvec3>& places, double radius, double mass, const glm::dvec3& velocity,
+              double restitution) {
+    std::vector<test::Item> items;
+    for (const glm::dvec3& place : places)
+        items.push_back(at(place));
+    Group out = test::sceneOf(test::point(mass), SolverKind::leapfrog, items).groups[0];
+    out.velocity = velocity;
+    out.restitution = restitution;
+    out.friction = 0;
+    out.contact.emplace().radius = radius;
+    return out;
+}
+
+Scene sceneOf(const Solver& solver, std::vector<Group> groups) {
+    Scene scene;
+    scene.name = "marbles";
+    scene.solver.kind = solver.kind;
+    scene.groups = std::move(groups);
+    for (size_t i = 0; i < scene.groups.size(); ++i)
+        scene.groups[i].name = concat("marbles ", i);
+    return scene;
+}
+
+// One marble at rest of mass 2, one of mass 1 that flies at it with 3 m/s, `aside` of the middle, from 16
+// distances, so that they meet in 16 phases of a step.
+void meet(const Solver& solver, Judge& judge, double aside, double restitution) {
+    constexpr double radius = 0.05, speed = 3, m = 1, n = 2;
+    const double h = 1 / 240.0;
+    std::vector<glm::dvec3> resting, flying;
+    for (int phase = 0; phase < 16; ++phase) {
+        resting.emplace_back(0, phase, 0);
+        flying.emplace_back(-0.3 - phase / 16.0 * speed * h, phase + aside, 0);
+    }
+    Scene scene = sceneOf(solver, {marbles(resting, radius, n, {0, 0, 0}, restitution),
+                                   marbles(flying, radius, m, {speed, 0, 0}, restitution)});
+    setSteps(scene, h, 1);
+    Simulation simulation = test::hardSimulation(scene);
+    test::runChecked(simulation, 60);
+    const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
+    const double sine = aside / (2 * radius), cosine = std::sqrt(1 - sine * sine);
+    const glm::dvec3 normal{-cosine, sine, 0};  // from the one at rest to the other
+    const glm::dvec3 impulse = normal * ((1 + restitution) * speed * cosine * m * n / (m + n));
+    for (size_t phase = 0; phase < 16; ++phase) {
+        const double meets = (-flying[phase].x - 2 * radius * cosine) / speed, after = 60 * h - meets;
+        const glm::dvec3 v = glm::dvec3(speed, 0, 0) + impulse / m, w = -impulse / n;
+        const glm::dvec3 x = flying[phase] + glm::dvec3(speed, 0, 0) * meets + v * after;
+        judge.atMost("velocity / speed", glm::distance(b.velocities[phase], v) / speed, 2e-5);
+        judge.atMost("velocity / speed", glm::distance(a.velocities[phase], w) / speed, 2e-5);
+        judge.atMost("way m", glm::distance(b.positions[phase], x), 5e-5);
+        judge.atMost("way m", glm::distance(a.positions[phase], resting[phase] + w * after), 5e-5);
+    }
+}
+
+Collider wall(const glm::dvec3& point, const glm::dvec3& normal, double thickness) {
+    PlaneCollider plane;
+    plane.point = point;
+    plane.normal = normal;
+    Collider out;
+    out.shape = plane;
+    out.thickness = thickness;
+    return out;
+}
+
+// Furthest that a vertex has moved between two states of a group.
+double moved(const Snapshot& a, const Snapshot& b) {
+    double out = 0;
+    for (size_t i = 0; i < a.positions.size(); ++i)
+        out = std::max(out, glm::distance(a.positions[i], b.positions[i]));
+    return out;
+}
+
+double deepest(const Simulation& simulation, const Snapshot& now, double radius) {
+    double out = 0;
+    for (const auto& [a, b] : simulation.contact()->found())
+        out = std::max(out, 2 * radius - glm::distance(now.positions[size_t(a)], now.positions[size_t(b)]));
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("hard: two marbles meet", "[hard][molecule contact][fused]") {
+    for (const double e : {0.0, 0.5, 1.0}) {
+        test::holds(concat("head-on pair, restitution ", e),
+                    [&](const Solver& solver, Judge& judge) { meet(solver, judge, 0, e); });
+        test::holds(concat("glancing pair, restitution ", e),
+                    [&](const Solver& solver, Judge& judge) { meet(solver, judge, 0.09, e); });
+    }
+}
+
+// 48 tetrahedra poured into a square well come to rest, and stay where they are for another second.
+TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
+    test::holds("a pile of tetrahedra comes to rest and stays", [](const Solver& solver, Judge& judge) {
+        constexpr double radius = 0.14, well = 1.1;
+        Scene scene = test::sceneOf(test::tetrahedron(2e3, 20), solver.kind);
+        Group& group = scene.groups[0];
+        group.count = 48;
+        group.place.kind = Placement::Kind::grid;
+        group.place.items.clear();
+        group.place.origin = {-0.35, 0.2, -0.35};
+        group.place.spacing = {0.7, 0.55, 0.7};
+        group.place.cells = {2, 12, 2};
+        group.place.turn = Placement::Turn::any;
+        group.drag = {0.5, 0.5};
+        group.contact.emplace().radius = radius;
+        scene.gravity = {0, -g, 0};
+        scene.colliders = {wall({0, 0, 0}, {0, 1, 0}, radius)};
+        for (const glm::dvec3& side : {glm::dvec3(1, 0, 0), glm::dvec3(0, 0, 1)}) {
+            scene.colliders.push_back(wall(-well * side, side, radius));
+            scene.colliders.push_back(wall(well * side, -side, radius));
+        }
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::hardSimulation(scene);
+        test::runChecked(simulation, 240);
+        const Snapshot rested = simulation.snapshot(0);
+        test::runChecked(simulation, 60);
+        const Snapshot later = simulation.snapshot(0);
+        judge.finite(later);
+        judge.atMost("moved / radius", moved(rested, later) / radius, 0.2);
+        judge.atMost("deepest / radius", deepest(simulation, later, radius) / radius, 0.5);
+        judge.atMost("dropped", simulation.contact()->dropped(), 0);
+    });
+}
+
+// Two molecules that start inside one another part, slower than a fall of a metre.
+TEST_CASE("hard: a molecule inside another", "[hard][molecule contact][fused]") {
+    test::holds("a molecule starts inside another", [](const Solver& solver, Judge& judge) {
+        constexpr double radius = 0.1;
+        Scene scene = test::sceneOf(test::tetrahedron(500, 5), solver.kind,
+                                    {at({0, 0, 0}), at({0.05, 0.02, 0.01}), at({3, 0, 0}), at({3, 0, 0})});
+        scene.groups[0].contact.emplace().radius = radius;
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::hardSimulation(scene);
+        double fastest = 0;
+        for (int i = 0; i < 120; ++i) {
+            test::runChecked(simulation, 1);
+            for (const glm::dvec3& v : simulation.snapshot(0).velocities)
+                fastest = std::max(fastest, glm::length(v));
+        }
+        const Snapshot now = simulation.snapshot(0);
+        judge.finite(now);
+        judge.atMost("fastest m/s", fastest, 4.4);
+        judge.atMost("deepest / radius", deepest(simulation, now, radius) / radius, 0.05);
+    });
+}
+
+// A cube of marbles, each of which touches six: momentum and energy, and the same bits again.
+TEST_CASE("hard: a million contacts", "[hard][molecule contact][fused][million]") {
+    test::holds("a million contacts", [](const Solver& solver, Judge& judge) {
+        constexpr int side = 70;
+        constexpr double radius = 0.05;
+        Scene scene = test::sceneOf(test::point(1), solver.kind);
+        Group& group = scene.groups[0];
+        group.count = side * side * side;
+        group.place.kind = Placement::Kind::grid;
+        group.place.items.clear();
+        group.place.spacing = glm::dvec3(1.9 * radius);
+        group.place.cells = glm::ivec3(side);
+        group.place.turn = Placement::Turn::none;
+        group.contact.emplace().radius = radius;
+        setSteps(scene, 1 / 240.0, 1);
+        uint64_t hash = 0;
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            Simulation simulation = test::hardSimulation(scene);
+            test::startFrom(simulation, [&](GroupState& state) {
+                for (size_t i = 0; i < state.velocities.size(); ++i)
+                    state.velocities[i] =
+                        glm::vec3(float(i % 7) - 3, float(i % 11) - 5, float(i % 13) - 6) * 0.2f;
+            });
+            glm::dvec3 before(0), after(0);
+            double scale = 0;
+            for (const glm::dvec3& v : simulation.snapshot(0).velocities) {
+                before += v;
+                scale += glm::length(v);
+            }
+            test::runChecked(simulation, 1);
+            if (repeat == 0) {
+                judge.atMost("contacts missing",
+                             3.0 * side * side * (side - 1) - double(simulation.contact()->found().size()),
+                             0);
+                judge.report("contacts", double(simulation.contact()->found().size()));
+                judge.atMost("dropped", simulation.contact()->dropped(), 0);
+            }
+            for (const glm::dvec3& v : simulation.snapshot(0).velocities)
+                after += v;
+            judge.atMost("momentum", glm::length(after - before) / scale, 1e-5);
+            judge.atMost("differs", repeat > 0 && simulation.hash() != hash ? 1 : 0, 0);
+            hash = simulation.hash();
+        }
+    });
+}
+
+// A sphere without extent is no sphere; the smallest is one.
+TEST_CASE("hard: the smallest radius", "[hard][molecule contact][fused]") {
+    test::holds("contact of radius 1e-9 m", [](const Solver& solver, Judge& judge) {
+        Scene scene = sceneOf(solver, {marbles({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}}, 1e-9, 1, {1, 0, 0}, 0.5)});
+        setSteps(scene, 1 / 60.0, 1);
+        Simulation simulation = test::hardSimulation(scene);
+        test::runChecked(simulation, 10);
+        const Snapshot now = simulation.snapshot(0);
+        judge.finite(now);
+        judge.near("m", now.positions[2].x, 1 + 10 / 60.0, 1e-5);
+    });
+}
+
+}  // namespace shoal

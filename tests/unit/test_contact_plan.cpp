@@ -1,0 +1,158 @@
+// How a scene's contact between molecules becomes a plan, and the pure functions of its shaders.
+#include <cmath>
+#include <random>
+
+#include "compile/plan.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/scratch.h"
+#include "support/shader_physics.h"
+#include "support/shapes.h"
+#include "support/small_scene.h"
+
+#include "scene/scene_file.h"
+
+namespace shoal {
+
+using glm::dvec3;
+using glm::vec3;
+
+namespace {
+
+Scene leavesOf(double radius) {
+    Scene scene;
+    Group group;
+    group.name = "leaves";
+    group.molecule = test::leaf(10, 0.1);
+    group.count = 3;
+    group.place.kind = Placement::Kind::volume;
+    group.place.scale = {1, 2};
+    group.contact.emplace().radius = radius;
+    scene.groups.push_back(group);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("contact's cells hold two of the largest spheres side by side", "[contact plan]") {
+    for (const double radius : {1e-6, 0.013, 0.05, 7.7}) {
+        const ContactPlan plan = compile(leavesOf(radius)).contact;
+        CHECK(plan.spheres == 12);
+        CHECK(plan.largestRadius > radius);
+        CHECK(plan.largestRadius <= 2 * radius * (1 + 1e-6));
+        CHECK(plan.cell >= 4 * plan.largestRadius);
+        CHECK(plan.cell <= 4 * plan.largestRadius * 1.07);
+        int exponent = 0;
+        const double mantissa = std::frexp(plan.cell, &exponent) * 32;
+        CHECK(mantissa == std::floor(mantissa));
+    }
+}
+
+TEST_CASE("spheres on triangles follow those of the vertices", "[contact plan]") {
+    Scene scene = leavesOf(0.1);
+    scene.groups[0].contact->triangles = true;
+    scene.groups[0].contact->self = true;
+    const ContactGroup group = compile(scene).contact.groups.at(0);
+    CHECK(group.spheresOf == 6);
+    REQUIRE(group.corners.size() == 2);
+    CHECK(group.corners[1] == glm::ivec3(0, 2, 3));
+    // vertex 0 is a corner of both
+    CHECK(group.shapes[0].w == 2);
+    CHECK(group.shapes[size_t(group.shapes[0].z)].x == 4);
+    CHECK(group.shapes[size_t(group.shapes[0].z) + 1].x == 5);
+    // everything is further apart than two radii, but from itself
+    for (size_t k = 0; k < 6; ++k)
+        CHECK(group.apart[k] == 1u << k);
+}
+
+TEST_CASE("the largest gap of a triangle is that of its circumcircle", "[contact plan]") {
+    Molecule molecule;
+    molecule.name = "triangle";
+    for (const dvec3& p : {dvec3(0, 0, 0), dvec3(1, 0, 0), dvec3(0.5, 0, std::sqrt(0.75))})
+        molecule.vertices.push_back({.position = p});
+    molecule.triangles = {{0, 2, 1}};
+    GroupContact contact;
+    contact.radius = 0.2;
+    CHECK(std::abs(largestGap(molecule, contact).radius - (1 / std::sqrt(3.0) - 0.2)) < 0.02);
+    contact.triangles = true;  // then it is the middle between two corners and the middle
+    CHECK(std::abs(largestGap(molecule, contact).radius - (1 / 3.0 - 0.2)) < 0.02);
+    contact.radius = 0.6;
+    CHECK(largestGap(molecule, contact).triangle == -1);
+}
+
+TEST_CASE("contact's mistakes are told", "[contact plan]") {
+    Scene scene = leavesOf(0.1);
+    scene.contact.cell = 0.5;
+    CHECK(test::messageOf([&] { compile(scene); }).find("do not hold spheres of radius") !=
+          std::string::npos);
+    const test::Scratch scratch;
+    const auto complaint = [&](const std::string& contact, const std::string& settings = "") {
+        std::string text = test::smallScene;
+        const std::string after = "\"collide\": false";
+        text.insert(text.find(after) + after.size(), ", \"contact\": " + contact);
+        if (!settings.empty()) text.insert(1, "\"contact\": " + settings + ",");
+        return test::messageOf([&] { readScene(test::writeSmallScene(scratch, text)); });
+    };
+    CHECK(complaint("{}").find("radius") != std::string::npos);
+    CHECK(complaint("{\"radius\": 0}").find("at least 1e-09") != std::string::npos);
+    CHECK(complaint("{\"radius\": 0.1, \"neighbors\": 3}").find("neighbors") != std::string::npos);
+    CHECK(complaint("{\"radius\": 0.1}", "{\"neighbors\": 3}").find("exact search finds all") !=
+          std::string::npos);
+    CHECK(complaint("{\"radius\": 0.1}", "{\"search\": \"exakt\"}").find("exact") != std::string::npos);
+    CHECK(complaint("{\"radius\": 0.1}", "{\"search\": \"single\", \"neighbors\": 3}").empty());
+}
+
+TEST_CASE("places in the grid tell differences exactly, wherever they are", "[contact plan]") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> anchorAt(-1e5, 1e5), at(-1, 1), off(-0.09, 0.09);
+    const float cell = 0.1015625f;  // 13 / 128
+    double worst = 0;
+    for (int i = 0; i < 5000; ++i) {
+        const auto anchor = [&] {
+            return vec3(glm::floor(dvec3(anchorAt(random), anchorAt(random), anchorAt(random)) * 16.0) /
+                        16.0);
+        };
+        const vec3 a = anchor(), shift = vec3(float(i % 3) - 1, 0.0625f * float(i % 5), 0);
+        const vec3 x(at(random), at(random), at(random));
+        const vec3 y = x - shift + vec3(off(random), off(random), off(random));
+        const shader::CellPlace p = shader::cellPlace(a, x, cell), q = shader::cellPlace(a + shift, y, cell);
+        const dvec3 exact = (dvec3(a) - dvec3(a + shift)) + (dvec3(x) - dvec3(y));
+        worst = std::max(worst, glm::length(dvec3(shader::localDifference(p.local, q.local, cell)) - exact));
+        const dvec3 cells = glm::floor((dvec3(a) + dvec3(x)) / double(cell) + 1e-4);
+        CHECK(glm::length(dvec3(p.cell) - cells) < 2);
+        CHECK(glm::all(glm::lessThanEqual(glm::abs(p.cell - q.cell), glm::ivec3(1))));
+    }
+    CHECK(worst < 3e-7);
+}
+
+TEST_CASE("two spheres that have just met are taken back to their first touch", "[contact plan]") {
+    // a moves at 2 m/s along x past b, 0.06 m aside; they touch where the distance is 0.1 m
+    const vec3 u(2, 0, 0);
+    const float touchX = -0.08f, time = 0.004f;
+    const shader::PairContact c =
+        shader::pairContact(vec3(touchX + 2 * time, 0.06f, 0), u, 0.1f, 0.005f, 0.01f, 1);
+    CHECK(c.impact);
+    CHECK(std::abs(c.since - time) < 1e-6f);
+    CHECK(glm::distance(c.normal, vec3(-0.8f, 0.6f, 0)) < 1e-5f);
+    CHECK(std::abs(c.speed + 1.6f) < 1e-5f);
+    const shader::PairContact old =
+        shader::pairContact(vec3(touchX + 2 * time, 0.06f, 0), u, 0.1f, 0.003f, 0.01f, 1);
+    CHECK_FALSE(old.impact);
+    CHECK(old.since == 0);
+    const shader::PairContact same = shader::pairContact(vec3(0), vec3(0), 0.1f, 0.01f, 0, -1);
+    CHECK(same.normal == vec3(0, -1, 0));
+    CHECK(std::abs(same.depth - 0.1f) < 1e-7f);
+}
+
+TEST_CASE("a sum of normals knows its largest eigenvalue, or more", "[contact plan]") {
+    shader::NormalSum sum{vec3(0), vec3(0)};
+    for (int i = 0; i < 5; ++i)
+        sum = shader::withNormal(sum, vec3(0.6f, 0, 0.8f));
+    CHECK(std::abs(shader::largestEigenvalue(sum) - 5) < 1e-5f);
+    sum = {vec3(0), vec3(0)};
+    for (const vec3& n : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})
+        sum = shader::withNormal(sum, n);
+    CHECK(shader::largestEigenvalue(sum) == 2);
+}
+
+}  // namespace shoal
