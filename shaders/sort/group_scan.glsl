@@ -1,4 +1,6 @@
 // Sums over a workgroup of LANES lanes in shared memory (Hillis and Steele, CACM 29, 1986).
+#include "sort/wait.glsl"
+
 shared uint scanned[LANES];
 
 // The sum of the values of the lanes before this one; `total` of all. Every lane must call it.
@@ -6,15 +8,15 @@ uint sumBefore(uint value, out uint total)
 {
     int lane = int(gl_LocalInvocationID.x);
     scanned[lane] = value;
-    barrier();
+    waitForGroup();
     for (int reach = 1; reach < LANES; reach *= 2) {
         uint other = lane >= reach ? scanned[lane - reach] : 0u;
-        barrier();
+        waitForGroup();
         scanned[lane] += other;
-        barrier();
+        waitForGroup();
     }
     total = scanned[LANES - 1];
     uint before = scanned[lane] - value;
-    barrier();  // before the next call writes
+    waitForGroup();  // before the next call writes
     return before;
 }

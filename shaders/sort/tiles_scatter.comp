@@ -48,15 +48,15 @@ void sortTile(int lane, int nibble)
         before[k] = (counters[word] >> low) & 0xffffu;
         counters[word] += 1u << low;
     }
-    barrier();
+    waitForGroup();
     sumCounters(lane);
-    barrier();
+    waitForGroup();
     for (int k = 0; k < PER_LANE; ++k) {
         uint d = (digitOf(own[k].x) >> nibble) & 15u;
         uint first = (counters[(d & 7u) * LANES + lane] >> ((d >> 3) * 16u)) & 0xffffu;
         tile[first + before[k]] = own[k];
     }
-    barrier();
+    waitForGroup();
 }
 
 void main()
@@ -65,18 +65,18 @@ void main()
     int first = part * TILE_PAIRS, size = min(TILE_PAIRS, count - first);
     // What fills up the last tile has the greatest digit and stays behind all others.
     for (int i = lane; i < TILE_PAIRS; i += LANES) tile[i] = i < size ? pairs[first + i] : uvec2(0xffffffffu);
-    barrier();
+    waitForGroup();
     sortTile(lane, 0);
     if (digits > 16) sortTile(lane, 4);
 
     uint total;
     uint smaller = sumBefore(lane < digits ? totals[lane] : 0u, total);
     if (lane < digits) moved[lane] = smaller + counts[lane * parts + part];
-    barrier();
+    waitForGroup();
     for (int i = lane; i < size; i += LANES) {
         uint d = digitOf(tile[i].x);
         if (i == 0 || digitOf(tile[i - 1].x) != d) moved[d] -= uint(i);  // the one lane where the run begins
     }
-    barrier();
+    waitForGroup();
     for (int i = lane; i < size; i += LANES) sorted[moved[digitOf(tile[i].x)] + uint(i)] = tile[i];
 }

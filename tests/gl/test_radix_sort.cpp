@@ -105,6 +105,14 @@ TEST_CASE("radix sort of many pairs, in digits of 11 bits, and again to the bit"
     }
 }
 
+TEST_CASE("radix sort of more tiles than a workgroup adds up at once", "[sort]") {
+    if (!hasCompute()) return;
+    const size_t count = 256 * 2048 + 4001;
+    RadixSort sort(testContext(), shaders, count, nullptr, Way::tiles);
+    const Pairs input = randomPairs(count, 8);
+    REQUIRE((sortedBy(sort, input, count, 7) == sorted(input, 7)));
+}
+
 TEST_CASE("radix sort sees what a shader wrote, and moves nothing over the bus", "[sort]") {
     if (!hasCompute()) return;
     gpu::ProgramOptions options;

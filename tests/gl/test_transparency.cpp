@@ -254,3 +254,11 @@ TEST_CASE("points are blended in order, too", "[render][transparency]") {
     const glm::ivec3 found = middle(scene);
     CHECK(farthest(found, shownOf(blendedOver(lights(scene), {3, 1, 0, 2}, 0.6))) <= 2.5);
 }
+
+TEST_CASE("a single blended molecule needs no sort, and every sort takes it", "[render][transparency]") {
+    for (const DrawSort sort : {DrawSort::none, DrawSort::frame, DrawSort::spread}) {
+        Scene scene = sceneOfPanes(Blend::alpha, 0.6, {0});
+        scene.groups[0].molecule.material.sort = sort;
+        CHECK(farthest(middle(scene), shownOf(blendedOver(lights(scene), {0}, 0.6))) <= 2.5);
+    }
+}
