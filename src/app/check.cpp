@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/field_watch.h"
 #include "core/image.h"
 #include "core/json.h"
 #include "molecule/analysis.h"
@@ -70,7 +71,8 @@ Verdict checkMolecule(const std::string& file) {
 }
 
 Verdict checkScene(const std::string& file) {
-    const Scene scene = readScene(file);
+    FieldWatch watch;
+    const Scene scene = readScene(file, watch.baking());
     const Plan plan = compile(scene);
     for (const Group& group : scene.groups)
         checkTexture(group.molecule);

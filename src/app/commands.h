@@ -14,6 +14,7 @@ int benchCommand(const Options& options);         // with a word after it: one o
 int benchSortCommand(const Options& options);     // shoal bench sort
 int benchCollideCommand(const Options& options);  // shoal bench collide
 int measureCommand(const Options& options);
+int fieldCommand(const Options& options);
 
 // A scene and its plan with the options applied; warnings go to standard error.
 struct Loaded {

@@ -2,6 +2,7 @@
 
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/field_watch.h"
 #include "app/measure.h"
 #include "core/json.h"
 #include "measure/calibration_store.h"
@@ -11,7 +12,8 @@
 namespace shoal::app {
 
 Loaded load(const Options& options) {
-    Loaded out{readScene(options.files.front()), {}};
+    FieldWatch watch;
+    Loaded out{readScene(options.files.front(), watch.baking()), {}};
     apply(options, out.scene);
     if (options.error) return out;  // what to compile is to be found yet: measure.h
     out.plan = compile(out.scene);

@@ -33,6 +33,9 @@ int main(int argc, char** argv) {
             case Options::Command::measure:
                 code = measureCommand(*options);
                 break;
+            case Options::Command::field:
+                code = fieldCommand(*options);
+                break;
             }
         }
         std::cout.flush();

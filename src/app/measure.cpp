@@ -5,6 +5,7 @@
 
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/field_watch.h"
 #include "app/gnuplot.h"
 #include "app/machine.h"
 #include "app/measure.h"
@@ -150,7 +151,8 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
 int measureCommand(const Options& options) {
     if (!options.plot.empty()) needGnuplot();
     if (!options.report.empty()) return measureReport(options);
-    Scene scene = readScene(options.files.front());
+    FieldWatch watch;
+    Scene scene = readScene(options.files.front(), watch.baking());
     apply(options, scene);
     for (const Warning& warning : scene.warnings)
         std::cerr << "shoal: warning: " << text(warning) << "\n";

@@ -25,7 +25,7 @@ namespace shoal::app {
 namespace {
 
 struct Texts {
-    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver;
+    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice;
     std::vector<std::string> solvers, samplings;
 };
 
@@ -160,6 +160,59 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
     addPath(command, options, texts);
     addContext(command, options, texts);
+}
+
+void addField(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("file", options.files, "Scene (.scene.json), or a model of any format")
+        ->required()
+        ->expected(1);
+    const auto length = [&](const char* option, std::optional<double>& value, const char* what) {
+        command.add_option(option, value, what)->check(kindOf(isAll<double>, "a length in m"));
+    };
+    command
+        .add_option("--resolution", options.field.resolution,
+                    concat("Cells along the model's longest side (default ", defaultResolution, ")"))
+        ->check(wholeNumber());
+    length("--error", options.field.error,
+           "Instead: refine until no point near the surface is off by more, m");
+    length("--shell", options.field.shell, "Thickness of a model that is not closed, m (default two cells)");
+    length("--thickness", options.field.thickness, "What vertices keep off the surface, m (default 0.002)");
+    command.add_option("--capture", options.capture, "Draw a slice into this file (.png)");
+    command.add_option("--slice", texts.slice, "Its plane, such as y=0.5 (default z, through the middle)");
+    command.add_option("--size", texts.size, "Largest size of the picture in pixels")->capture_default_str();
+    command.add_option("--only", options.only, "Of a scene: fields with this in their name");
+    command.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+// x, y or z, and where.
+void readSlice(const std::string& text, Options& options) {
+    if (text.empty()) return;
+    const size_t axis = std::string("xyz").find(text[0]);
+    const std::string position = text.size() > 2 ? text.substr(2) : "";
+    if (axis == std::string::npos || (text.size() > 1 && (text[1] != '=' || !isAll<double>(position))))
+        throw Error(concat("--slice: expected x, y or z and a position such as y=0.5, found \"", text, "\""));
+    options.field.sliceAxis = int(axis);
+    if (!position.empty()) options.field.slicePosition = std::stod(position);
+}
+
+void checkField(const Options& options) {
+    if (options.command != Options::Command::field) return;
+    const Options::Field& field = options.field;
+    if (field.resolution && field.error) throw Error("expected either --resolution or --error, found both");
+    if (field.resolution && (*field.resolution < leastResolution || *field.resolution > mostResolution))
+        throw Error(concat("--resolution: expected ", leastResolution, " to ", mostResolution, ", found ",
+                           *field.resolution));
+    const auto above = [](const char* option, const std::optional<double>& value, bool zero) {
+        if (value && !(zero ? *value >= 0 : *value > 0 && *value < 1e15))
+            throw Error(concat(option, ": expected a length ", zero ? "of at least" : "above", " 0 m, found ",
+                               *value));
+    };
+    above("--error", field.error, false);
+    above("--shell", field.shell, false);
+    above("--thickness", field.thickness, true);
+    if (!options.capture.empty() && lowerExtension(options.capture) != ".png")
+        throw Error(concat("--capture: expected a name ending in .png, found \"", options.capture, "\""));
+    if (field.sliceAxis && options.capture.empty()) throw Error("--slice needs --capture and a file's name");
 }
 
 std::optional<SolverKind> solverNamed(const char* option, const std::string& word) {
@@ -341,6 +394,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App* info = app.add_subcommand("info", "Print the OpenGL contexts that can be had");
     CLI::App* bench = app.add_subcommand("bench", "Measure speed, against the limit and the error");
     CLI::App* measure = app.add_subcommand("measure", "Measure a scene's error against what it costs");
+    CLI::App* field = app.add_subcommand("field", "Bake a model's distance field: its error, and a slice");
     addRun(*run, options, texts);
     check->add_option("files", options.files, "Molecule or scene files")->required();
     check->add_flag("--json", options.json, "Report as JSON on standard output");
@@ -353,6 +407,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addContext(*info, options, texts);
     addBench(*bench, options, texts);
     addMeasure(*measure, options, texts);
+    addField(*field, options, texts);
 
     try {
         app.parse(argc, argv);
@@ -369,6 +424,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : explain->parsed() ? Options::Command::explain
                       : bench->parsed()   ? Options::Command::bench
                       : measure->parsed() ? Options::Command::measure
+                      : field->parsed()   ? Options::Command::field
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);
@@ -377,8 +433,10 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     readLists(texts, options);
     parseSize(texts.size, options);
     checkRanges(options);
+    readSlice(texts.slice, options);
     checkMeasure(options);
     checkBench(options);
+    checkField(options);
     checkReport(options, *measure);
     return options;
 }

@@ -16,7 +16,7 @@ namespace shoal::app {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info, bench, measure };
+    enum class Command { run, check, explain, info, bench, measure, field };
     Command command = Command::run;
     std::vector<std::string> files;
 
@@ -65,6 +65,14 @@ struct Options {
     bool fine = false;                     // steps by sqrt 2
     std::string csv;                       // a file
     std::string report;                    // folder: the report scenes instead of a file
+
+    // field (`only`, `capture`, `width` and `height` as above)
+    struct Field {
+        std::optional<int> resolution;
+        std::optional<double> error, shell, thickness;  // m
+        std::optional<int> sliceAxis;                   // 0 x, 1 y, 2 z
+        std::optional<double> slicePosition;            // m
+    } field;
 };
 
 // Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns
