@@ -66,33 +66,30 @@ vec4 heightSurfaceSampled(vec3 x, vec4 cells, ivec2 size, int base)
 }
 
 // A distance field. x: relative to the first sample, m. last: xyz the last sample's indices, w the least distance on
-// the grid's faces, m. size: samples along x and z. Samples: the distances at the four corners of a cell in one layer,
-// layers along z one after another (compile/distance_samples.h), so that a cell is two fetches.
+// the grid's faces, m. Samples: the distances at the four corners of a cell in one layer, layers along z one after
+// another (compile/distance_samples.h), so that a cell is two fetches that follow one another.
 //
 // The normal is the gradient of the trilinear distance: exact on flat faces whatever their direction, so that what
-// rests there does not jitter. Beyond the grid the distance is a lower bound.
-vec4 distanceSurface(vec3 x, float cell, vec4 last, ivec2 size, int base)
+// rests there does not jitter. Beyond the grid the distance is a lower bound. Without branches, as in collide.glsl.
+vec4 distanceSurface(vec3 x, float cell, vec4 last, int base)
 {
-    vec3 p = x / cell;
+    vec3 p = x * (1.0 / cell);
     vec3 inside = clamp(p, vec3(0.0), last.xyz);
     vec3 way = p - inside;
-    float far = length(way);
-    vec4 surface = vec4(way / max(far, 1e-30), far * cell + last.w);
-    // a loop, which a rasteriser on a CPU leaves at once when none of its lanes is near
-    for (bool near = far == 0.0; near; near = false) {
-        ivec3 c = min(ivec3(p), ivec3(last.xyz) - 1);
-        vec3 f = p - vec3(c);
-        int index = base + (c.y * size.x + c.x) * size.y + c.z;
-        vec4 lower = sampleAt(index), upper = sampleAt(index + 1);
-        vec4 corners = mix(lower, upper, f.z);
-        vec4 climb = upper - lower;
-        vec2 alongX = corners.yw - corners.xz;
-        vec2 rows = corners.xz + alongX * f.x;
-        vec2 climbs = climb.xz + (climb.yw - climb.xz) * f.x;
-        vec3 gradient = vec3(mix(alongX.x, alongX.y, f.y), rows.y - rows.x, mix(climbs.x, climbs.y, f.y)) / cell;
-        // where the field is level the way out is away from the middle, else up
-        gradient += 1e-7 * (p / last.xyz - 0.5) + vec3(0.0, 1e-12, 0.0);
-        surface = vec4(normalize(gradient), mix(rows.x, rows.y, f.y));
-    }
-    return surface;
+    float wayLength = length(way);
+    vec3 corner = min(floor(inside), last.xyz - 1.0);
+    vec3 f = inside - corner;
+    // whole numbers below 2^24, exact in floats, which a rasteriser on a CPU multiplies faster
+    int index = base + int((corner.y * (last.x + 1.0) + corner.x) * (last.z + 1.0) + corner.z);
+    vec4 lower = sampleAt(index), upper = sampleAt(index + 1);
+    vec4 corners = mix(lower, upper, f.z);
+    vec4 climb = upper - lower;
+    vec2 alongX = corners.yw - corners.xz;
+    vec2 rows = corners.xz + alongX * f.x;
+    vec2 climbs = mix(climb.xz, climb.yw, f.x);
+    vec3 gradient = vec3(mix(alongX.x, alongX.y, f.y), rows.y - rows.x, mix(climbs.x, climbs.y, f.y)) / cell;
+    // where the field is level the way out is away from the middle, else up
+    gradient += 1e-7 * (p / last.xyz - 0.5) + vec3(0.0, 1e-12, 0.0);
+    bool beyond = wayLength > 0.0;
+    return vec4(normalize(beyond ? way : gradient), beyond ? wayLength * cell + last.w : mix(rows.x, rows.y, f.y));
 }

@@ -146,22 +146,21 @@ int fieldCommand(const Options& options) {
     if (!options.capture.empty() && fields.size() > 1)
         throw Error(concat("--capture draws one field, and the scene has ", fields.size(),
                            ": choose one with --only"));
-    JsonValue report = JsonValue::makeArray();
-    for (const BakedField& field : fields) {
-        report.items.push_back(asJson(field));
-        if (!options.json) std::cout << asText(field);
-    }
+    std::string drawn;
     if (!options.capture.empty()) {
         const SlicePlane plane = planeOf(options, fields.front());
         const SlicePicture picture =
             drawSlice(fields.front().field, fields.front().mesh, plane, options.width, options.height);
         writePng(options.capture, picture.image);
-        if (!options.json)
-            std::cout << "  " << options.capture << ": the slice "
-                      << "xyz"[plane.axis] << " = " << plane.position << " m, a contour every "
-                      << picture.contours << " m\n";
+        drawn = concat("  ", options.capture, ": the slice ", "xyz"[plane.axis], " = ", plane.position,
+                       " m, a contour every ", picture.contours, " m\n");
     }
-    if (options.json) std::cout << writeJson(report);
+    JsonValue report = JsonValue::makeArray();
+    for (const BakedField& field : fields) {
+        report.items.push_back(asJson(field));
+        if (!options.json) std::cout << asText(field);
+    }
+    std::cout << (options.json ? writeJson(report) : drawn);
     return 0;
 }
 

@@ -118,8 +118,7 @@ class Emitter {
         const size_t base = appendDistances(field, *samples_);
         const std::string low = slot(field.grid.low, field.grid.cell);
         const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
-        return concat("distanceSurface(", relative(low), ", ", low, ".w, ", last, ", ivec2(",
-                      field.grid.size.x, ", ", field.grid.size.z, "), ", base, ")");
+        return concat("distanceSurface(", relative(low), ", ", low, ".w, ", last, ", ", base, ")");
     }
 
     // One texel a sample: unit normal by central differences, and height.

@@ -23,7 +23,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         Drawn drawn;
         drawn.color = glm::vec3(model.color);
         drawn.roughness = float(model.roughness);
-        drawn.detail = 1;
+        drawn.detail = float(model.grain);
         add(context, meshOf(model.mesh), std::move(drawn), model.name.c_str());
     }
     bool planes = false;

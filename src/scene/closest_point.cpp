@@ -149,9 +149,10 @@ ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>())
 
 ClosestPoints::~ClosestPoints() = default;
 
-ClosestPoint ClosestPoints::at(const glm::dvec3& x, double within) const {
+ClosestPoint ClosestPoints::at(const glm::dvec3& x, double within, int guess) const {
     Query query{&tree_->triangles, &tree_->normals, tree_->toUnits(x), {}, 0};
     query.best.distance = within / tree_->size;
+    if (guess >= 0) query.consider(guess);
     RTCPointQuery around{float(query.x.x), float(query.x.y), float(query.x.z), 0, above(query.best.distance)};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
@@ -163,18 +164,34 @@ ClosestPoint ClosestPoints::at(const glm::dvec3& x, double within) const {
 }
 
 double ClosestPoints::across(const glm::dvec3& from, const glm::dvec3& direction) const {
+    constexpr int mostWalls = 64;
     const glm::vec3 start(tree_->toUnits(from)), way(direction);
-    RTCRayHit ray{};
-    ray.ray.org_x = start.x, ray.ray.org_y = start.y, ray.ray.org_z = start.z;
-    ray.ray.dir_x = way.x, ray.ray.dir_y = way.y, ray.ray.dir_z = way.z;
-    ray.ray.tnear = float(looseness);
-    ray.ray.tfar = std::numeric_limits<float>::infinity();
-    ray.ray.mask = ~0u;
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    firstHit(tree_->scene, ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::numeric_limits<double>::infinity();
-    const bool comesOut = glm::dot(tree_->normals[ray.hit.primID], direction) > std::sqrt(0.5);
-    return comesOut ? double(ray.ray.tfar) * tree_->size : std::numeric_limits<double>::infinity();
+    constexpr double never = std::numeric_limits<double>::infinity();
+    int passed = 0;                  // ways out less ways in, so far; at the end the start's winding number
+    double out[2] = {never, never};  // where that was first -1 and 1
+    bool seen[2] = {false, false};
+    float reached = float(looseness);
+    for (int wall = 0; wall < mostWalls; ++wall) {
+        RTCRayHit ray{};
+        ray.ray.org_x = start.x, ray.ray.org_y = start.y, ray.ray.org_z = start.z;
+        ray.ray.dir_x = way.x, ray.ray.dir_y = way.y, ray.ray.dir_z = way.z;
+        ray.ray.tnear = reached;
+        ray.ray.tfar = std::numeric_limits<float>::infinity();
+        ray.ray.mask = ~0u;
+        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+        firstHit(tree_->scene, ray);
+        if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
+            return passed == 1 ? out[1] : passed == -1 ? out[0] : never;
+        }
+        const double facing = glm::dot(tree_->normals[ray.hit.primID], direction);
+        passed += facing > 0 ? 1 : -1;
+        if (const size_t side = passed > 0; std::abs(passed) == 1 && !seen[side]) {
+            seen[side] = true;
+            if (std::abs(facing) > std::sqrt(0.5)) out[side] = double(ray.ray.tfar) * tree_->size;
+        }
+        reached = ray.ray.tfar * (1 + float(looseness)) + float(looseness);
+    }
+    return never;
 }
 
 }  // namespace shoal

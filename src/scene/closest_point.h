@@ -27,11 +27,13 @@ class ClosestPoints {
 
     // May be called from several threads. Nothing (triangle -1) is found further than `within`. Where several
     // triangles are as near, `front` is of the one that faces the point most, which is right at edges and at
-    // all but saddle-like corners.
-    ClosestPoint at(const glm::dvec3& x, double within = std::numeric_limits<double>::infinity()) const;
+    // all but saddle-like corners. `guess`: a triangle that may be near, which makes it faster.
+    ClosestPoint at(const glm::dvec3& x, double within = std::numeric_limits<double>::infinity(),
+                    int guess = -1) const;
 
-    // m: from a point of the surface along the unit `direction`, which leads inside, to where it comes out
-    // again through a triangle that faces away by less than 45 degrees; infinite where that is not so.
+    // m: from a point of the surface along the unit `direction`, which leads inside, to where it comes out of
+    // all shells again, through a triangle that faces away by less than 45 degrees; infinite where that is
+    // not so, or where the point lies inside another shell. Of closed meshes.
     double across(const glm::dvec3& from, const glm::dvec3& direction) const;
 
   private:

@@ -93,17 +93,17 @@ class Baker {
         field_.thinArea = all > 0 ? thin / all : 0;
     }
 
-    // Slice by slice; within a row the last distance bounds the next search.
+    // Slice by slice; within a row the last triangle and distance bound the next search.
     void bakeSlices(const FieldProgress& progress) {
         std::atomic<int> done{0};
         const auto main = std::this_thread::get_id();
         parallel(field_.grid.size.z, threads_, [&](int z) {
             for (int y = 0; y < field_.grid.size.y; ++y) {
-                double within = std::numeric_limits<double>::infinity();
+                ClosestPoint last;
                 for (int x = 0; x < field_.grid.size.x; ++x) {
-                    const ClosestPoint found = closest_.at(field_.grid.place(x, y, z), within);
-                    within = (found.distance + field_.grid.cell) * (1 + 1e-9);
-                    store(field_.grid.index(x, y, z), field_.grid.place(x, y, z), found);
+                    const glm::dvec3 place = field_.grid.place(x, y, z);
+                    last = closest_.at(place, (last.distance + field_.grid.cell) * (1 + 1e-9), last.triangle);
+                    store(field_.grid.index(x, y, z), place, last);
                 }
             }
             ++done;

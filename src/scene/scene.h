@@ -183,7 +183,8 @@ struct Model {
     bool draw = true;
     glm::dvec3 color{1};  // multiplies the vertex colours
     double roughness = 0.9;
-    Mesh mesh;  // in scene coordinates: position, rotation and scale applied
+    double grain = 1;  // strength of the drawn grain: soil and grass on what faces up, else bark; in [0, 1]
+    Mesh mesh;         // in scene coordinates: position, rotation and scale applied
 };
 
 // ---- Groups of molecules

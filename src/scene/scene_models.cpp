@@ -35,6 +35,7 @@ Model readModel(JsonReader& r) {
     r.get("draw", model.draw);
     getColor(r, "color", model.color);
     r.get("roughness", model.roughness, Range::between(0, 1));
+    r.get("grain", model.grain, Range::between(0, 1));
     r.finish();
     model.mesh = loadMesh(model.file);
     placeMesh(model.mesh, model);

@@ -1,5 +1,7 @@
 #include "simulate/tables.h"
 
+#include <cmath>
+
 namespace shoal {
 
 static gpu::Texture makeTable(gpu::Context& context, const std::vector<glm::vec4>& table, int rows,
@@ -10,8 +12,20 @@ static gpu::Texture makeTable(gpu::Context& context, const std::vector<glm::vec4
     return texture;
 }
 
+// A distance field's samples grow with the cube of its resolution.
+static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
+    const int largest = context.info().maxTextureSize;
+    if (plan.sampleRows > largest)
+        throw Error(concat("grids, height fields and distance fields have ", plan.samples.size(),
+                           " samples, and a table of this context holds ", size_t(largest) * stateWidth,
+                           ": distance fields alone would fit at ",
+                           std::floor(95 * std::cbrt(double(largest) / plan.sampleRows)),
+                           " % of their resolutions"));
+    return makeTable(context, plan.samples, plan.sampleRows, "samples");
+}
+
 Tables::Tables(gpu::Context& context, const Plan& plan)
     : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")),
-      samples(makeTable(context, plan.samples, plan.sampleRows, "samples")) {}
+      samples(makeSamples(context, plan)) {}
 
 }  // namespace shoal
