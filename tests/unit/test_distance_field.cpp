@@ -220,6 +220,23 @@ TEST_CASE("grid lines through edges, corners and faces keep the signs", "[distan
             }
 }
 
+TEST_CASE("lines through the corners and edges of an octahedron count once", "[distanceField]") {
+    // in each coordinate plane all lines of the grid meet edges, and those through the middle meet corners
+    Mesh mesh;
+    addTriangles(mesh, "octahedron", {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}},
+                 {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}});
+    completeMesh(mesh);
+    const SampleGrid grid{{25, 25, 25}, glm::dvec3(-1.5), 0.125};
+    const std::vector<int16_t> winding = windingNumbers(mesh, grid, 2);
+    for (int z = 0; z < 25; ++z)
+        for (int y = 0; y < 25; ++y)
+            for (int x = 0; x < 25; ++x) {
+                const glm::dvec3 p = glm::abs(grid.place(x, y, z));
+                const double beyond = p.x + p.y + p.z - 1;
+                if (beyond != 0) REQUIRE(winding[grid.index(x, y, z)] == (beyond < 0 ? 1 : 0));
+            }
+}
+
 TEST_CASE("inside overlapping shells the depth is that of the outside", "[distanceField]") {
     // two boxes that make one: the walls between them are none
     Mesh mesh;
