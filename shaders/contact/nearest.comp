@@ -39,7 +39,7 @@ void main()
     uvec4 motion = texelFetch(motions, otherSphere);
     vec3 u = uintBitsToFloat(ownMotion.xyz) - uintBitsToFloat(motion.xyz);
     float w = uintBitsToFloat(ownMotion.w) + uintBitsToFloat(motion.w);
-    float reach = uintBitsToFloat(texelFetch(cells, sphere).w) + uintBitsToFloat(texelFetch(cells, otherSphere).w);
+    float reach = uintBitsToFloat(texelFetch(cells, slot).w) + uintBitsToFloat(texelFetch(cells, nearest).w);
     PairContact contact = pairContact(d, u, reach, stepTime, restSpeed, slot < nearest ? 1.0 : -1.0);
     vec2 material =
         texelFetch(materials, int(own.w >> 26u) * groupCount + int(texelFetch(places, nearest).w >> 26u)).xy;

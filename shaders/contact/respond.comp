@@ -84,7 +84,7 @@ void main()
     vec3 ownPlace = uintBitsToFloat(ownRecord.xyz);
     vec3 ownStart = uintBitsToFloat(ownMotion.xyz);
     float ownWeight = uintBitsToFloat(ownMotion.w);
-    float ownRadius = uintBitsToFloat(texelFetch(cells, sphere).w);
+    float ownRadius = uintBitsToFloat(texelFetch(cells, slot).w);
     vec3 impulse = vec3(0.0);
     vec3 shift = vec3(0.0);
     vec3 rest = vec3(0.0);
@@ -110,7 +110,7 @@ void main()
         vec3 start = uintBitsToFloat(motion.xyz);
         float weight = uintBitsToFloat(motion.w);
         float w = ownWeight + weight;
-        float reach = ownRadius + uintBitsToFloat(texelFetch(cells, otherSphere).w);
+        float reach = ownRadius + uintBitsToFloat(texelFetch(cells, other).w);
         PairContact contact = pairContact(localDifference(ownPlace, uintBitsToFloat(place.xyz), cell),
                                           ownStart - start, reach, stepTime, restSpeed, slot < other ? 1.0 : -1.0);
         bool meets = w > 0.0 && holds(other, slot);

@@ -25,14 +25,14 @@ void loadOwn(int slot)
     ownSlot = slot;
     ownPlace = uintBitsToFloat(place.xyz);
     ownLabel = place.w;
-    uvec4 own = texelFetch(cells, sphereOf(slot));
+    uvec4 own = texelFetch(cells, slot);
     ownCell = ivec3(own.xyz);
     ownRadius = uintBitsToFloat(own.w);
 }
 
 ivec3 cellOf(int slot)
 {
-    return ivec3(texelFetch(cells, sphereOf(slot)).xyz);
+    return ivec3(texelFetch(cells, slot).xyz);
 }
 
 // Whether spheres of this label are to be looked at.
@@ -62,7 +62,7 @@ bool mayMeetSelf(int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(texelFetch(places, slot).xyz), cell);
-    float reach = ownRadius + uintBitsToFloat(texelFetch(cells, sphereOf(slot)).w);
+    float reach = ownRadius + uintBitsToFloat(texelFetch(cells, slot).w);
     bool touches = dot(d, d) < reach * reach;
 #ifdef SELF
     if (touches && texelFetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);

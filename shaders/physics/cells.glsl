@@ -29,13 +29,15 @@ vec3 localDifference(vec3 a, vec3 b, float cell)
     return d - floor(d / period + 0.5f) * period;
 }
 
-// Cells of a row along x have keys that follow one another (modulo the table), so that three neighbours are one range;
-// rows are scattered, so that the cells in use fill the table evenly whatever shape they have.
+// Cells of a block of 8 x 8 x 8 have keys that follow one another (modulo the table), so that what is close in space is
+// mostly close in memory; blocks are scattered, so that the cells in use fill the table evenly whatever shape they have.
 uint cellKey(ivec3 cell, uint mask)
 {
-    uint h = uint(cell.y) * 2654435769u ^ (uint(cell.z) * 2246822507u + 374761393u);
+    ivec3 block = cell >> 3;
+    ivec3 inBlock = cell & 7;
+    uint h = uint(block.x) * 3266489917u ^ uint(block.y) * 2654435769u ^ (uint(block.z) * 2246822507u + 374761393u);
     h = (h ^ (h >> 15u)) * 739982445u;
     h = (h ^ (h >> 12u)) * 695872825u;
     h = h ^ (h >> 15u);
-    return (h + uint(cell.x)) & mask;
+    return (h + uint(inBlock.x + 8 * inBlock.y + 64 * inBlock.z)) & mask;
 }

@@ -30,6 +30,7 @@ struct Experiment {
     bool onCpu = false;
     std::optional<ContactSearch> search = {};
     ContactResponse response = ContactResponse::nearest;
+    bool blended = false;  // sorted, and blended in that order, as part of the picture
 };
 
 std::vector<Experiment> experiments() {
@@ -39,6 +40,7 @@ std::vector<Experiment> experiments() {
         {.name = "E2", .how = "", .published = {155, 96, 42}, .heights = true},
         {.name = "E3", .how = "bitonic", .published = {39, 8, 1.4}, .sort = SortMethod::bitonic},
         {.name = "E3", .how = "radix", .published = {}, .sort = SortMethod::radix},
+        {.name = "E3", .how = "blended in order in the picture", .published = {}, .blended = true},
         {.name = "E4",
          .how = "rows only, nearest partner",
          .published = {133, 31, 7},
@@ -92,6 +94,10 @@ Scene sceneOf(const Experiment& one, int side, const Molecule& point) {
     if (one.search) {
         const double cell = std::cbrt(std::pow(2 * half, 3) * 0.2 / group.count);
         group.contact.emplace().radius = std::min(radius, cell / 4.2);
+    }
+    if (one.blended) {
+        group.molecule.material.blend = Blend::alpha;
+        group.molecule.material.opacity = 0.5;
     }
     scene.groups.push_back(group);
     scene.light.shadows = false;

@@ -67,7 +67,8 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     spherePlaces_ = array(padded_, Texel::uint4, "contact places");
     places_ = array(padded_, Texel::uint4, "contact places in order");
     motions_ = array(padded_, Texel::uint4, "contact motions");
-    cells_ = array(padded_, Texel::uint4, "contact cells");
+    sphereCells_ = array(padded_, Texel::uint4, "contact cells");
+    cells_ = array(padded_, Texel::uint4, "contact cells in order");
     pairs_ = array(padded_, Texel::uint2, "contact keys");
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_ = array(padded_, Texel::uint2, "staggered keys");
@@ -248,7 +249,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
         if (!staggered) {
             store(program, "Places", 1, spherePlaces_.buffer);
             store(program, "Motions", 2, motions_.buffer);
-            store(program, "Cells", 3, cells_.buffer);
+            store(program, "Cells", 3, sphereCells_.buffer);
         }
         dispatch(program, size_t(spheres));
     });
@@ -257,13 +258,16 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
 
 void MoleculeContact::order() {
     Textures textures(order_);
-    textures.add("sorted", pairs_.texture).add("spherePlaces", spherePlaces_.texture);
+    textures.add("sorted", pairs_.texture)
+        .add("spherePlaces", spherePlaces_.texture)
+        .add("sphereCells", sphereCells_.texture);
     order_.set("count", contact_->spheres);
     order_.set("keyMask", (1 << contact_->tableBits) - 1);
     store(order_, "Starts", 0, starts_.buffer);
     store(order_, "Places", 1, places_.buffer);
     store(order_, "Slots", 2, slots_.buffer);
     store(order_, "Active", 3, active_);
+    store(order_, "Cells", 4, cells_.buffer);
     dispatch(order_, size_t(contact_->spheres));
     settled();
 }
@@ -492,10 +496,10 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 size_t MoleculeContact::bytes() const {
     size_t out = 0;
     for (const Array* array :
-         {&pairs_,       &staggered_,    &starts_,   &slots_,      &lists_,       &counts_,
-          &crowds_,      &pushed_,       &shifts_,   &velocities_, &normals_,     &nearWalls_,
-          &wallPushed_,  &apart_,        &groupsOf_, &materials_,  &impulses_[0], &impulses_[1],
-          &impulses_[2], &spherePlaces_, &motions_,  &cells_,      &places_})
+         {&pairs_,       &staggered_,    &starts_,   &slots_,       &lists_,       &counts_,
+          &crowds_,      &pushed_,       &shifts_,   &velocities_,  &normals_,     &nearWalls_,
+          &wallPushed_,  &apart_,        &groupsOf_, &materials_,   &impulses_[0], &impulses_[1],
+          &impulses_[2], &spherePlaces_, &motions_,  &sphereCells_, &cells_,       &places_})
         out += array->buffer ? array->buffer.bytes() : 0;
     return out;
 }

@@ -116,7 +116,7 @@ class MoleculeContact {
         velocities_;
     Array apart_, groupsOf_, materials_;
     std::array<Array, 3> impulses_;
-    Array spherePlaces_, motions_, cells_, places_;
+    Array spherePlaces_, motions_, sphereCells_, cells_, places_;
     Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
     gpu::Buffer active_;                           // shaders/contact/active.glsl
 };
