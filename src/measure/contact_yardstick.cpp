@@ -345,13 +345,16 @@ void ContactYardstick::step(const ContactYardstickStep& step) {
 
 std::vector<std::pair<int, int>> ContactYardstick::found() const {
     std::vector<std::pair<int, int>> out;
-    for (const Piece& piece : data_->pieces)
-        for (const Active& active : piece.active)
-            for (int c = active.begin; c < active.end; ++c)
-                out.emplace_back(std::minmax(data_->sphereOf[size_t(active.slot)],
-                                             data_->sphereOf[size_t(piece.contacts[size_t(c)].other)]));
+    for (const Piece& piece : data_->pieces) {
+        for (const Active& active : piece.active) {
+            const int own = data_->sphereOf[size_t(active.slot)];
+            for (int c = active.begin; c < active.end; ++c) {
+                const int other = data_->sphereOf[size_t(piece.contacts[size_t(c)].other)];
+                if (own < other) out.emplace_back(own, other);
+            }
+        }
+    }
     std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
     return out;
 }
 
