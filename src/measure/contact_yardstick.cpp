@@ -25,13 +25,14 @@ struct Motion {
 
 // Of the slot that has it in its list, with another.
 struct Contact {
-    int other;      // slot
-    vec3 normal;    // from the other
-    float pushed;   // N s, so far
-    float target;   // m/s, along the normal afterwards
-    float share;    // kg: of the impulse that the contact alone would take, over both weights
-    float since;    // s, since they met; 0 where they rest
-    float settled;  // kg m: how far those that rest are pushed
+    int other;              // slot
+    vec3 normal;            // from the other
+    float mass;             // kg, that both together put against an impulse
+    float target;           // m/s, along the normal afterwards
+    float since;            // s, since they met; 0 where they rest
+    float push;             // kg m: how far those that rest are pushed; m until the shares are known
+    float share;            // of the impulse that the contact alone would take
+    float pushed, earlier;  // N s, so far, and an iteration before
 };
 
 struct Active {
@@ -77,11 +78,15 @@ struct ContactYardstick::Data {
         starts.resize(size_t(mask) + 2);
         keys.resize(spheres);
         sphereOf.resize(spheres);
+        numbers.resize(spheres);
         crowds.resize(spheres);
+        kept.resize(spheres);
         places.resize(spheres);
         motions.resize(spheres);
         impulses.resize(spheres);
         newImpulses.resize(spheres);
+        earlierImpulses.resize(spheres);
+        shifts.resize(spheres);
     }
 
     std::vector<float> weights;
@@ -93,12 +98,15 @@ struct ContactYardstick::Data {
     std::vector<Piece> pieces;
 
     GroupState state;
-    std::vector<uint32_t> keys;    // by sphere
-    std::vector<uint32_t> starts;  // of the cells, in slots
-    std::vector<int> sphereOf, crowds;
+    std::vector<uint32_t> keys;          // by sphere
+    std::vector<uint32_t> starts;        // of the cells, in slots
+    std::vector<int> sphereOf, numbers;  // by slot: whose it is, and how many it touches
     std::vector<Place> places;
-    std::vector<Motion> motions;              // of slots in contact
-    std::vector<vec3> impulses, newImpulses;  // N s, of slots in contact
+    // Of slots in contact.
+    std::vector<Motion> motions;
+    std::vector<float> crowds, kept;
+    std::vector<vec3> impulses, newImpulses, earlierImpulses;  // N s
+    std::vector<vec3> shifts;                                  // kg m
 
     template <typename Work>
     void each(Work work) {
@@ -117,12 +125,19 @@ struct ContactYardstick::Data {
     void find(int thread, Piece& piece);
     void meet(const Place& own, uint32_t from, uint32_t end, Piece& piece) const;
     void look(int slot, Piece& piece) const;
-    Contact known(int slot, const Contact& found, const ContactYardstickStep& step) const;
+    Contact known(int slot, int other, const ContactYardstickStep& step) const;
+    void know(Piece& piece, const ContactYardstickStep& step);
     void startPushing(Piece& piece, const ContactYardstickStep& step);
-    void relax(Piece& piece);
+    void relax(Piece& piece, float momentum);
     void settle(Piece& piece, const ContactYardstickStep& step);
-    vec3 velocity(int slot) const {
-        return motions[size_t(slot)].velocity + impulses[size_t(slot)] * motions[size_t(slot)].weight;
+    void apply(Piece& piece, const ContactYardstickStep& step);
+    // Of an iteration, which begins where the last two point to.
+    vec3 impulse(int slot, float momentum) const {
+        const vec3 last = impulses[size_t(slot)];
+        return last + (last - earlierImpulses[size_t(slot)]) * momentum;
+    }
+    vec3 velocity(int slot, const vec3& impulse) const {
+        return motions[size_t(slot)].velocity + impulse * motions[size_t(slot)].weight;
     }
 };
 
@@ -233,7 +248,7 @@ void ContactYardstick::Data::find(int thread, Piece& piece) {
         piece.active.push_back({int(slot), begin, begin});
         look(int(slot), piece);
         const int end = int(piece.contacts.size());
-        crowds[slot] = end - begin;
+        numbers[slot] = end - begin;
         piece.active.back().end = end;
         if (begin == end) {
             piece.active.pop_back();
@@ -244,14 +259,11 @@ void ContactYardstick::Data::find(int thread, Piece& piece) {
     }
 }
 
-Contact ContactYardstick::Data::known(int slot, const Contact& found,
-                                      const ContactYardstickStep& step) const {
-    const auto own = size_t(slot), other = size_t(found.other);
-    const float w = motions[own].weight + motions[other].weight;
-    if (w == 0) return {found.other, vec3(0, 1, 0), 0, 0, 0, 0, 0};
-    const float share = 1.0f / (float(std::max(crowds[own], crowds[other])) * w);
-    const vec3 d = places[own].position - places[other].position;
-    const vec3 u = motions[own].velocity - motions[other].velocity;
+Contact ContactYardstick::Data::known(int slot, int other, const ContactYardstickStep& step) const {
+    const auto a = size_t(slot), b = size_t(other);
+    const float w = motions[a].weight + motions[b].weight, mass = w > 0 ? 1 / w : 0;
+    const vec3 d = places[a].position - places[b].position;
+    const vec3 u = motions[a].velocity - motions[b].velocity;
     const float squared = glm::dot(d, d), along = glm::dot(d, u), fast = glm::dot(u, u);
     const float inside = std::max(reach * reach - squared, 0.0f);
     const float root = std::sqrt(along * along + fast * inside);  // |d - u t| = reach
@@ -260,61 +272,102 @@ Contact ContactYardstick::Data::known(int slot, const Contact& found,
     const vec3 touch = (d - u * since) / reach;
     const float speed = glm::dot(touch, u);
     if (since <= step.stepTime && speed < -step.restSpeed)
-        return {found.other, touch, 0, -step.restitution * speed, share, since, 0};
+        return {other, touch, mass, -step.restitution * speed, since, 0, 0, 0, 0};
     const float apart = std::sqrt(squared);
-    const vec3 normal = apart > 1e-6f * reach ? d / apart : vec3(0, slot < found.other ? 1.0f : -1.0f, 0);
-    const float settled = share * (reach - apart);
-    return {found.other, normal, settled / step.stepTime, std::max(glm::dot(normal, u), 0.0f), share,
-            0,           settled};
+    const vec3 normal = apart > 1e-6f * reach ? d / apart : vec3(0, slot < other ? 1.0f : -1.0f, 0);
+    return {other, normal, mass, std::max(glm::dot(normal, u), 0.0f), 0, reach - apart, 0, 0, 0};
+}
+
+// A bound of the largest eigenvalue of the sum of n n^T: how many contacts push the same way.
+void ContactYardstick::Data::know(Piece& piece, const ContactYardstickStep& step) {
+    for (const Active& active : piece.active) {
+        vec3 squares(0), mixed(0);
+        for (int c = active.begin; c < active.end; ++c) {
+            Contact& contact = piece.contacts[size_t(c)];
+            contact = known(active.slot, contact.other, step);
+            const vec3 n = contact.normal;
+            squares += n * n;
+            mixed += vec3(n.y * n.z, n.z * n.x, n.x * n.y);
+        }
+        const vec3 m = glm::abs(mixed);
+        const vec3 rows = squares + vec3(m.y + m.z, m.z + m.x, m.x + m.y);
+        const float norm = std::sqrt(glm::dot(squares, squares) + 2 * glm::dot(m, m));
+        crowds[size_t(active.slot)] =
+            std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm), 1.0f);
+    }
 }
 
 void ContactYardstick::Data::startPushing(Piece& piece, const ContactYardstickStep& step) {
     for (const Active& active : piece.active) {
+        const auto slot = size_t(active.slot);
         vec3 sum(0);
         for (int c = active.begin; c < active.end; ++c) {
             Contact& contact = piece.contacts[size_t(c)];
-            contact = known(active.slot, contact, step);
+            contact.share = 1 / std::max(crowds[slot], crowds[size_t(contact.other)]);
+            contact.push *= contact.share * contact.mass;
+            contact.pushed = contact.earlier = contact.push / step.stepTime;
             sum += contact.normal * contact.pushed;
         }
-        impulses[size_t(active.slot)] = sum;
+        impulses[slot] = earlierImpulses[slot] = sum;
     }
 }
 
-void ContactYardstick::Data::relax(Piece& piece) {
+void ContactYardstick::Data::relax(Piece& piece, float momentum) {
     for (const Active& active : piece.active) {
-        const vec3 own = velocity(active.slot);
-        vec3 sum = impulses[size_t(active.slot)];
+        vec3 sum = impulse(active.slot, momentum);
+        const vec3 own = velocity(active.slot, sum);
         for (int c = active.begin; c < active.end; ++c) {
             Contact& contact = piece.contacts[size_t(c)];
-            const float speed = glm::dot(own - velocity(contact.other), contact.normal);
-            const float change = std::max(contact.share * (contact.target - speed), -contact.pushed);
-            contact.pushed += change;
+            const vec3 relative = own - velocity(contact.other, impulse(contact.other, momentum));
+            const float pushed = contact.pushed + (contact.pushed - contact.earlier) * momentum;
+            const float gap = contact.target - glm::dot(relative, contact.normal);
+            const float change = std::max(contact.share * contact.mass * gap, -pushed);
+            contact.earlier = contact.pushed;
+            contact.pushed = pushed + change;
             sum += contact.normal * change;
         }
         newImpulses[size_t(active.slot)] = sum;
     }
 }
 
-// Friction, and all of it into the state.
+// Friction, how far all of it moves the spheres, and what part of the pushes' speed they are to keep.
 void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& step) {
     for (const Active& active : piece.active) {
-        const vec3 own = velocity(active.slot);
-        vec3 sum = impulses[size_t(active.slot)], shift(0);
+        const auto slot = size_t(active.slot);
+        vec3 sum = impulses[slot], bounce(0), rest(0);
+        const vec3 own = velocity(active.slot, sum);
         for (int c = active.begin; c < active.end; ++c) {
             const Contact& contact = piece.contacts[size_t(c)];
-            const vec3 relative = own - velocity(contact.other);
+            const vec3 relative = own - velocity(contact.other, impulses[size_t(contact.other)]);
             const vec3 along = relative - contact.normal * glm::dot(relative, contact.normal);
             const float slip = glm::length(along);
-            const float grip = std::min(step.friction * contact.pushed, contact.share * slip);
+            const int crowd = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
+            const float grip = std::min(step.friction * contact.pushed, slip * contact.mass / float(crowd));
             const vec3 rub = along * (-grip / std::max(slip, 1e-30f));
             sum += rub;
-            shift +=
-                (contact.normal * contact.pushed + rub) * contact.since + contact.normal * contact.settled;
+            bounce += (contact.normal * contact.pushed + rub) * contact.since;
+            rest += contact.normal * contact.push;
         }
-        const auto sphere = size_t(sphereOf[size_t(active.slot)]);
-        const float weight = motions[size_t(active.slot)].weight;
-        state.velocities[sphere] += sum * weight;
-        state.positions[sphere] += shift * weight;
+        newImpulses[slot] = sum;
+        shifts[slot] = bounce + rest;
+        const vec3 change = rest * (motions[slot].weight / step.stepTime);
+        const float square = glm::dot(change, change);
+        kept[slot] = square > 0 ? std::clamp(-glm::dot(own, change) / square, 0.0f, 1.0f) : 0.0f;
+    }
+}
+
+void ContactYardstick::Data::apply(Piece& piece, const ContactYardstickStep& step) {
+    for (const Active& active : piece.active) {
+        const auto slot = size_t(active.slot);
+        vec3 sum = newImpulses[slot];
+        for (int c = active.begin; c < active.end; ++c) {
+            const Contact& contact = piece.contacts[size_t(c)];
+            const float part = std::min(kept[slot], kept[size_t(contact.other)]);
+            sum += contact.normal * (contact.push / step.stepTime * part);
+        }
+        const auto sphere = size_t(sphereOf[slot]);
+        state.velocities[sphere] += sum * motions[slot].weight;
+        state.positions[sphere] += shifts[slot] * motions[slot].weight;
     }
 }
 
@@ -335,12 +388,16 @@ void ContactYardstick::step(const ContactYardstickStep& step) {
     Data& data = *data_;
     data.buildGrid();
     data.each([&](int thread, Piece& piece) { data.find(thread, piece); });
+    data.each([&](int, Piece& piece) { data.know(piece, step); });
     data.each([&](int, Piece& piece) { data.startPushing(piece, step); });
     for (int i = 0; i < step.iterations; ++i) {
-        data.each([&](int, Piece& piece) { data.relax(piece); });
+        const float momentum = i == 0 ? 0.0f : float(i) / float(i + 3);
+        data.each([&](int, Piece& piece) { data.relax(piece, momentum); });
+        data.earlierImpulses.swap(data.impulses);
         data.impulses.swap(data.newImpulses);
     }
     data.each([&](int, Piece& piece) { data.settle(piece, step); });
+    data.each([&](int, Piece& piece) { data.apply(piece, step); });
 }
 
 std::vector<std::pair<int, int>> ContactYardstick::found() const {
