@@ -186,6 +186,21 @@ def flake():
           {"color": [0.9, 0.93, 1.0], "secondColor": [0.75, 0.82, 0.95], "translucency": 0.5, "roughness": 0.4})
 
 
+def berry():
+    """Four balls of 16 mm, their middles 12 mm apart: a contact radius of 8 mm is just what is drawn."""
+    side = 0.012 / math.sqrt(8)
+    corners = [(1, 1, 1), (1, -1, -1), (-1, 1, -1), (-1, -1, 1)]
+    write("berry", "A sweet of four balls that overlap: drawn as spheres, 16 mm across.",
+          {"mass": 0.0015, "stiffness": 2000, "damping": 0.5},
+          [vertex([side * c for c in corner]) for corner in corners], springs(itertools.combinations(range(4), 2)),
+          material={"color": [0.6, 0.03, 0.03], "roughness": 0.25, "pointSize": 0.016})
+
+
+def snow():
+    write("snow", "A grain of snow, drawn as a sphere 3.4 cm across: a little wider than the contact radius of 15 mm that suits it.", {"mass": 0.002}, [vertex((0, 0, 0))],
+          material={"color": [0.86, 0.88, 0.92], "secondColor": [0.8, 0.84, 0.9], "roughness": 1, "pointSize": 0.034})
+
+
 if __name__ == "__main__":
-    for make in (point, quad, leaf, cross, cross_braced, fish, flake):
+    for make in (point, quad, leaf, cross, cross_braced, fish, flake, berry, snow):
         make()

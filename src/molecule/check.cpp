@@ -54,11 +54,14 @@ class Checker {
         for (const Triangle& t : m_.triangles)
             for (const int corner : {t.a, t.b, t.c})
                 drawn[size_t(corner)] = true;
+        // Drawn and nothing else: pins() says it once.
+        const bool still = m_.springs.empty() && std::all_of(m_.vertices.begin(), m_.vertices.end(),
+                                                             [](const Vertex& v) { return v.pinned; });
         for (size_t i = 0; i < m_.vertices.size(); ++i) {
-            if (!sprung[i] && m_.vertices[i].pinned)
+            if (!sprung[i] && m_.vertices[i].pinned && !still)
                 warn(place(m_.places.vertices, i),
                      concat("vertex ", i, " is pinned but holds nothing: no spring ends at it"));
-            else if (!sprung[i])
+            else if (!sprung[i] && !still)
                 warn(place(m_.places.vertices, i), concat("vertex ", i, " is loose: no spring ends at it"));
             if (!drawn[i] && !m_.triangles.empty())
                 warn(place(m_.places.vertices, i),

@@ -101,6 +101,22 @@ TEST_CASE("frames are captured as pictures", "[cli]") {
     CHECK(member(told, "written").items[4].text == scratch.path("pictures/frame-00005.png"));
 }
 
+TEST_CASE("every shipped scene runs", "[cli]") {
+    int scenes = 0;
+    for (const std::string& file : filesIn(sourceFile("models"))) {
+        if (!file.ends_with(".scene.json")) continue;
+        ++scenes;
+        INFO(file);
+        const Outcome outcome = runShoal(
+            {"run", sourceFile("models/" + file), "--headless", "--count", "100", "--frames", "2", "--json"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        CHECK(outcome.messages().empty());
+        CHECK(member(outcome.json(), "frames").number == 2);
+    }
+    CHECK(scenes >= 4);
+}
+
 TEST_CASE("every second frame, and one picture alone", "[cli]") {
     const Scratch scratch;
     CHECK(runShoal(runWords({"--capture", scratch.path("some"), "--capture-every", "2"})).code == 0);

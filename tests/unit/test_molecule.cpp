@@ -199,7 +199,7 @@ static std::string tetrahedron(const std::string& extra, const std::string& more
 
 TEST_CASE("a braced molecule has no warnings", "[molecule]") {
     CHECK(check(parseMolecule(tetrahedron("") + "}", "f")).empty());
-    for (const char* name : {"leaf", "fish", "flake", "point"})
+    for (const char* name : {"leaf", "fish", "flake", "point", "berry", "snow"})
         CHECK(check(readMolecule(std::string(SHOAL_SOURCE_DIR) + "/molecules/" + name + ".json")).empty());
 }
 
@@ -220,6 +220,11 @@ TEST_CASE("what is probably not meant gets a warning", "[molecule]") {
                 "restLength 2 is far from the drawn distance 1"));
     CHECK_FALSE(warns(withSprings(R"({"a": 0, "b": 1, "restLength": 1.05})"), "restLength"));
     CHECK(warns(withVertex(R"({"position": [0, 0, 0], "pinned": true})"), "the only vertex is pinned"));
+    const auto still = check(parseMolecule(withVertex(R"({"position": [0, 0, 0], "pinned": true},
+        {"position": [1, 0, 0], "pinned": true})"),
+                                           "f"));
+    REQUIRE(still.size() == 1);
+    CHECK(still[0].message == "every vertex is pinned: nothing can move");
     CHECK(warns(
         concat(head,
                R"("vertices": [{"position": [0, 0, 0]}, {"position": [1, 0, 0]}, {"position": [2, 0, 0]}],

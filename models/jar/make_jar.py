@@ -1,0 +1,157 @@
+"""Makes jar.obj, glass.json and table.obj: an open glass jar, 0.27 m tall, for sweets to be poured into, on a table.
+
+A profile of (radius, height), made smooth by a Catmull-Rom spline, is turned about the y axis. jar.obj is the whole
+wall, a closed shell, 8 mm thick: what molecules touch, as a distance field. glass.json is a molecule with the same
+shape, a sixteenth of its round, every vertex pinned: what is drawn, sixteen times, because materials of molecules can be
+blended and those of models cannot. table.obj are planks, their top at y = 0.
+
+Data: metres, Y up, the jar's foot at y = 0, its axis x = z = 0. Same bytes every run.
+"""
+
+import json
+import math
+import pathlib
+import sys
+
+HERE = pathlib.Path(__file__).resolve().parent
+sys.path.insert(0, str(HERE.parent))
+
+from obj_writer import ObjWriter  # noqa: E402
+from vectors import add, cross, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
+
+SIDES = 64
+PIECES = 16  # of the round, of glass
+PLANKS, PLANK = 8, 0.13  # m wide
+TABLE_LENGTH, TABLE_COLUMNS = 1.6, 40
+TABLE_FRONT = 0.45  # m, its edge towards the camera
+GLASS = (0.80, 0.88, 0.86)
+
+# From the axis at the bottom, up the outside, over the rim and down the inside to the axis.
+PROFILE = [(0.0, 0.0), (0.06, 0.0), (0.098, 0.002), (0.112, 0.010), (0.118, 0.028), (0.120, 0.06), (0.120, 0.11),
+           (0.120, 0.16), (0.119, 0.195), (0.114, 0.218), (0.105, 0.232), (0.1015, 0.242), (0.103, 0.25),
+           (0.1065, 0.256), (0.1075, 0.262), (0.1055, 0.268), (0.101, 0.27), (0.097, 0.268), (0.0945, 0.262),
+           (0.0935, 0.25), (0.094, 0.238), (0.099, 0.225), (0.107, 0.211), (0.1115, 0.192), (0.112, 0.16),
+           (0.112, 0.11), (0.112, 0.06), (0.110, 0.032), (0.103, 0.018), (0.09, 0.0125), (0.05, 0.012), (0.0, 0.012)]
+
+
+def smooth(points, pieces):
+    """Catmull-Rom through the points; its ends stay on the axis."""
+    out = []
+    for i in range(len(points) - 1):
+        a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
+        for k in range(pieces):
+            t = k / pieces
+            out.append(tuple(0.5 * (2 * b[n] + (c[n] - a[n]) * t + (2 * a[n] - 5 * b[n] + 4 * c[n] - d[n]) * t * t
+                                    + (3 * b[n] - a[n] - 3 * c[n] + d[n]) * t ** 3) for n in (0, 1)))
+    out.append(points[-1])
+    return [(max(r, 0.0), y) for r, y in out]
+
+
+def lathe(profile, sides, columns):
+    """Positions and triangles of as many columns of a shell of so many sides; all of them close it. The first and the last
+    point of the profile are on the axis."""
+    rings = profile[1:-1]
+    closed = columns == sides
+    corners = columns if closed else columns + 1
+    positions = [(0.0, profile[0][1], 0.0)]
+    for r, y in rings:
+        for side in range(corners):
+            angle = 2 * math.pi * side / sides
+            positions.append((r * math.cos(angle), y, -r * math.sin(angle)))
+    positions.append((0.0, profile[-1][1], 0.0))
+    triangles = []
+    last = len(positions) - 1
+    for side in range(columns):
+        after = (side + 1) % corners
+        triangles.append((0, 1 + after, 1 + side))
+        for ring in range(len(rings) - 1):
+            a, b = 1 + ring * corners, 1 + (ring + 1) * corners
+            triangles += [(a + side, a + after, b + after), (a + side, b + after, b + side)]
+        top = 1 + (len(rings) - 1) * corners
+        triangles.append((last, top + side, top + after))
+    return positions, triangles
+
+
+def normals_of(positions, triangles):
+    sums = [(0.0, 0.0, 0.0)] * len(positions)
+    for t in triangles:
+        n = cross(sub(positions[t[1]], positions[t[0]]), sub(positions[t[2]], positions[t[0]]))
+        for v in t:
+            sums[v] = add(sums[v], n)
+    return [normalize(n) for n in sums]
+
+
+def write_mesh():
+    positions, triangles = lathe(smooth(PROFILE, 2), SIDES, SIDES)
+    writer = ObjWriter(["A glass jar, by make_jar.py. Metres, Y up; one closed shell. MIT licence."])
+    writer.begin_object("jar")
+    numbers = [writer.add_vertex(p, n, GLASS) for p, n in zip(positions, normals_of(positions, triangles))]
+    uv = writer.uv(0, 0)
+    for t in triangles:
+        writer.add_triangle(*((numbers[v], uv) for v in t))
+    writer.save(HERE / "jar.obj")
+    print("jar.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
+
+
+def wood(x, z, plank):
+    """Bright and dark layers of the wood along x, wider in the plank's middle; a colour a plank."""
+    tone = noise((plank * 3.7, 0.5, 0.5), 3)
+    base = mix((0.50, 0.33, 0.20), (0.60, 0.42, 0.27), 0.5 + 0.5 * tone)
+    layers = z * 260 + 3.0 * noise((2.2 * x + 9.1 * plank, 0.5, 9 * z), 4)
+    dark = smoothstep(-0.2, 0.8, noise((0.6 * x, plank, layers), 5))
+    return scale(mix(base, scale(base, 0.68), dark), 1 + 0.05 * noise((6 * x, plank, 180 * z), 6))
+
+
+def write_table():
+    """Planks along x: their edges are worn, so that the gaps between them show."""
+    writer = ObjWriter(["A table of planks, by make_jar.py. Metres, Y up; v: x y z r g b (sRGB). MIT licence."])
+    writer.begin_object("table")
+    uv = writer.uv(0, 0)
+    across = [(0.0, -0.004), (0.0015, -0.0008), (0.004, 0.0)]
+    middle = [0.004 + (PLANK - 0.008) * i / 26 for i in range(1, 26)]
+    profile = across + [(z, 0.0) for z in middle] + [(PLANK - z, y) for z, y in reversed(across)]
+    for plank in range(PLANKS):
+        rows = []
+        for column in range(TABLE_COLUMNS + 1):
+            x = TABLE_LENGTH * (column / TABLE_COLUMNS - 0.5)
+            row = []
+            for z, y in profile:
+                tilt = (0.0, 1.0, 0.0) if y == 0 else normalize((0.0, 1.0, math.copysign(1.0, z - PLANK / 2)))
+                colour = scale(wood(x, z, plank), 1.0 if y == 0 else 0.75 if y > -0.002 else 0.35)
+                place = TABLE_FRONT - (PLANKS - plank) * PLANK + z
+                row.append(writer.add_vertex((x, y, place), tilt, colour))
+            rows.append(row)
+        for a, b in zip(rows, rows[1:]):
+            for i in range(len(profile) - 1):
+                writer.add_triangle((a[i], uv), (a[i + 1], uv), (b[i + 1], uv))
+                writer.add_triangle((a[i], uv), (b[i + 1], uv), (b[i], uv))
+    writer.save(HERE / "table.obj")
+    print("table.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
+
+
+def write_glass():
+    positions, triangles = lathe(PROFILE, SIDES, SIDES // PIECES)
+    rows = ",\n    ".join(json.dumps({"position": [round(c, 5) + 0.0 for c in p], "pinned": True}) for p in positions)
+    faces = ",\n    ".join(json.dumps(t) for t in triangles)
+    text = """{
+  "format": "shoal-molecule-1",
+  "name": "glass",
+  "comment": "A sixteenth of the jar as it is drawn, by make_jar.py. Every vertex is pinned.",
+  "defaults": {"mass": 0.001},
+  "vertices": [
+    %s
+  ],
+  "triangles": [
+    %s
+  ],
+  "material": {"color": [0.75, 0.9, 0.9], "roughness": 0.25, "blend": "alpha", "opacity": 0.07}
+}
+""" % (rows, faces)
+    (HERE / "glass.json").write_text(text)
+    print("glass.json: %d vertices, %d triangles" % (len(positions), len(triangles)))
+
+
+if __name__ == "__main__":
+    write_mesh()
+    write_glass()
+    write_table()
