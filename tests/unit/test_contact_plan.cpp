@@ -82,16 +82,15 @@ TEST_CASE("the largest gap of a triangle is that of its circumcircle", "[contact
 
 TEST_CASE("contact's mistakes are told", "[contact plan]") {
     Scene scene = leavesOf(0.1);
-    scene.contact.cell = 0.5;
-    CHECK(test::messageOf([&] { compile(scene); }).find("do not hold spheres of radius") !=
-          std::string::npos);
+    scene.contact.cell = 0.3;
+    CHECK(messageOf([&] { compile(scene); }).find("do not hold spheres of radius") != std::string::npos);
     const test::Scratch scratch;
     const auto complaint = [&](const std::string& contact, const std::string& settings = "") {
         std::string text = test::smallScene;
         const std::string after = "\"collide\": false";
         text.insert(text.find(after) + after.size(), ", \"contact\": " + contact);
         if (!settings.empty()) text.insert(1, "\"contact\": " + settings + ",");
-        return test::messageOf([&] { readScene(test::writeSmallScene(scratch, text)); });
+        return messageOf([&] { readScene(test::writeSmallScene(scratch, text)); });
     };
     CHECK(complaint("{}").find("radius") != std::string::npos);
     CHECK(complaint("{\"radius\": 0}").find("at least 1e-09") != std::string::npos);
