@@ -1,59 +1,10 @@
-// A lane a slot: the list of the spheres that it touches. Cells are two diameters wide, so that of the 27 around a sphere
-// only the eight on its side can hold one that it touches.
-//
-// A rasteriser on a CPU runs both sides of a branch, but leaves a loop when no lane stays in it: what is rare is the body
-// of a loop here, and the eight cells are one loop.
-#include "contact/records.glsl"
-#include "contact/touch.glsl"
-
-uniform usamplerBuffer starts;
-uniform float reach;  // m, twice the largest radius
-
-// Of the eight cells; bit a of c: the further one along axis a.
-ivec3 cellBeside(ivec3 side, int c)
-{
-    return ownCell + side * ivec3(c & 1, (c >> 1) & 1, c >> 2);
-}
+// A lane a slot: the list of the spheres that it touches.
+#include "contact/search.glsl"
 
 void main()
 {
     bool inside = int(gl_GlobalInvocationID.x) < count;
     int slot = min(int(gl_GlobalInvocationID.x), count - 1);
-    loadOwn(slot);
-    vec3 offset = ownPlace - vec3(ownCell & (localCells - 1)) * cell;
-    ivec3 side = ivec3(step(vec3(0.5 * cell), offset)) * 2 - 1;
-    // candidate i of cell c, with ends[c - 1] <= i < ends[c], is in slot i + shifts[c]
-    int shifts[8];
-    int ends[8];
-    int sum = 0;
-    for (int c = 0; c < 8; ++c) {
-        int key = int(cellKey(cellBeside(side, c), uint(keyMask)));
-        int first = int(texelFetch(starts, key).x);
-        shifts[c] = first - sum;
-        sum += int(texelFetch(starts, key + 1).x) - first;
-        ends[c] = sum;
-    }
-    float reachSquared = reach * reach;
-    int i = 0;
-    while (i < sum) {
-        bool hit = false;
-        int other = 0;
-        while (i < sum && !hit) {
-            int shift = shifts[7];
-            for (int c = 6; c >= 0; --c) shift = i < ends[c] ? shifts[c] : shift;
-            other = i + shift;
-            uvec4 place = texelFetch(places, other);
-            vec3 d = localDifference(ownPlace, uintBitsToFloat(place.xyz), cell);
-            hit = dot(d, d) < reachSquared && mayMeet(place.w, other);
-            ++i;
-        }
-        while (hit) {
-            // cells may share keys, and places repeat
-            int c = 0;
-            for (int k = 0; k < 7; ++k) c += int(i > ends[k]);
-            if (cellOf(other) == cellBeside(side, c)) meet(other);
-            hit = false;
-        }
-    }
+    search(slot);
     if (inside) finish(slot);
 }

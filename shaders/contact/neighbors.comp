@@ -38,9 +38,7 @@ void main()
         int at = place + k;
         if (inside && k != 0 && at >= 0 && at < count) {
             int other = slotAt(at);
-            // places repeat: only of cells next to each other
-            ivec3 apart = abs(cellOf(other) - ownCell);
-            if (mayMeet(texelFetch(places, other).w, other) && max(apart.x, max(apart.y, apart.z)) <= 1
+            if (isCandidate(other)
 #ifdef STAGGERED
                 && !listed(other)
 #endif

@@ -4,19 +4,36 @@
 //   cells    by slot: xyz cell, w radius as bits
 //   sorted   by slot: x key of its cell, y sphere
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
+//
+// With TEXTURES motions are by slot as well, and nothing here needs the spheres' numbers.
+#include "contact/reading.glsl"
 #include "physics/cells.glsl"
-
-layout(local_size_x = 64) in;
 
 uniform int count;     // spheres
 uniform int keyMask;   // of the table of cells
 uniform float cell;    // m
-uniform usamplerBuffer places;
+uniform UINTS places;
+uniform UINTS motions;
+uniform UINTS cells;
+
+#ifdef TEXTURES
+// Where the motion of a slot is.
+int motionOf(int slot)
+{
+    return slot;
+}
+#else
+layout(local_size_x = 64) in;
+
 uniform usamplerBuffer sorted;
-uniform usamplerBuffer motions;
-uniform usamplerBuffer cells;
 
 int sphereOf(int slot)
 {
     return int(texelFetch(sorted, slot).y);
 }
+
+int motionOf(int slot)
+{
+    return sphereOf(slot);
+}
+#endif

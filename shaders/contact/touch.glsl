@@ -1,5 +1,7 @@
-// The list of a slot's contacts: entry e of slot s is lists[e * listStride + s]. Needs contact/records.glsl.
-// Set by C++: LIST, entries of a slot.
+// The list of a slot's contacts (contact/lists.glsl), while it is made. Needs contact/records.glsl.
+#ifdef TEXTURES
+uvec4 entries[LIST / 4];
+#else
 layout(std430, binding = 0) buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Counts { uint counts[]; };
 // The slots that touch something, in no particular order: what is done for each depends on nothing but itself. The first
@@ -7,6 +9,7 @@ layout(std430, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
 
 uniform int listStride;
+#endif
 #ifdef SELF
 uniform usamplerBuffer apart;    // ContactGroup::apart
 uniform usamplerBuffer groupsOf;  // x first sphere, y spheres of a molecule, z first word, w words of a sphere; 0: none
@@ -21,18 +24,18 @@ int found = 0;
 
 void loadOwn(int slot)
 {
-    uvec4 place = texelFetch(places, slot);
+    uvec4 place = fetch(places, slot);
     ownSlot = slot;
     ownPlace = uintBitsToFloat(place.xyz);
     ownLabel = place.w;
-    uvec4 own = texelFetch(cells, slot);
+    uvec4 own = fetch(cells, slot);
     ownCell = ivec3(own.xyz);
     ownRadius = uintBitsToFloat(own.w);
 }
 
 ivec3 cellOf(int slot)
 {
-    return ivec3(texelFetch(cells, slot).xyz);
+    return ivec3(fetch(cells, slot).xyz);
 }
 
 // Whether spheres of this label are to be looked at.
@@ -58,21 +61,38 @@ bool mayMeetSelf(int slot)
 }
 #endif
 
+// Of a neighbour in the order of the keys. Places repeat: only of cells next to each other.
+bool isCandidate(int slot)
+{
+    ivec3 apart = abs(cellOf(slot) - ownCell);
+    return mayMeet(fetch(places, slot).w, slot) && max(apart.x, max(apart.y, apart.z)) <= 1;
+}
+
+void take(int slot)
+{
+#ifdef TEXTURES
+    entries[found >> 2][found & 3] = uint(slot);
+#else
+    lists[found * listStride + ownSlot] = uint(slot);
+#endif
+}
+
 // Takes the sphere into the list if it touches.
 void meet(int slot)
 {
-    vec3 d = localDifference(ownPlace, uintBitsToFloat(texelFetch(places, slot).xyz), cell);
-    float reach = ownRadius + uintBitsToFloat(texelFetch(cells, slot).w);
-    bool touches = dot(d, d) < reach * reach;
+    vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
+    float limit = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    bool touches = dot(d, d) < limit * limit;
 #ifdef SELF
-    if (touches && texelFetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
+    if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
 #endif
     if (touches) {
-        if (found < LIST) lists[found * listStride + ownSlot] = uint(slot);
+        if (found < LIST) take(slot);
         ++found;
     }
 }
 
+#ifndef TEXTURES
 void finish(int slot)
 {
     counts[slot] = uint(found);
@@ -89,3 +109,4 @@ void finish(int slot)
         touches = false;
     }
 }
+#endif

@@ -1,17 +1,17 @@
 // Velocities of slots in contact, as the totals of the impulses make them: `impulses` of the last iteration, `earlier` of
 // the one before, from which the next goes on beyond the last by `momentum` (Nesterov).
 #ifdef TRIANGLES
-uniform samplerBuffer velocities;  // written by contact/spread.comp
+uniform FLOATS velocities;  // written by contact/spread.comp
 #endif
-uniform samplerBuffer impulses;
-uniform samplerBuffer earlier;
+uniform FLOATS impulses;
+uniform FLOATS earlier;
 uniform float momentum;
 
 vec3 impulseOf(int slot)
 {
-    vec3 impulse = texelFetch(impulses, slot).xyz;
+    vec3 impulse = fetch(impulses, slot).xyz;
 #ifdef RELAX
-    impulse += (impulse - texelFetch(earlier, slot).xyz) * momentum;
+    impulse += (impulse - fetch(earlier, slot).xyz) * momentum;
 #endif
     return impulse;
 }
@@ -19,7 +19,7 @@ vec3 impulseOf(int slot)
 vec3 velocityOf(int slot, vec3 start, float weight)
 {
 #ifdef TRIANGLES
-    return texelFetch(velocities, slot).xyz;
+    return fetch(velocities, slot).xyz;
 #else
     return start + impulseOf(slot) * weight;
 #endif

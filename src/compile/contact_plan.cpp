@@ -107,6 +107,11 @@ const char* name(ContactResponse response) {
     return names[size_t(response)];
 }
 
+bool ContactPlan::onlyOfVertices() const {
+    return std::none_of(groups.begin(), groups.end(),
+                        [](const ContactGroup& group) { return group.triangles || group.self; });
+}
+
 double ContactPlan::safeSpeed(double frameTime) const {
     double least = largestRadius;
     for (const ContactGroup& group : groups)

@@ -51,6 +51,11 @@ struct ContactPlan {
     std::vector<double> wallFriction;
 
     bool any() const { return !groups.empty(); }
+    // The ping-pong path's textures have rows of 2^rowBits texels, so that the table of cells is a square or
+    // two.
+    int rowBits() const { return (tableBits + 1) / 2; }
+    // All that the ping-pong path has: no spheres on triangles, no contact within a molecule.
+    bool onlyOfVertices() const;
     // Substeps of contact step i: the frame's, as evenly as can be.
     static int substepsOf(int step, int steps, int substeps) {
         return substeps * (step + 1) / steps - substeps * step / steps;

@@ -37,19 +37,37 @@ void checkTables(const Plan& plan, const PathLimits& limits) {
     check(plan.sampleRows, "the grids and height fields");
 }
 
+// Contact's tables, too, and only between spheres at vertices.
+void checkContact(const Plan& plan, const PathLimits& limits) {
+    const ContactPlan& contact = plan.contact;
+    for (const ContactGroup& group : contact.groups)
+        if (group.triangles || group.self)
+            throw Error(plan.groups[group.group].location,
+                        concat(group.triangles ? "contact spheres on triangles" : "contact within a molecule",
+                               ", which \"", plan.groups[group.group].name,
+                               "\" asks for, needs the fused path (OpenGL 4.3); the ping-pong path has "
+                               "contact of vertices between molecules"));
+    if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
+    int bits = contact.tableBits;
+    while (1 << ((bits + 1) / 2) > limits.maxTextureSize)
+        --bits;
+    throw Error(
+        contact.settings.location,
+        concat("contact between ", contact.spheres,
+               " spheres is more than this context holds on the ping-pong path: at most ", 1 << (bits - 1)));
+}
+
 void checkPingPong(const Plan& plan, const PathLimits& limits) {
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
                            name(plan.fieldSampling), " needs the fused path"));
-    if (plan.contact.any())
-        throw Error(plan.groups[plan.contact.groups.front().group].location,
-                    "contact between molecules needs the fused path (OpenGL 4.3)");
     for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
             throw Error(group.location,
                         concat(name(group.solver), ", which \"", group.name,
                                "\" takes, needs the fused path (OpenGL 4.3); the explicit solvers "
                                "run on the ping-pong path as well"));
+    checkContact(plan, limits);
     checkTextures(plan, limits);
 }
 

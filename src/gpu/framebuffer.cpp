@@ -9,8 +9,8 @@
 namespace shoal::gpu {
 
 static const char* word(Format format) {
-    static constexpr const char* words[] = {"rgba32f", "rgba16f", "rgba8",   "srgb8a8",
-                                            "r32f",    "depth24", "depth32f"};
+    static constexpr const char* words[] = {"rgba32f", "rgba16f", "rgba8", "srgb8a8", "rgba32ui",
+                                            "rg32ui",  "r32ui",   "r32f",  "depth24", "depth32f"};
     return words[static_cast<size_t>(format)];
 }
 
@@ -40,8 +40,11 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
                          const char* label)
     : label_(label) {
     assert(!colors.empty() || depth != nullptr);
-    if (static_cast<int>(colors.size()) > context.info().maxColorAttachments) {
-        throw Error(concat("framebuffer \"", label, "\" draws into ", colors.size(),
+    int drawn = 0;
+    for (const Texture* color : colors)
+        drawn += std::max(color->layers(), 1);
+    if (drawn > context.info().maxColorAttachments) {
+        throw Error(concat("framebuffer \"", label, "\" draws into ", drawn,
                            " textures at once: this context allows ", context.info().maxColorAttachments));
     }
     const Texture& first = colors.empty() ? *depth : *colors.front();
@@ -52,9 +55,14 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
     std::vector<GLenum> drawBuffers;
     for (const Texture* color : colors) {
         assert(color->width() == width_ && color->height() == height_ && !isDepth(color->format()));
-        const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
-        glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
-        drawBuffers.push_back(attachment);
+        for (int layer = 0; layer < std::max(color->layers(), 1); ++layer) {
+            const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
+            if (color->layers() > 0)
+                glFramebufferTextureLayer(GL_FRAMEBUFFER, attachment, color->id(), 0, layer);
+            else
+                glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
+            drawBuffers.push_back(attachment);
+        }
         attachments += concat(attachments.empty() ? "" : " + ", word(color->format()));
     }
     if (depth != nullptr) {

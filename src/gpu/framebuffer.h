@@ -13,8 +13,8 @@ namespace shoal::gpu {
 class Framebuffer {
   public:
     Framebuffer() = default;
-    // Colour textures become draw buffers 0, 1, … in order; `depth` may be null; there may be no colours.
-    // Error: this driver cannot draw into such a set; says into which.
+    // Colour textures become draw buffers 0, 1, … in order, each layer one; `depth` may be null; there may be
+    // no colours. Error: this driver cannot draw into such a set; says into which.
     Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth = nullptr,
                 const char* label = "");
     // Renderbuffers with several samples a pixel (reduced to what the context has), to be blitted.

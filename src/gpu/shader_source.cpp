@@ -237,8 +237,10 @@ const char* header300es() {
            "precision highp float;\n"
            "precision highp int;\n"
            "precision highp sampler2D;\n"
+           "precision highp sampler2DShadow;\n"
+           "precision highp sampler2DArray;\n"
            "precision highp usampler2D;\n"
-           "precision highp sampler2DShadow;\n";
+           "precision highp usampler2DArray;\n";
 }
 
 // Every word between `keyword` and the end of its declaration.

@@ -21,6 +21,7 @@ constexpr FormatRow formatTable[] = {
     {Format::srgb8a8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
     {Format::rgba32ui, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
     {Format::rg32ui, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
+    {Format::r32ui, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
     {Format::r32f, GL_R32F, GL_RED, GL_FLOAT, 4},
     {Format::depth24, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
     {Format::depth32f, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
@@ -64,10 +65,19 @@ GLenum internalFormat(Format format) {
     return row(format).internal;
 }
 
-Texture::Texture(Context& context, Format format, int width, int height, const char* label)
-    : traffic_(&context.traffic()), format_(format), width_(width), height_(height), label_(label) {
-    assert(width > 0 && height > 0);
-    const double mebibytes = double(width) * double(height) * double(texelBytes(format)) / (1 << 20);
+GLenum Texture::target() const {
+    return layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+}
+
+Texture::Texture(Context& context, Format format, int width, int height, const char* label, int layers)
+    : traffic_(&context.traffic()),
+      format_(format),
+      width_(width),
+      height_(height),
+      layers_(layers),
+      label_(label) {
+    assert(width > 0 && height > 0 && layers >= 0);
+    const double mebibytes = double(bytes()) / (1 << 20);
     const std::string what =
         concat("texture \"", label, "\" of ", width, " x ", height, " texels (", mebibytes, " MiB)");
     const int largest = context.info().maxTextureSize;
@@ -78,22 +88,25 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
     GLuint id = 0;
     glGenTextures(1, &id);
     handle_ = Handle<deleteTexture>(id);
-    glBindTexture(GL_TEXTURE_2D, id);
+    glBindTexture(target(), id);
     const FormatRow& storage = row(format);
-    glTexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(storage.internal), width, height, 0, storage.layout,
-                 storage.type, nullptr);
+    const auto internal = static_cast<GLint>(storage.internal);
+    if (layers > 0)
+        glTexImage3D(target(), 0, internal, width, height, layers, 0, storage.layout, storage.type, nullptr);
+    else
+        glTexImage2D(target(), 0, internal, width, height, 0, storage.layout, storage.type, nullptr);
     if (glGetError() != GL_NO_ERROR) throw Error(what + " does not fit into the memory of this context");
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target(), GL_TEXTURE_MAX_LEVEL, 0);
+    glTexParameteri(target(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(target(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexParameteri(target(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    glTexParameteri(target(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     labelObject(context, GL_TEXTURE, id, label);
 }
 
 void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes) {
     assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
-    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_));
+    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layers_ == 0);
     const FormatRow& storage = row(format_);
     glBindTexture(GL_TEXTURE_2D, id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -101,13 +114,17 @@ void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void*
     traffic_->countUpload(kind, bytes);
 }
 
-void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes) const {
+void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes,
+                       int layer) const {
     assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
     assert(bytes == size_t(w) * size_t(h) * texelBytes(format_));
     const FormatRow& storage = row(format_);
     const ReadingFramebuffer framebuffer;
-    glFramebufferTexture2D(GL_READ_FRAMEBUFFER, isDepth(format_) ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0,
-                           GL_TEXTURE_2D, id(), 0);
+    const GLenum attachment = isDepth(format_) ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
+    if (layers_ > 0)
+        glFramebufferTextureLayer(GL_READ_FRAMEBUFFER, attachment, id(), 0, layer);
+    else
+        glFramebufferTexture2D(GL_READ_FRAMEBUFFER, attachment, GL_TEXTURE_2D, id(), 0);
     glReadBuffer(isDepth(format_) ? GL_NONE : GL_COLOR_ATTACHMENT0);
     if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
         throw Error("texture \"" + label_ +
@@ -144,7 +161,7 @@ void Texture::setShadowCompare() {
 
 void Texture::bind(int unit) const {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
-    glBindTexture(GL_TEXTURE_2D, id());
+    glBindTexture(target(), id());
 }
 
 }  // namespace shoal::gpu

@@ -180,18 +180,6 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
                                                                       : part.count);
 }
 
-// Contact step i of a frame that is cut into `steps`.
-static Frame pieceOf(const Frame& frame, int i, int steps) {
-    const int substeps = frame.parameters.substeps;
-    Frame out = frame;
-    out.time = frame.time + frame.h * (substeps * i / steps);
-    out.number = frame.number * steps + i;  // random numbers differ
-    out.parameters.substeps = ContactPlan::substepsOf(i, steps, substeps);
-    out.parameters.frameTime = frame.h * out.parameters.substeps;
-    out.restarts = frame.restarts && i == 0;
-    return out;
-}
-
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     if (!contact_) return run(frame, timers);
     const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);

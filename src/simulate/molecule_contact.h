@@ -23,13 +23,14 @@
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
+#include "simulate/contact_result.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
 
-class MoleculeContact {
+class MoleculeContact : public ContactResult {
   public:
     // Borrows the plan and the tables. Error: more spheres than the context can hold, with how many it can;
     // out of memory.
@@ -40,12 +41,9 @@ class MoleculeContact {
     // `frame`: the substeps since the last contact step.
     void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
-    // Contacts that were left out, of all steps so far, because a sphere touched more than a list holds.
-    uint32_t dropped() const;
-    // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
-    // ascending. For tests and reports: reads the lists back.
-    std::vector<std::pair<int, int>> found() const;
-    size_t bytes() const;
+    uint32_t dropped() const override;
+    std::vector<std::pair<int, int>> found() const override;
+    size_t bytes() const override;
 
   private:
     // A buffer and how shaders read it.

@@ -82,6 +82,8 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
             program.set("colliderParameters",
                         std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
+    if (plan.contact.any())
+        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, cache);
 }
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {
@@ -92,17 +94,29 @@ void PingPong::computeNormals(gpu::PassTimers& timers) {
             runPass(pass, {0, 0, true, still}, timers);
 }
 
+void PingPong::run(PassPlan::When when, const Step& step, gpu::PassTimers& timers) {
+    for (const PassPlan& pass : plan_->passes)
+        if (pass.when == when && pass.kind != PassKind::watch) runPass(pass, step, timers);
+}
+
+void PingPong::runSubsteps(const Frame& frame, gpu::PassTimers& timers) {
+    run(PassPlan::When::frameStart, {frame.time, frame.h, true, frame}, timers);
+    for (int i = 0; i < frame.parameters.substeps; ++i)
+        run(PassPlan::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame}, timers);
+}
+
 void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
     drawPlainly();
-    const auto run = [&](PassPlan::When when, const Step& step) {
-        for (const PassPlan& pass : plan_->passes)
-            if (pass.when == when && pass.kind != PassKind::watch) runPass(pass, step, timers);
-    };
-    run(PassPlan::When::frameStart, {frame.time, frame.h, true, frame});
-    for (int i = 0; i < frame.parameters.substeps; ++i)
-        run(PassPlan::When::substep, {frame.time + i * frame.h, frame.h, i == 0, frame});
+    if (!contact_) runSubsteps(frame, timers);
+    const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
+    for (int i = 0; i < steps; ++i) {
+        const Frame piece = pieceOf(frame, i, steps);
+        runSubsteps(piece, timers);  // contact moves what springs had been evaluated at
+        contact_->step(piece, state, timers);
+    }
     if (drawn_)
-        run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame});
+        run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame},
+            timers);
     if (query_) watch(timers);
 }
 

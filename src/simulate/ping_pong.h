@@ -1,8 +1,11 @@
 // The ping-pong path (OpenGL 3.3): fragment passes over state textures, read one side, draw into the other,
-// swap. Layout: simulate/texture_state.h. The passes of a frame: Plan::passes.
+// swap. Layout: simulate/texture_state.h. The passes of a frame: Plan::passes. Contact between molecules cuts
+// the frame into contact steps: some of its substeps, then the passes of contact
+// (simulate/texture_contact.h).
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "gpu/program.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
+#include "simulate/texture_contact.h"
 #include "simulate/texture_state.h"
 
 namespace shoal {
@@ -29,6 +33,7 @@ class PingPong {
     // Whether the last frame since disarm() left a state that ran away; waits for it, and reads 4 bytes.
     bool alarmed() const;
     void disarm() { asked_ = false; }
+    const TextureContact* contact() const { return contact_.get(); }  // null: there is none
 
     TextureState state;
 
@@ -40,6 +45,8 @@ class PingPong {
         bool first;   // of the frame
         const Frame& frame;
     };
+    void run(PassPlan::When when, const Step& step, gpu::PassTimers& timers);
+    void runSubsteps(const Frame& frame, gpu::PassTimers& timers);  // and what is before them
     void runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers);
     void records(const GroupPlan& group, size_t index, const Step& step);
     void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
@@ -63,6 +70,7 @@ class PingPong {
     gpu::Handle<gpu::deleteQuery> query_;  // where watched
     gpu::Traffic* traffic_;                // the context's
     bool asked_ = false;                   // the query has been put
+    std::unique_ptr<TextureContact> contact_;
 };
 
 }  // namespace shoal

@@ -40,7 +40,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {
         // what the other path does not have
-        if (plan_.contact.any()) throw;
+        if (!plan_.contact.onlyOfVertices()) throw;
         for (const GroupPlan& group : plan_.groups)
             if (solver(group.solver).implicit) throw;
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
@@ -107,9 +107,9 @@ Lanes Simulation::lanes(size_t group) const {
     return fused ? fused->lanes(group) : Lanes::automatic;
 }
 
-const MoleculeContact* Simulation::contact() const {
-    const auto* fused = std::get_if<Fused>(&path_);
-    return fused ? fused->contact() : nullptr;
+const ContactResult* Simulation::contact() const {
+    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->contact();
+    return std::get<PingPong>(path_).contact();
 }
 
 StateView Simulation::state() const {

@@ -76,7 +76,7 @@ class Simulation {
     gpu::PassTimers& timers() { return timers_; }
     gpu::Context& context() const { return *context_; }
     // Of molecules with one another; null: there is none.
-    const MoleculeContact* contact() const;
+    const ContactResult* contact() const;
     // What was done otherwise than asked, such as one side instead of two for want of memory.
     const std::vector<Warning>& warnings() const { return warnings_; }
 

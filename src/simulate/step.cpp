@@ -5,6 +5,17 @@
 
 namespace shoal {
 
+Frame pieceOf(const Frame& frame, int i, int steps) {
+    const int substeps = frame.parameters.substeps;
+    Frame out = frame;
+    out.time = frame.time + frame.h * (substeps * i / steps);
+    out.number = frame.number * steps + i;  // random numbers differ
+    out.parameters.substeps = ContactPlan::substepsOf(i, steps, substeps);
+    out.parameters.frameTime = frame.h * out.parameters.substeps;
+    out.restarts = frame.restarts && i == 0;
+    return out;
+}
+
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h) {
     const double across = group.drag.normal * parameters.drag, along = group.drag.tangent * parameters.drag;
     const bool slips = group.solver == SolverKind::leapfrog && std::min(across, along) * h > slipFrom;

@@ -16,6 +16,9 @@ struct Frame {
     bool restarts = false;  // the substep differs from the last one's: solvers with history start anew
 };
 
+// Contact step i of a frame that contact between molecules cuts into `steps`.
+Frame pieceOf(const Frame& frame, int i, int steps);
+
 // Exact drag over h across (x) and along (y) the surface: decay = 1 - exp(-gamma h), phi = decay / gamma (h
 // where gamma = 0); in double, where the difference to h still counts.
 //

@@ -1,4 +1,4 @@
-// Contact of molecules with one another, against closed forms and brute force.
+// Contact of molecules with one another, against closed forms and brute force, on both paths.
 #include <algorithm>
 #include <random>
 
@@ -14,6 +14,17 @@ using glm::vec2;
 
 namespace {
 
+// That the context can run.
+std::vector<Path> paths() {
+    if (testContext().info().computeShaders) return {Path::fused, Path::pingPong};
+    return {Path::pingPong};
+}
+
+Simulation simulationOn(Path path, Plan plan, bool drawn = false) {
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", std::move(plan),
+                      {.drawn = drawn, .path = path});
+}
+
 // Points of some masses, each with contact of one radius, in no gravity.
 Scene marbles(const std::vector<dvec3>& positions, double radius, double mass = 1) {
     std::vector<test::Item> items;
@@ -26,7 +37,8 @@ Scene marbles(const std::vector<dvec3>& positions, double radius, double mass = 
 }
 
 // With these velocities, group by group, and materials for all pairs of groups.
-Simulation startedWith(const Scene& scene, const std::vector<dvec3>& velocities, vec2 material) {
+Simulation startedWith(const Scene& scene, const std::vector<dvec3>& velocities, vec2 material,
+                       Path path = paths().front()) {
     Plan plan = compile(scene);
     for (vec2& pair : plan.contact.pairs)
         pair = material;
@@ -34,7 +46,7 @@ Simulation startedWith(const Scene& scene, const std::vector<dvec3>& velocities,
     for (GroupPlan& group : plan.groups)
         for (glm::vec3& v : group.start.velocities)
             v = glm::vec3(velocities[next++]);
-    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", std::move(plan), {.drawn = false});
+    return simulationOn(path, std::move(plan));
 }
 
 // All spheres of the plan's start state, in the order of their numbers.
@@ -103,14 +115,19 @@ Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale 
 void checkFound(const Scene& scene) {
     const Plan plan = compile(scene);
     const std::vector<reference::Sphere> spheres = spheresOf(plan);
-    Simulation simulation = test::simulationOf(scene);
-    simulation.frame();
-    const Pairs expected = reference::touching(spheres), found = simulation.contact()->found();
-    CHECK(simulation.contact()->dropped() == 0);
+    const Pairs expected = reference::touching(spheres);
     CHECK(expected.size() > 20);
-    for (const Pairs& difference : {missing(found, expected), missing(expected, found)})
-        for (const auto& pair : difference)
-            CHECK(isClose(spheres, pair));
+    for (const Path path : paths()) {
+        if (path == Path::pingPong && !plan.contact.onlyOfVertices()) continue;
+        CAPTURE(name(path));
+        Simulation simulation = simulationOn(path, plan);
+        simulation.frame();
+        const Pairs found = simulation.contact()->found();
+        CHECK(simulation.contact()->dropped() == 0);
+        for (const Pairs& difference : {missing(found, expected), missing(expected, found)})
+            for (const auto& pair : difference)
+                CHECK(isClose(spheres, pair));
+    }
 }
 
 }  // namespace
@@ -155,18 +172,21 @@ TEST_CASE("the exact search finds every contact", "[molecule contact]") {
 
 TEST_CASE("two marbles meet head-on as in the closed form", "[molecule contact]") {
     const double radius = 0.05, m = 1, n = 3, speed = 2;
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const ContactResponse response = GENERATE(ContactResponse::simultaneous, ContactResponse::nearest);
     for (const double e : {0.0, 0.3, 1.0}) {
         Scene scene = marbles({{-0.3, 0.2, 0}}, radius, m);
         Scene other = marbles({{0.31, 0.2, 0}}, radius, n);
         scene.groups.push_back(other.groups[0]);
         scene.groups[1].name = "heavy";
-        Simulation simulation = startedWith(scene, {{speed, 0, 0}, {-1, 0, 0}}, vec2(e, 0));
+        scene.contact.response = response;
+        Simulation simulation = startedWith(scene, {{speed, 0, 0}, {-1, 0, 0}}, vec2(e, 0), path);
         test::run(simulation, 40);
         const double meets = (0.61 - 2 * radius) / (speed + 1);
         const double impulse = (1 + e) * (speed + 1) * m * n / (m + n);
         const double v = speed - impulse / m, w = -1 + impulse / n, after = 0.4 - meets;
         const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
-        CAPTURE(e, a.velocities[0].x, b.velocities[0].x);
+        CAPTURE(name(path), name(response), e, a.velocities[0].x, b.velocities[0].x);
         CHECK(std::abs(a.velocities[0].x - v) < 1e-6);
         CHECK(std::abs(b.velocities[0].x - w) < 1e-6);
         CHECK(std::abs(a.positions[0].x - (-0.3 + speed * meets + v * after)) < 1e-5);
@@ -251,10 +271,11 @@ double energy(const std::vector<reference::Sphere>& spheres) {
 }  // namespace
 
 TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
     for (const vec2 material : {vec2(0, 0), vec2(0.5f, 0.4f), vec2(1, 0)}) {
         const Cloud c = cloud(400, 0.55, material);
         REQUIRE(c.contacts.size() > 300);
-        Simulation simulation = startedWith(c.scene, c.velocities, material);
+        Simulation simulation = startedWith(c.scene, c.velocities, material, path);
         simulation.frame();
         CHECK(simulation.contact()->dropped() == 0);
         const std::vector<reference::Sphere> found = statesOf(simulation);
@@ -263,7 +284,7 @@ TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]"
             velocity = std::max(velocity, glm::distance(found[i].velocity, c.expected[i].velocity));
             position = std::max(position, glm::distance(found[i].position, c.expected[i].position));
         }
-        CAPTURE(material.x, velocity, position);
+        CAPTURE(name(path), material.x, velocity, position);
         CHECK(velocity < 2e-4);  // of up to 3 m/s: a grazing contact's normal is a root of rounded numbers
         CHECK(position < 2e-6);
     }
@@ -271,11 +292,13 @@ TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]"
 
 TEST_CASE("contact keeps momentum and never adds energy, and a repeat gives the same bits",
           "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    CAPTURE(name(path));
     for (const vec2 material : {vec2(0, 0.5f), vec2(1, 0)}) {
         const Cloud c = cloud(2000, 0.95, material);
         uint64_t hash = 0;
         for (int repeat = 0; repeat < 2; ++repeat) {
-            Simulation simulation = startedWith(c.scene, c.velocities, material);
+            Simulation simulation = startedWith(c.scene, c.velocities, material, path);
             std::vector<reference::Sphere> before = statesOf(simulation);
             const dvec3 start = momentum(before);
             double scale = 0;
@@ -328,8 +351,9 @@ double momentumAlongY(const Simulation& simulation) {
 }  // namespace
 
 TEST_CASE("a sphere on a triangle stops what its corners let through", "[molecule contact]") {
+    if (paths().front() != Path::fused) return;
     for (const bool triangles : {false, true}) {
-        Simulation simulation = test::simulationOf(marbleAtQuad(triangles));
+        Simulation simulation = simulationOn(Path::fused, compile(marbleAtQuad(triangles)));
         const double before = momentumAlongY(simulation);
         test::run(simulation, 20);
         const Snapshot marble = simulation.snapshot(1);
@@ -340,6 +364,7 @@ TEST_CASE("a sphere on a triangle stops what its corners let through", "[molecul
 }
 
 TEST_CASE("spheres of one molecule meet only where it says so", "[molecule contact]") {
+    if (paths().front() != Path::fused) return;
     Molecule molecule = test::pair(1, 1, 0, 0);
     molecule.springs.clear();
     for (const bool self : {false, true}) {
@@ -385,12 +410,14 @@ TEST_CASE("UberFlow's response loses momentum where three meet, and only there",
 }
 
 TEST_CASE("UberFlow's searches find some of the contacts and nothing else", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    CAPTURE(name(path));
     Scene scene = strewn(600, dvec3(1.5), 0.04);
     size_t found[3] = {};
     for (const ContactSearch search :
          {ContactSearch::single, ContactSearch::staggered, ContactSearch::exact}) {
         scene.contact.search = search;
-        Simulation simulation = test::simulationOf(scene);
+        Simulation simulation = simulationOn(path, compile(scene));
         simulation.frame();
         const Pairs pairs = simulation.contact()->found();
         found[size_t(search)] = pairs.size();
@@ -405,7 +432,9 @@ TEST_CASE("UberFlow's searches find some of the contacts and nothing else", "[mo
 }
 
 TEST_CASE("a run with contact goes on from a saved state bit for bit", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
     for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::bdf2Xpbd}) {
+        if (path == Path::pingPong && shoal::solver(solver).implicit) continue;
         Scene scene = strewn(200, dvec3(0.9), 0.03);
         scene.solver.kind = solver;
         scene.gravity = {0, -9.81, 0};
@@ -413,14 +442,80 @@ TEST_CASE("a run with contact goes on from a saved state bit for bit", "[molecul
         scene.colliders.back().shape = PlaneCollider{};
         scene.contact.steps = 3;
         test::setSteps(scene, 1 / 60.0, 8);
-        Simulation whole = test::simulationOf(scene, true), first = test::simulationOf(scene),
-                   second = test::simulationOf(scene);
+        Simulation whole = simulationOn(path, compile(scene), true),
+                   first = simulationOn(path, compile(scene)), second = simulationOn(path, compile(scene));
         test::run(whole, 12);
         test::run(first, 7);
         second.load(first.save());
         test::run(second, 5);
         CHECK(second.hash() == whole.hash());
         CHECK(whole.contact()->found().size() > 50);
+    }
+}
+
+TEST_CASE("both paths agree on quads that touch in every contact step", "[molecule contact]") {
+    if (!testContext().info().computeShaders) return;
+    Scene scene = strewn(300, dvec3(0.8), 0.03);
+    scene.groups[0].molecule.vertices[0].pinned = true;
+    scene.gravity = {0, -9.8, 0};
+    scene.contact.steps = 2;
+    test::setSteps(scene, 0.004, 5);
+    for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::euler}) {
+        scene.solver.kind = solver;
+        Snapshot states[2];
+        for (const Path path : {Path::fused, Path::pingPong}) {
+            Simulation simulation = simulationOn(path, compile(scene));
+            simulation.frame();
+            CHECK(simulation.contact()->found().size() > 100);
+            states[path == Path::pingPong] = simulation.snapshot(0);
+        }
+        double position = 0, velocity = 0;
+        for (size_t i = 0; i < states[0].positions.size(); ++i) {
+            position = std::max(position, glm::distance(states[0].positions[i], states[1].positions[i]));
+            velocity = std::max(velocity, glm::distance(states[0].velocities[i], states[1].velocities[i]));
+        }
+        CAPTURE(name(solver), position, velocity);
+        CHECK(position < 1e-5);
+        CHECK(velocity < 5e-3);
+    }
+}
+
+TEST_CASE("more contacts than a list holds are left out on both sides, and counted", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> place(-0.03, 0.03);
+    std::vector<dvec3> positions, velocities;
+    for (int i = 0; i < 60; ++i) {
+        positions.emplace_back(place(random), place(random), place(random));
+        velocities.push_back(20.0 * positions.back());
+    }
+    Simulation simulation = startedWith(marbles(positions, 0.05), velocities, vec2(0.5f, 0.5f), path);
+    const dvec3 start = momentum(statesOf(simulation));
+    simulation.frame();
+    const uint32_t dropped = simulation.contact()->dropped();
+    CAPTURE(name(path), dropped);
+    CHECK(dropped > 500);
+    simulation.frame();
+    CHECK(simulation.contact()->dropped() > dropped);
+    const std::vector<reference::Sphere> after = statesOf(simulation);
+    CHECK(glm::length(momentum(after) - start) < 1e-4);
+    for (const reference::Sphere& sphere : after)
+        CHECK(glm::length(sphere.velocity) < 100);
+}
+
+TEST_CASE("the ping-pong path refuses what only the fused one has of contact", "[molecule contact]") {
+    Scene scene = strewn(4, dvec3(1), 0.03);
+    SECTION("triangles") {
+        scene.groups[0].contact->triangles = true;
+        CHECK_THROWS_WITH(
+            simulationOn(Path::pingPong, compile(scene)),
+            Catch::Contains("contact spheres on triangles") && Catch::Contains("needs the fused path"));
+    }
+    SECTION("self") {
+        scene.groups[0].contact->self = true;
+        CHECK_THROWS_WITH(
+            simulationOn(Path::pingPong, compile(scene)),
+            Catch::Contains("contact within a molecule") && Catch::Contains("needs the fused path"));
     }
 }
 

@@ -227,7 +227,21 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const Defines& set : combinations({"AHEAD", "SPRINGS"}))
         validator.addBoth("passes/normals.frag", set);
     validator.addBoth("passes/watch.frag", {fastestDefine()});
-    CHECK(validator.count() > 80);
+    const Defines textures{"TEXTURES", "ROW_BITS 6", "LIST 24", "NEIGHBORS 4"};
+    const auto contact = [&](const char* file, Defines set = {}) {
+        set.insert(set.end(), textures.begin(), textures.end());
+        validator.addBoth(std::string("contact/") + file + ".frag", set);
+    };
+    for (const char* file : {"spheres", "keys", "starts", "order", "slots", "find", "nearest", "apply"})
+        contact(file);
+    for (const char* stage : {"CROWD", "BEGIN", "RELAX", "SETTLE", "KEEP"})
+        contact("respond", {stage});
+    for (const char* file : {"spheres", "apply"})
+        contact(file, {"PINS", "RELEASE"});
+    contact("keys", {"STAGGERED"});
+    contact("find", {"NEAR"});
+    contact("find", {"NEAR", "STAGGERED"});
+    CHECK(validator.count() > 120);
     validator.check();
 }
 

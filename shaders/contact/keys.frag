@@ -1,0 +1,30 @@
+// keys: what is sorted, two spheres a texel. STAGGERED: of a second grid.
+#include "contact/reading.glsl"
+#include "physics/cells.glsl"
+#include "contact/staggered.glsl"
+
+uniform UINTS sphereCells;
+uniform UINTS spherePlaces;
+uniform int count;
+uniform int keyMask;
+uniform float cell;
+
+layout(location = 0) out uvec4 pairs;
+
+uvec2 pairOf(int sphere)
+{
+    int known = min(sphere, count - 1);  // the sort leaves those behind the last alone
+    ivec3 own = ivec3(fetch(sphereCells, known).xyz);
+#ifdef STAGGERED
+    uint key = staggeredKey(own, uintBitsToFloat(fetch(spherePlaces, known).xyz), cell, keyMask);
+#else
+    uint key = cellKey(own, uint(keyMask));
+#endif
+    return uvec2(key, uint(sphere));
+}
+
+void main()
+{
+    int first = 2 * ownNumber();
+    pairs = uvec4(pairOf(first), pairOf(first + 1));
+}

@@ -1,0 +1,30 @@
+// Keys and numbers of spheres as the bitonic sort has them (src/sort/network_sort.h): two pairs a texel, in rows of the
+// same 2^ROW_BITS texels as everything else. `count`: of all.
+uvec2 pairAt(usampler2D pairs, int i)
+{
+    uvec4 two = fetch(pairs, i >> 1);
+    return (i & 1) == 0 ? two.xy : two.zw;
+}
+
+// The first place whose key is not below this one; `count` if all are.
+int placeOfKey(usampler2D pairs, uint key, int count)
+{
+    int low = 0;
+    int high = count;
+    while (low < high) {
+        int middle = (low + high) >> 1;
+        if (pairAt(pairs, middle).x < key)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+// Of a sphere, from the first place of its key on. The sort is not stable, but each pair is somewhere.
+int placeOfSphere(usampler2D pairs, uint sphere, int from, int count)
+{
+    int place = from;
+    while (place < count - 1 && pairAt(pairs, place).y != sphere) ++place;
+    return place;
+}

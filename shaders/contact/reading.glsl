@@ -1,0 +1,24 @@
+// How contact reads what it keeps, all of it by one number: from buffers, or with TEXTURES (the ping-pong path) from
+// textures in rows of 2^ROW_BITS texels (src/simulate/texture_contact.h). Written as macros because a texel is fetched
+// from either in the same words but not with the same types.
+#ifdef TEXTURES
+#define UINTS usampler2D
+#define FLOATS sampler2D
+#define fetch(values, i) texelFetch(values, texelOf(i), 0)
+
+ivec2 texelOf(int i)
+{
+    return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS);
+}
+
+// Of the texel that a pass writes.
+int ownNumber()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    return (texel.y << ROW_BITS) + texel.x;
+}
+#else
+#define UINTS usamplerBuffer
+#define FLOATS samplerBuffer
+#define fetch(values, i) texelFetch(values, i)
+#endif

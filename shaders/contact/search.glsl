@@ -1,0 +1,65 @@
+// The spheres that a slot touches: all of them. Cells are two diameters wide, so that of the 27 around a sphere only the
+// eight on its side can hold one that it touches.
+//
+// A rasteriser on a CPU runs both sides of a branch, but leaves a loop when no lane stays in it: what is rare is the body
+// of a loop here, and the eight cells are one loop.
+#include "contact/records.glsl"
+#include "contact/touch.glsl"
+
+uniform UINTS starts;   // by key: the first slot whose key is not below it
+uniform float reach;    // m, twice the largest radius
+
+int startOf(int key)
+{
+#ifdef TEXTURES
+    return key > keyMask ? count : int(fetch(starts, key).x);
+#else
+    return int(fetch(starts, key).x);
+#endif
+}
+
+// Of the eight cells; bit a of c: the further one along axis a.
+ivec3 cellBeside(ivec3 side, int c)
+{
+    return ownCell + side * ivec3(c & 1, (c >> 1) & 1, c >> 2);
+}
+
+void search(int slot)
+{
+    loadOwn(slot);
+    vec3 offset = ownPlace - vec3(ownCell & (localCells - 1)) * cell;
+    ivec3 side = ivec3(step(vec3(0.5 * cell), offset)) * 2 - 1;
+    // candidate i of cell c, with ends[c - 1] <= i < ends[c], is in slot i + shifts[c]
+    int shifts[8];
+    int ends[8];
+    int sum = 0;
+    for (int c = 0; c < 8; ++c) {
+        int key = int(cellKey(cellBeside(side, c), uint(keyMask)));
+        int first = startOf(key);
+        shifts[c] = first - sum;
+        sum += startOf(key + 1) - first;
+        ends[c] = sum;
+    }
+    float reachSquared = reach * reach;
+    int i = 0;
+    while (i < sum) {
+        bool hit = false;
+        int other = 0;
+        while (i < sum && !hit) {
+            int shift = shifts[7];
+            for (int c = 6; c >= 0; --c) shift = i < ends[c] ? shifts[c] : shift;
+            other = i + shift;
+            uvec4 place = fetch(places, other);
+            vec3 d = localDifference(ownPlace, uintBitsToFloat(place.xyz), cell);
+            hit = dot(d, d) < reachSquared && mayMeet(place.w, other);
+            ++i;
+        }
+        while (hit) {
+            // cells may share keys, and places repeat
+            int c = 0;
+            for (int k = 0; k < 7; ++k) c += int(i > ends[k]);
+            if (cellOf(other) == cellBeside(side, c)) meet(other);
+            hit = false;
+        }
+    }
+}

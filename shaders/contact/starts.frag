@@ -1,0 +1,13 @@
+// starts: a texel a key of the table of cells: the first slot whose key is not below it.
+#include "contact/reading.glsl"
+#include "contact/pairs.glsl"
+
+uniform usampler2D sorted;
+uniform int count;
+
+layout(location = 0) out uvec4 start;
+
+void main()
+{
+    start = uvec4(uint(placeOfKey(sorted, uint(ownNumber()), count)), 0u, 0u, 0u);
+}

@@ -1,0 +1,368 @@
+#include "simulate/texture_contact.h"
+
+#include <algorithm>
+
+#include "gpu/gl.h"
+
+namespace shoal {
+
+using gpu::Format;
+using gpu::Program;
+using gpu::Texture;
+using gpu::Traffic;
+
+namespace {
+
+constexpr int layers = TextureContact::listLength / 4;
+static_assert(TextureContact::listLength % 4 == 0);
+
+}  // namespace
+
+TextureContact::TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                               const Tables& tables, gpu::ProgramCache* cache)
+    : plan_(&plan),
+      contact_(&plan.contact),
+      tables_(&tables),
+      rowBits_(plan.contact.rowBits()),
+      sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
+            cache),
+      noAttributes_(context, "contact") {
+    if (contact_->settings.search == ContactSearch::staggered)
+        staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
+                           2 << rowBits_, cache);
+    makeTextures(context);
+    makePrograms(context, shaderRoot, cache);
+    for (const ContactGroup& group : contact_->groups)
+        makeGroup(context, group, shaderRoot, cache);
+}
+
+int TextureContact::rowsOf(int numbers) const {
+    return (numbers + (1 << rowBits_) - 1) >> rowBits_;
+}
+
+void TextureContact::makeTextures(gpu::Context& context) {
+    const int width = 1 << rowBits_, rows = rowsOf(contact_->spheres);
+    const auto texture = [&](Format format, const char* label, int inLayers = 0) {
+        return Texture(context, format, width, rows, label, inLayers);
+    };
+    for (Texture* records : {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_})
+        *records = texture(Format::rgba32ui, "contact records");
+    startsOf_ = Texture(context, Format::r32ui, width, rowsOf(1 << contact_->tableBits), "cells");
+    slotsOf_ = texture(Format::r32ui, "slots");
+    lists_ = texture(Format::rgba32ui, "contact lists", layers);
+    const std::vector<uint32_t> none(2 * size_t(width) * size_t(rows));
+    for (Texture& counts : counts_) {
+        counts = texture(Format::rg32ui, "contacts");
+        counts.upload(Traffic::Kind::parameters, 0, 0, width, rows, none.data(),
+                      none.size() * sizeof(uint32_t));
+    }
+    shifts_ = texture(Format::rgba32f, "contact shifts");
+    for (Texture& impulses : impulses_)
+        impulses = texture(Format::rgba32f, "contact impulses");
+    if (contact_->settings.response == ContactResponse::simultaneous) {
+        crowds_ = texture(Format::r32ui, "contact crowds");
+        for (Texture& pushes : pushes_)
+            pushes = texture(Format::rgba32f, "contact pushes", layers);
+    }
+    const int materialRows = rowsOf(int(contact_->pairs.size()));
+    std::vector<glm::vec4> materials(size_t(width) * size_t(materialRows));
+    for (size_t i = 0; i < contact_->pairs.size(); ++i)
+        materials[i] = glm::vec4(contact_->pairs[i], 0, 0);
+    materials_ = Texture(context, Format::rgba32f, width, materialRows, "contact materials");
+    materials_.upload(Traffic::Kind::parameters, 0, 0, width, materialRows, materials.data(),
+                      materials.size() * sizeof(glm::vec4));
+}
+
+void TextureContact::makePrograms(gpu::Context& context, const std::string& shaderRoot,
+                                  gpu::ProgramCache* cache) {
+    const auto make = [&](const char* file, std::vector<std::string> defines = {}) {
+        gpu::ProgramOptions options;
+        options.vertex = "passes/fullscreen.vert";
+        options.fragment = concat("contact/", file, ".frag");
+        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", listLength),
+                           concat("NEIGHBORS ", contact_->settings.neighbors)};
+        options.defines.insert(options.defines.end(), defines.begin(), defines.end());
+        options.label = concat("contact ", file);
+        options.cache = cache;
+        return Program(context, shaderRoot, options);
+    };
+    keys_ = make("keys");
+    starts_ = make("starts");
+    order_ = make("order");
+    slots_ = make("slots");
+    if (staggered_) staggeredKeys_ = make("keys", {"STAGGERED"});
+    const bool exact = contact_->settings.search == ContactSearch::exact;
+    find_ = exact ? make("find") : staggered_ ? make("find", {"NEAR", "STAGGERED"}) : make("find", {"NEAR"});
+    if (contact_->settings.response == ContactResponse::nearest) {
+        nearest_ = make("nearest");
+        return;
+    }
+    crowd_ = make("respond", {"CROWD"});
+    begin_ = make("respond", {"BEGIN"});
+    relax_ = make("respond", {"RELAX"});
+    settle_ = make("respond", {"SETTLE"});
+    keep_ = make("respond", {"KEEP"});
+}
+
+void TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
+                               const std::string& shaderRoot, gpu::ProgramCache* cache) {
+    const GroupPlan& plan = plan_->groups[group.group];
+    const auto make = [&](const char* file) {
+        gpu::ProgramOptions options;
+        options.vertex = "passes/fullscreen.vert";
+        options.fragment = concat("contact/", file, ".frag");
+        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_)};
+        if (plan.needs.pins) options.defines.emplace_back("PINS");
+        if (plan.needs.release) options.defines.emplace_back("RELEASE");
+        options.label = concat("contact ", file, " of ", plan.name);
+        options.cache = cache;
+        return Program(context, shaderRoot, options);
+    };
+    groups_.push_back({make("spheres"), make("apply")});
+}
+
+void TextureContact::draw(TextureState& state, const Into& into, int firstRow, int rows) const {
+    const gpu::Framebuffer& target = state.target(into);
+    target.bind(0, firstRow, target.width(), rows);
+    noAttributes_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void TextureContact::drawAll(TextureState& state, const Into& into) const {
+    draw(state, into, 0, rowsOf(contact_->spheres));
+}
+
+// What shaders/lib/state.glsl reads.
+void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
+    const GroupPlan& plan = plan_->groups[group.group];
+    program.use();
+    program.set("firstRow", plan.texture.firstRow);
+    program.set("slabRows", plan.texture.slabRows);
+    program.set("moleculeCount", plan.count);
+    program.set("vertexCount", plan.vertexCount);
+    program.set("firstRecordRow", plan.texture.firstRecordRow);
+    program.set("topologyBase", plan.topologyBase);
+    program.set("firstSphere", group.firstSphere);
+    program.texture("positions", 0, state.position.read(group.group));
+    program.texture("velocities", 1, state.velocity.read(group.group));
+    program.texture("records", 2, state.record.read(group.group));
+    program.texture("constants", 3, state.constant);
+    program.texture("topology", 4, tables_->topology);
+}
+
+void TextureContact::makeSpheres(TextureState& state) {
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const ContactGroup& group = contact_->groups[g];
+        const int spheres = plan_->groups[group.group].count * group.spheresOf;
+        const Program& program = groups_[g].spheres;
+        bindState(program, group, state);
+        program.set("groupSpheres", spheres);
+        program.set("label", int(uint32_t(g) << 26));
+        program.set("cell", float(contact_->cell));
+        program.set("radius", float(group.radius));
+        const int first = group.firstSphere >> rowBits_;
+        draw(state, {&spherePlaces_, &sphereMotions_, &sphereCells_}, first,
+             rowsOf(group.firstSphere + spheres) - first);
+    }
+}
+
+void TextureContact::sortKeys(NetworkSort& sort, const Program& keys) {
+    keys.use();
+    keys.texture("sphereCells", 0, sphereCells_);
+    keys.texture("spherePlaces", 1, spherePlaces_);
+    keys.set("count", contact_->spheres);
+    keys.set("keyMask", (1 << contact_->tableBits) - 1);
+    keys.set("cell", float(contact_->cell));
+    sort.drawInto(sort.target());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    sort.flip();
+    sort.sort();
+}
+
+void TextureContact::buildGrid(TextureState& state) {
+    makeSpheres(state);
+    sortKeys(sort_, keys_);
+    if (staggered_) sortKeys(*staggered_, staggeredKeys_);
+    starts_.use();
+    starts_.texture("sorted", 0, sort_.pairs());
+    starts_.set("count", contact_->spheres);
+    draw(state, {&startsOf_}, 0, startsOf_.height());
+    order_.use();
+    order_.texture("sorted", 0, sort_.pairs());
+    order_.texture("spherePlaces", 1, spherePlaces_);
+    order_.texture("sphereMotions", 2, sphereMotions_);
+    order_.texture("sphereCells", 3, sphereCells_);
+    order_.set("count", contact_->spheres);
+    drawAll(state, {&places_, &motions_, &cells_});
+    slots_.use();
+    slots_.texture("sorted", 0, sort_.pairs());
+    slots_.texture("sphereCells", 1, sphereCells_);
+    slots_.texture("starts", 2, startsOf_);
+    slots_.set("count", contact_->spheres);
+    slots_.set("keyMask", (1 << contact_->tableBits) - 1);
+    drawAll(state, {&slotsOf_});
+}
+
+void TextureContact::find(TextureState& state) {
+    find_.use();
+    find_.texture("places", 0, places_);
+    find_.texture("cells", 1, cells_);
+    find_.texture("oldCounts", 2, counts_[countsSide_]);
+    if (contact_->settings.search == ContactSearch::exact) {
+        find_.texture("starts", 3, startsOf_);
+        find_.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
+    }
+    if (staggered_) {
+        find_.texture("sorted", 3, sort_.pairs());
+        find_.texture("staggered", 4, staggered_->pairs());
+        find_.texture("slots", 5, slotsOf_);
+    }
+    find_.set("count", contact_->spheres);
+    find_.set("keyMask", (1 << contact_->tableBits) - 1);
+    find_.set("cell", float(contact_->cell));
+    countsSide_ = 1 - countsSide_;
+    drawAll(state, {&counts_[countsSide_], &lists_});
+}
+
+// What all stages of the response read.
+int TextureContact::bindResponse(const Program& program, const Times& times) const {
+    program.use();
+    program.texture("places", 0, places_);
+    program.texture("motions", 1, motions_);
+    program.texture("cells", 2, cells_);
+    program.texture("counts", 3, counts_[countsSide_]);
+    program.texture("lists", 4, lists_);
+    program.texture("materials", 5, materials_);
+    program.set("count", contact_->spheres);
+    program.set("cell", float(contact_->cell));
+    program.set("groupCount", int(contact_->groups.size()));
+    program.set("stepTime", float(times.step));
+    program.set("restSpeed", float(times.restSpeed));
+    return 6;
+}
+
+void TextureContact::runStage(TextureState& state, const Program& program, const Times& times,
+                              const Totals& totals) {
+    const int unit = bindResponse(program, times);
+    // without momentum the earlier ones do not count, and nobody may have written them yet
+    const size_t earlier = totals.momentum == 0 ? totals.last : totals.earlier;
+    program.texture("crowds", unit, crowds_);
+    program.texture("impulses", unit + 1, impulses_[totals.last]);
+    program.texture("earlier", unit + 2, impulses_[earlier]);
+    program.texture("pushed", unit + 3, pushes_[totals.last]);
+    program.texture("pushedBefore", unit + 4, pushes_[earlier]);
+    program.set("momentum", totals.momentum);
+    program.set("restPush", 1.0f);
+    const Texture* impulses = &impulses_[totals.next];
+    if (&program == &keep_) {
+        program.texture("kept", unit + 5, shifts_);
+        drawAll(state, {impulses});
+    } else if (&program == &settle_) {
+        drawAll(state, {impulses, &shifts_});
+    } else {
+        drawAll(state, {impulses, &pushes_[totals.next]});
+    }
+}
+
+void TextureContact::apply(TextureState& state, const Texture& impulses) {
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const ContactGroup& group = contact_->groups[g];
+        const TextureLayout& at = plan_->groups[group.group].texture;
+        const Program& program = groups_[g].apply;
+        bindState(program, group, state);
+        program.texture("slots", 5, slotsOf_);
+        program.texture("counts", 6, counts_[countsSide_]);
+        program.texture("impulses", 7, impulses);
+        program.texture("shifts", 8, shifts_);
+        draw(state, {&state.position.write(group.group), &state.velocity.write(group.group)}, at.firstRow,
+             at.rows);
+        state.position.flip(group.group);
+        state.velocity.flip(group.group);
+    }
+}
+
+void TextureContact::respond(const Frame& frame, TextureState& state) {
+    const double stepTime = frame.parameters.frameTime;
+    // what gravity adds in two steps is no bounce
+    const Times times{stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime};
+    Totals totals;
+    if (nearest_) {
+        bindResponse(nearest_, times);
+        drawAll(state, {&impulses_[totals.next], &shifts_});
+        return apply(state, impulses_[totals.next]);
+    }
+    bindResponse(crowd_, times);
+    drawAll(state, {&crowds_});
+    const auto run = [&](const Program& program) {
+        runStage(state, program, times, totals);
+        totals = {totals.next, totals.last, totals.earlier};
+    };
+    run(begin_);
+    for (int i = 0; i < contact_->settings.iterations; ++i) {
+        totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
+        run(relax_);
+    }
+    run(settle_);
+    run(keep_);
+    apply(state, impulses_[totals.last]);
+}
+
+void TextureContact::step(const Frame& frame, TextureState& state, gpu::PassTimers& timers) {
+    {
+        const auto timer = timers.time("contact grid");
+        buildGrid(state);
+    }
+    {
+        const auto timer = timers.time("contact search");
+        find(state);
+    }
+    const auto timer = timers.time("contact response");
+    respond(frame, state);
+}
+
+static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
+    std::vector<uint32_t> out(size_t(texture.width()) * size_t(texture.height()) *
+                              texelBytes(texture.format()) / sizeof(uint32_t));
+    texture.download(kind, 0, 0, texture.width(), texture.height(), out.data(), out.size() * sizeof(uint32_t),
+                     layer);
+    return out;
+}
+
+uint32_t TextureContact::dropped() const {
+    const std::vector<uint32_t> counts = readBack(counts_[countsSide_], Traffic::Kind::control);
+    uint32_t out = 0;
+    for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
+        out += counts[2 * slot + 1];
+    return out;
+}
+
+std::vector<std::pair<int, int>> TextureContact::found() const {
+    const std::vector<uint32_t> counts = readBack(counts_[countsSide_], Traffic::Kind::state);
+    const std::vector<KeyIndex> sorted = sort_.download();
+    std::vector<std::pair<int, int>> out;
+    for (int layer = 0; layer < layers; ++layer) {
+        const std::vector<uint32_t> entries = readBack(lists_, Traffic::Kind::state, layer);
+        for (size_t slot = 0; slot < sorted.size(); ++slot) {
+            const size_t listed = std::min(counts[2 * slot], uint32_t(listLength));
+            for (size_t e = 4 * size_t(layer); e < std::min(listed, 4 * size_t(layer) + 4); ++e) {
+                const size_t other = entries[4 * slot + e % 4];
+                out.emplace_back(std::minmax(int(sorted[slot].index), int(sorted[other].index)));
+            }
+        }
+    }
+    std::sort(out.begin(), out.end());
+    out.erase(std::unique(out.begin(), out.end()), out.end());
+    return out;
+}
+
+size_t TextureContact::bytes() const {
+    size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
+    for (const Texture* texture :
+         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_,    &motions_,   &cells_,     &startsOf_,
+          &slotsOf_,      &lists_,         &crowds_,      &shifts_,    &materials_, &counts_[0], &counts_[1],
+          &impulses_[0],  &impulses_[1],   &impulses_[2], &pushes_[0], &pushes_[1], &pushes_[2]})
+        out += *texture ? texture->bytes() : 0;
+    return out;
+}
+
+}  // namespace shoal

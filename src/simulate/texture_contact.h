@@ -1,0 +1,106 @@
+// Contact of molecules with one another on the ping-pong path (OpenGL 3.3): fragment passes between two
+// substeps. Method, equations and what the other path has beyond it: docs/contact.md; what there is:
+// compile/contact_plan.h. The stages and their GLSL are those of simulate/molecule_contact.h:
+//
+//   contact grid       spheres   records of every sphere from the state, a texel each
+//                      keys      of their cells, two a texel
+//                      sort      keys ascending (bitonic, sort/network_sort.h)
+//                      starts    where each cell of the table begins, by bisection
+//                      order     records in the order of the keys
+//                      slots     of a sphere: its place in that order
+//   contact search     find      the spheres that each touches
+//   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`)
+//                      apply     into the state
+//
+// What has a number, sphere, slot or key, lies in rows of 2^rowBits texels (ContactPlan::rowBits); lists and
+// pushes in layers of four entries.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/buffer.h"
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "simulate/contact_result.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+#include "simulate/texture_state.h"
+#include "sort/network_sort.h"
+
+namespace shoal {
+
+class TextureContact : public ContactResult {
+  public:
+    // Entries of a list: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
+    static constexpr int listLength = 24;
+
+    // Borrows the plan and the tables. Error: out of memory; the driver refuses a shader.
+    TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                   const Tables& tables, gpu::ProgramCache* cache);
+
+    // Spheres that touch are pushed apart and bounce, rub and rest: from the current sides of positions and
+    // velocities into the others. `frame`: the substeps since the last contact step. Blending, tests and
+    // masks are off.
+    void step(const Frame& frame, TextureState& state, gpu::PassTimers& timers);
+
+    uint32_t dropped() const override;
+    std::vector<std::pair<int, int>> found() const override;
+    size_t bytes() const override;
+
+  private:
+    struct GroupPrograms {
+        gpu::Program spheres, apply;
+    };
+    // An iteration reads the totals of the two before it, which lie in these.
+    struct Totals {
+        size_t last = 0, earlier = 1, next = 2;
+        float momentum = 0;  // by how much it goes on beyond the last
+    };
+    struct Times {
+        double step;       // s
+        double restSpeed;  // m/s
+    };
+    using Into = std::vector<const gpu::Texture*>;
+
+    void makeTextures(gpu::Context& context);
+    void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void makeGroup(gpu::Context& context, const ContactGroup& group, const std::string& shaderRoot,
+                   gpu::ProgramCache* cache);
+
+    void makeSpheres(TextureState& state);
+    void sortKeys(NetworkSort& sort, const gpu::Program& keys);
+    void buildGrid(TextureState& state);
+    void find(TextureState& state);
+    void respond(const Frame& frame, TextureState& state);
+    int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
+    void runStage(TextureState& state, const gpu::Program& program, const Times& times, const Totals& totals);
+    void apply(TextureState& state, const gpu::Texture& impulses);
+
+    void bindState(const gpu::Program& program, const ContactGroup& group, TextureState& state) const;
+    void draw(TextureState& state, const Into& into, int firstRow, int rows) const;
+    void drawAll(TextureState& state, const Into& into) const;  // the rows of all spheres
+    int rowsOf(int numbers) const;
+
+    const Plan* plan_;
+    const ContactPlan* contact_;
+    const Tables* tables_;
+    int rowBits_;
+    std::vector<GroupPrograms> groups_;
+    gpu::Program keys_, staggeredKeys_, starts_, order_, slots_, find_;
+    gpu::Program nearest_, crowd_, begin_, relax_, settle_, keep_;
+    NetworkSort sort_;
+    std::optional<NetworkSort> staggered_;
+    gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
+    gpu::Texture startsOf_, slotsOf_, lists_, crowds_, shifts_, materials_;
+    std::array<gpu::Texture, 2> counts_;
+    size_t countsSide_ = 0;
+    std::array<gpu::Texture, 3> impulses_, pushes_;
+    gpu::VertexArray noAttributes_;
+};
+
+}  // namespace shoal
