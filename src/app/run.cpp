@@ -163,7 +163,7 @@ class HeadlessRun {
         if (dropped == 0) return;
         std::cerr << "shoal: warning: " << dropped
                   << " contacts were left out, because a sphere touched more than "
-                  << simulation_.plan().contact.listLength
+                  << simulation_.contact()->listLength()
                   << " others: a smaller radius, or molecules that start further apart, touch fewer\n";
     }
     std::vector<gpu::PassTime> passTimes() {

@@ -16,7 +16,8 @@ class ContactResult {
     // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
     // ascending. For tests and reports: reads the lists back.
     virtual std::vector<std::pair<int, int>> found() const = 0;
-    virtual size_t bytes() const = 0;  // on the device
+    virtual int listLength() const = 0;  // contacts that one sphere may have
+    virtual size_t bytes() const = 0;    // on the device
 };
 
 }  // namespace shoal

@@ -42,6 +42,7 @@ class MoleculeContact : public ContactResult {
     void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
     uint32_t dropped() const override;
+    int listLength() const override { return contact_->listLength; }
     std::vector<std::pair<int, int>> found() const override;
     size_t bytes() const override;
 

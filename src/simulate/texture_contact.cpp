@@ -13,8 +13,8 @@ using gpu::Traffic;
 
 namespace {
 
-constexpr int layers = TextureContact::listLength / 4;
-static_assert(TextureContact::listLength % 4 == 0);
+constexpr int layers = TextureContact::longestList / 4;
+static_assert(TextureContact::longestList % 4 == 0);
 
 }  // namespace
 
@@ -79,7 +79,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
         gpu::ProgramOptions options;
         options.vertex = "passes/fullscreen.vert";
         options.fragment = concat("contact/", file, ".frag");
-        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", listLength),
+        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
                            concat("NEIGHBORS ", contact_->settings.neighbors)};
         options.defines.insert(options.defines.end(), defines.begin(), defines.end());
         options.label = concat("contact ", file);
@@ -343,7 +343,7 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
     for (int layer = 0; layer < layers; ++layer) {
         const std::vector<uint32_t> entries = readBack(lists_, Traffic::Kind::state, layer);
         for (size_t slot = 0; slot < sorted.size(); ++slot) {
-            const size_t listed = std::min(counts[2 * slot], uint32_t(listLength));
+            const size_t listed = std::min(counts[2 * slot], uint32_t(longestList));
             for (size_t e = 4 * size_t(layer); e < std::min(listed, 4 * size_t(layer) + 4); ++e) {
                 const size_t other = entries[4 * slot + e % 4];
                 out.emplace_back(std::minmax(int(sorted[slot].index), int(sorted[other].index)));

@@ -37,7 +37,7 @@ namespace shoal {
 class TextureContact : public ContactResult {
   public:
     // Entries of a list: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
-    static constexpr int listLength = 24;
+    static constexpr int longestList = 24;
 
     // Borrows the plan and the tables. Error: out of memory; the driver refuses a shader.
     TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
@@ -49,6 +49,7 @@ class TextureContact : public ContactResult {
     void step(const Frame& frame, TextureState& state, gpu::PassTimers& timers);
 
     uint32_t dropped() const override;
+    int listLength() const override { return longestList; }
     std::vector<std::pair<int, int>> found() const override;
     size_t bytes() const override;
 
