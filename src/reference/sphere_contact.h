@@ -1,5 +1,5 @@
 // Contact of spheres in double precision, by brute force: the same equations as shaders/physics/pair.glsl and
-// shaders/contact/respond.comp (docs/contact.md), written for themselves.
+// shaders/contact/respond.glsl (docs/contact.md), written for themselves.
 #pragma once
 
 #include <utility>
