@@ -1,5 +1,5 @@
 // A lane a sphere of one group, with spheres on triangles: how much the contacts add up that act on the same vertices as
-// its own (contact/respond.comp, CROWD).
+// its own (contact/respond.glsl, CROWD).
 #include "contact/shape.glsl"
 #include "physics/pair.glsl"
 
