@@ -42,11 +42,12 @@ void checkContact(const Plan& plan, const PathLimits& limits) {
     const ContactPlan& contact = plan.contact;
     for (const ContactGroup& group : contact.groups)
         if (group.triangles || group.self)
-            throw Error(plan.groups[group.group].location,
-                        concat(group.triangles ? "contact spheres on triangles" : "contact within a molecule",
-                               ", which \"", plan.groups[group.group].name,
-                               "\" asks for, needs the fused path (OpenGL 4.3); the ping-pong path has "
-                               "contact of vertices between molecules"));
+            throw Error(
+                plan.groups[group.group].location,
+                concat(group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
+                       ", which \"", plan.groups[group.group].name,
+                       "\" asks for, needs the fused path (OpenGL 4.3); the ping-pong path has "
+                       "contact of vertices between molecules"));
     if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
     int bits = contact.tableBits;
     while (1 << ((bits + 1) / 2) > limits.maxTextureSize)

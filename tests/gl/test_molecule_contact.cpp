@@ -509,7 +509,7 @@ TEST_CASE("the ping-pong path refuses what only the fused one has of contact", "
         scene.groups[0].contact->triangles = true;
         CHECK_THROWS_WITH(
             simulationOn(Path::pingPong, compile(scene)),
-            Catch::Contains("contact spheres on triangles") && Catch::Contains("needs the fused path"));
+            Catch::Contains("contact of spheres on triangles") && Catch::Contains("needs the fused path"));
     }
     SECTION("self") {
         scene.groups[0].contact->self = true;
