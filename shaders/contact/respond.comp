@@ -48,8 +48,8 @@ void respondToWall(int slot)
         vec3 along = ownVelocity - wall.xyz * speed;
         float slip = length(along);
         float friction = texelFetch(wallFriction, int(ownLabel >> 26u)).x;
-        float most = 1.0 / float(numberOf(slot));
-        impulse -= along * (min(friction * pushes.x, most * slip / ownWeight) / max(slip, 1e-30));
+        float most = 1.5 / float(numberOf(slot));
+        impulse -= along * (min(friction * pushes.x * rubShare, most * slip / ownWeight) / max(slip, 1e-30));
 #endif
 #endif
 #endif

@@ -3,7 +3,7 @@
 //   CROWD    by how much the contacts of a sphere together outdo one alone
 //   BEGIN    where spheres rest on one another, a first guess from how far they overlap
 //   RELAX    one Jacobi iteration towards each contact's speed after it: -e times that of the impact, or none
-//   SETTLE   Coulomb friction, and how far all of it moves the spheres
+//   SETTLE   Coulomb friction, in a few rounds, and how far all of it moves the spheres
 //   KEEP     spheres that are pushed apart while they sink keep that as velocity, so that a pile does not fall for ever
 //
 // Only gathers: both spheres of a contact compute its impulse, to the same bit, from the same numbers. `impulses` are
@@ -22,7 +22,7 @@ uniform FLOATS materials;    // x restitution, y friction, by group * groupCount
 uniform int groupCount;
 uniform float stepTime;      // s, of a contact step
 uniform float restSpeed;     // m/s
-uniform float restPush;      // share of an overlap that a step takes away
+uniform float rubShare;      // of what friction may do, in one of several rounds of SETTLE
 #ifdef KEEP
 uniform FLOATS kept;         // w: of shifts
 #endif
@@ -130,7 +130,7 @@ void respond(int slot, int listed)
         if (meets) normalSum = withNormal(normalSum, contact.normal);
 #else
         float share = 1.0 / max(ownCrowd, uintBitsToFloat(fetch(crowds, other).x));
-        float push = contact.impact ? 0.0 : share * restPush * contact.depth / max(w, 1e-30);
+        float push = contact.impact ? 0.0 : share * contact.depth / max(w, 1e-30);
         vec2 material = fetch(materials, int(ownLabel >> 26u) * groupCount + int(place.w >> 26u)).xy;
 #ifdef BEGIN
         float total = meets ? push / stepTime : 0.0;
@@ -153,8 +153,8 @@ void respond(int slot, int listed)
         vec3 along = relative - contact.normal * speed;
         float slip = length(along);
         float before = pushes.x;
-        float most = 1.0 / float(max(numberOf(slot), numberOf(other)));
-        float grip = meets ? min(material.y * before, most * slip / w) : 0.0;
+        float most = 1.5 / float(max(numberOf(slot), numberOf(other)));
+        float grip = meets ? min(material.y * before * rubShare, most * slip / w) : 0.0;
         vec3 rub = along * (-grip / max(slip, 1e-30));
         impulse += rub;
         vec3 bounce = (contact.normal * before + rub) * contact.since;

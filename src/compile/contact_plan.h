@@ -34,6 +34,8 @@ struct ContactGroup {
 };
 
 struct ContactPlan {
+    static constexpr int frictionRounds =
+        4;  // of a contact step; each may take its share of what friction may
     std::vector<ContactGroup> groups;
     int spheres = 0;
     double largestRadius = 0;  // m, with the largest scale

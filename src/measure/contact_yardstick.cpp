@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/contact_plan.h"
 #include "measure/yardstick_threads.h"
 
 namespace shoal::measure {
@@ -330,7 +331,8 @@ void ContactYardstick::Data::relax(Piece& piece, float momentum) {
     }
 }
 
-// Friction, how far all of it moves the spheres, and what part of the pushes' speed they are to keep.
+// A round of friction, how far all of it moves the spheres, and what part of the pushes' speed they are to
+// keep.
 void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& step) {
     for (const Active& active : piece.active) {
         const auto slot = size_t(active.slot);
@@ -342,7 +344,8 @@ void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& st
             const vec3 along = relative - contact.normal * glm::dot(relative, contact.normal);
             const float slip = glm::length(along);
             const int crowd = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
-            const float grip = std::min(step.friction * contact.pushed, slip * contact.mass / float(crowd));
+            const float grip = std::min(step.friction * contact.pushed / ContactPlan::frictionRounds,
+                                        1.5f * slip * contact.mass / float(crowd));
             const vec3 rub = along * (-grip / std::max(slip, 1e-30f));
             sum += rub;
             bounce += (contact.normal * contact.pushed + rub) * contact.since;
@@ -396,7 +399,11 @@ void ContactYardstick::step(const ContactYardstickStep& step) {
         data.earlierImpulses.swap(data.impulses);
         data.impulses.swap(data.newImpulses);
     }
-    data.each([&](int, Piece& piece) { data.settle(piece, step); });
+    for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
+        data.each([&](int, Piece& piece) { data.settle(piece, step); });
+        data.impulses.swap(data.newImpulses);
+    }
+    data.newImpulses.swap(data.impulses);
     data.each([&](int, Piece& piece) { data.apply(piece, step); });
 }
 

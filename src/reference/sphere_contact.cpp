@@ -156,22 +156,28 @@ class Response {
     }
 
     void settle() {
-        const std::vector<glm::dvec3> before = impulse_;
-        std::vector<glm::dvec3> bounce(impulse_.size()), rest(impulse_.size());
-        for (size_t c = 0; c < meetings_.size(); ++c) {
-            const Meeting& m = meetings_[c];
-            if (m.weight == 0) continue;
-            const glm::dvec3 u = relative(c, before);
-            const glm::dvec3 along = u - glm::dot(u, m.normal) * m.normal;
-            const double slip = glm::length(along);
-            // the wall that may be there counts as one more
-            const int crowd =
-                1 + std::max(number_[size_t((*contacts_)[c].first)], number_[size_t((*contacts_)[c].second)]);
-            const double grip = std::min(settings_.friction * pushed_[c], slip / m.weight / crowd);
-            const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
-            exchange(impulse_, c, rub);
-            if (m.impact) exchange(bounce, c, (pushed_[c] * m.normal + rub) * m.since);
-            exchange(rest, c, push(c) * m.normal);
+        constexpr int rounds = 4;
+        std::vector<glm::dvec3> before, bounce, rest;
+        for (int round = 0; round < rounds; ++round) {
+            before = impulse_;
+            bounce.assign(impulse_.size(), glm::dvec3(0));
+            rest = bounce;
+            for (size_t c = 0; c < meetings_.size(); ++c) {
+                const Meeting& m = meetings_[c];
+                if (m.weight == 0) continue;
+                const glm::dvec3 u = relative(c, before);
+                const glm::dvec3 along = u - glm::dot(u, m.normal) * m.normal;
+                const double slip = glm::length(along);
+                // the wall that may be there counts as one more
+                const int crowd = 1 + std::max(number_[size_t((*contacts_)[c].first)],
+                                               number_[size_t((*contacts_)[c].second)]);
+                const double grip =
+                    std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / crowd);
+                const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
+                exchange(impulse_, c, rub);
+                if (m.impact) exchange(bounce, c, (pushed_[c] * m.normal + rub) * m.since);
+                exchange(rest, c, push(c) * m.normal);
+            }
         }
         keep(before, rest);
         for (size_t i = 0; i < spheres_->size(); ++i) {

@@ -366,9 +366,10 @@ void MoleculeContact::runStage(const Program& program, double stepTime, double r
     Textures textures = bindResponse(program, stepTime, restSpeed);
     textures.add("crowds", crowds_.texture)
         .add("impulses", impulses_[totals.last].texture)
-        .add("earlier", impulses_[totals.earlier].texture);
+        // without momentum the earlier ones do not count, and nobody may have written them yet
+        .add("earlier", impulses_[totals.momentum == 0 ? totals.last : totals.earlier].texture);
     program.set("momentum", totals.momentum);
-    program.set("restPush", 1.0f);
+    program.set("rubShare", 1.0f / ContactPlan::frictionRounds);
     if (triangles_) textures.add("velocities", velocities_.texture);
     if (walls_) {
         textures.add("walls", nearWalls_.texture).add("wallFriction", wallFriction_.texture);
@@ -447,8 +448,11 @@ void MoleculeContact::respond(const Frame& frame, const std::vector<GroupBuffers
         spread(state, totals);
         run(relax_);
     }
-    spread(state, totals);
-    run(settle_);
+    totals.momentum = 0;
+    for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
+        spread(state, totals);
+        run(settle_);
+    }
     run(keep_);
     apply(state, impulses_[totals.last]);
 }

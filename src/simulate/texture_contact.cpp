@@ -249,10 +249,10 @@ void TextureContact::runStage(TextureState& state, const Program& program, const
     program.texture("crowds", unit, crowds_);
     program.texture("impulses", unit + 1, impulses_[totals.last]);
     program.texture("earlier", unit + 2, impulses_[earlier]);
-    program.texture("pushed", unit + 3, pushes_[totals.last]);
+    program.texture("pushed", unit + 3, pushes_[totals.pushes.value_or(totals.last)]);
     program.texture("pushedBefore", unit + 4, pushes_[earlier]);
     program.set("momentum", totals.momentum);
-    program.set("restPush", 1.0f);
+    program.set("rubShare", 1.0f / ContactPlan::frictionRounds);
     const Texture* impulses = &impulses_[totals.next];
     if (&program == &keep_) {
         program.texture("kept", unit + 5, shifts_);
@@ -295,14 +295,17 @@ void TextureContact::respond(const Frame& frame, TextureState& state) {
     drawAll(state, {&crowds_});
     const auto run = [&](const Program& program) {
         runStage(state, program, times, totals);
-        totals = {totals.next, totals.last, totals.earlier};
+        totals = {totals.next, totals.last, totals.earlier, 0, totals.pushes};
     };
     run(begin_);
     for (int i = 0; i < contact_->settings.iterations; ++i) {
         totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
         run(relax_);
     }
-    run(settle_);
+    totals.momentum = 0;
+    totals.pushes = totals.last;
+    for (int i = 0; i < ContactPlan::frictionRounds; ++i)
+        run(settle_);
     run(keep_);
     apply(state, impulses_[totals.last]);
 }

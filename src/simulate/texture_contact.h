@@ -60,7 +60,8 @@ class TextureContact : public ContactResult {
     // An iteration reads the totals of the two before it, which lie in these.
     struct Totals {
         size_t last = 0, earlier = 1, next = 2;
-        float momentum = 0;  // by how much it goes on beyond the last
+        float momentum = 0;            // by how much it goes on beyond the last
+        std::optional<size_t> pushes;  // where those lie that friction is bounded by
     };
     struct Times {
         double step;       // s

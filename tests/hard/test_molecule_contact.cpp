@@ -181,7 +181,7 @@ TEST_CASE("hard: a million contacts", "[hard][molecule contact][fused][million]"
             test::startFrom(simulation, [&](GroupState& state) {
                 for (size_t i = 0; i < state.velocities.size(); ++i)
                     state.velocities[i] =
-                        glm::vec3(float(i % 7) - 3, float(i % 11) - 5, float(i % 13) - 6) * 0.2f;
+                        glm::vec3(float(i % 7) - 3, float(i % 11) - 5, float(i % 13) - 6) * 0.005f;
             });
             glm::dvec3 before(0), after(0);
             double scale = 0;
