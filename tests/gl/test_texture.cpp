@@ -33,9 +33,8 @@ static std::vector<unsigned char> sampleData(Format format, int texels) {
 }
 
 TEST_CASE("what is uploaded comes back bit for bit, and is counted", "[texture]") {
-    for (const Format format :
-         {Format::rgba32f, Format::rgba16f, Format::rgba8, Format::srgb8a8, Format::rgba32ui, Format::rg32ui,
-          Format::r32f, Format::depth32f}) {
+    for (const Format format : {Format::rgba32f, Format::rgba16f, Format::rgba8, Format::srgb8a8,
+                                Format::rgba32ui, Format::rg32ui, Format::r32f, Format::depth32f}) {
         INFO("format " << static_cast<int>(format));
         const int width = 5, height = 3;  // odd, so that row padding would show
         Texture texture(testContext(), format, width, height, "round trip");
