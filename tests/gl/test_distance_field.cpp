@@ -48,8 +48,9 @@ Mesh torus() {
 
 }  // namespace
 
-// Contact puts what is inside onto the surface, along the normal, in one step without gravity: from many
-// points the shader's surface is known.
+// Contact puts what is inside onto the surface, along the normal, in one step without gravity, at no more
+// than pushSpeed (physics/collide.glsl), which is why the step is long: from many points the shader's surface
+// is known.
 TEST_CASE("distance field: the shader's surface is the reference's", "[numerics][contact][distanceField]") {
     Scene scene = test::sceneOf(test::point(1), SolverKind::euler);
     scene.colliders = {fieldOf(torus(), 24, 0, 0)};
@@ -63,7 +64,7 @@ TEST_CASE("distance field: the shader's surface is the reference's", "[numerics]
         out.colliders = scene.colliders;
         return out;
     }();
-    setSteps(scene, 1 / 240.0, 1);
+    setSteps(scene, 1, 1);
     Simulation simulation = test::simulationOf(scene);
     run(simulation, 1);
     const Snapshot now = simulation.snapshot(0);
@@ -135,10 +136,11 @@ TEST_CASE("distance field: points come to rest, on flat and round places, and st
                 INFO(name(kind) << " round " << round << " point " << m << " at " << later.positions[m].y);
                 CHECK(glm::length(later.velocities[m]) < 1e-6);
                 CHECK(glm::length(later.positions[m] - rest.positions[m]) < 1e-6);
-                if (!round) CHECK(later.positions[m].y == Approx(thickness).margin(2e-6));
+                // what is looked for along the way is touched from 1e-5 m on (lib/joint_contact.glsl)
+                if (!round) CHECK(later.positions[m].y == Approx(thickness).margin(1.2e-5));
                 const reference::Surface s =
                     reference::surfaceAt(scene.colliders[0].shape, later.positions[m]);
-                CHECK(s.distance == Approx(thickness).margin(5e-6));
+                CHECK(s.distance == Approx(thickness).margin(1.5e-5));
             }
         }
     }
