@@ -126,6 +126,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     vec3 from = position - drifted * drift.step;
     float begin = time - drift.step;
 #ifdef SWEPT
+    waySquared = (dot(drifted, drifted) + fastestSurface() * fastestSurface()) * (2.0 * drift.step * drift.step);
     if (clearances(anchor, from, begin).y < -caughtDepth) return comesOut(anchor, c, gravity, drift, time);
 #endif
     ivec3 skip = ivec3(-1);

@@ -27,6 +27,14 @@ float slower(float distance)
     return distance > 0.0 ? distance * 0.577 : distance;
 }
 
+// m^2, of the way that a vertex and the surfaces may have moved towards one another in the substep.
+float waySquared = 1e30;
+
+bool isShort(float cell)
+{
+    return waySquared < cell * cell;
+}
+
 Touch noTouch()
 {
     return Touch(vec3(0.0, 1.0, 0.0), 1e30, vec2(0.0), vec3(0.0), -1);

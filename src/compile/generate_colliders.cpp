@@ -22,6 +22,7 @@ struct Text {
     std::string comment, before, surface, material, velocity;
     bool swept = false;
     std::string slower = {};  // function of a distance that changes no faster than the vertex moves
+    std::string cell = {};    // m: a way shorter than this passes through nothing
 };
 
 class Emitter {
@@ -45,7 +46,10 @@ class Emitter {
         anchor_ = "anchor", position_ = "c.position";
         if (collider.path) place(collider, index, out);
         out.surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        if (std::holds_alternative<DistanceFieldCollider>(collider.shape)) out.slower = "slower";
+        if (std::holds_alternative<DistanceFieldCollider>(collider.shape)) {
+            out.slower = "slower";
+            out.cell = cell_;
+        }
         if (collider.path && collider.path->turns())
             out.surface = concat("turnedSurface(turn", index, ", ", out.surface, ")");
         return out;
@@ -117,6 +121,7 @@ class Emitter {
         const DistanceField& field = collider.field;
         const size_t base = appendDistances(field, *samples_);
         const std::string low = slot(field.grid.low, field.grid.cell);
+        cell_ = low + ".w";
         const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
         return concat("distanceSurface(", relative(low), ", ", low, ".w, ", last, ", ", base, ")");
     }
@@ -142,6 +147,7 @@ class Emitter {
     }
 
     std::vector<glm::vec4>* samples_;
+    std::string cell_;               // text of the last distance field's cell, m
     std::string anchor_, position_;  // text of what the surface at hand is relative to, and of the vertex
 };
 
@@ -214,9 +220,18 @@ class Joint {
         const char* part = t.swept ? "least.y" : "least.x";
         clearances_ += concat(head, "    ", part, " = min(", part, ", ", t.slower, "(surface.w - ",
                               t.material, ".z));\n");
-        survey_ += concat(head, "    ", t.swept ? "meetSwept" : "meetSolid", "(s, Touch(surface.xyz, ",
-                          t.slower, "(surface.w - ", t.material, ".z), ", t.material, ".xy, ", t.velocity,
-                          ", ", number, "), ", t.swept ? "" : "velocity, ", "skip);\n");
+        const auto touch = [&](const std::string& slower) {
+            return concat("(s, Touch(surface.xyz, ", slower, "(surface.w - ", t.material, ".z), ", t.material,
+                          ".xy, ", t.velocity, ", ", number, "), ");
+        };
+        survey_ += head;
+        // what is thin in a model is thickened to two cells, so that a short way ends inside
+        if (!t.cell.empty())
+            survey_ += concat("    if (isShort(", t.cell, ")) meetSolid", touch(""),
+                              "velocity, skip);\n    else meetSwept", touch(t.slower), "skip);\n");
+        else
+            survey_ += concat("    ", t.swept ? "meetSwept" : "meetSolid", touch(""),
+                              t.swept ? "" : "velocity, ", "skip);\n");
     }
 
     std::string source(const GeneratedColliders& out, const std::string& fastest) const {
