@@ -218,7 +218,7 @@ TEST_CASE("bench collide tells what each search finds", "[cli]") {
         if (member(one, "search").text == "exact")
             CHECK(found == contacts);
         else
-            CHECK((found > 0 && found < contacts));
+            CHECK((found > 0 && found <= contacts));  // of few contacts the staggered grids may see all
     }
     double before = 0;
     for (const JsonValue& one : member(searches, "overSpeed").items) {
