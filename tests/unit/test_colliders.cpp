@@ -93,7 +93,8 @@ TEST_CASE("boxes and capsules: a unit normal everywhere", "[colliders][contact]"
     for (const vec3& axis : {vec3(0), vec3(2e-9f, 0, 0), vec3(0, 2, 0)}) {
         const float squared = glm::dot(axis, axis);
         for (const float t : {-1.0f, 0.0f, 0.5f, 1.0f, 2.0f}) {
-            checkUnit(shader::capsuleSurface(axis * t, axis, squared > 1e-18f ? 1 / squared : 0, {1, 0, 0}, 0.1f));
+            checkUnit(
+                shader::capsuleSurface(axis * t, axis, squared > 1e-18f ? 1 / squared : 0, {1, 0, 0}, 0.1f));
         }
     }
     // half way between two faces, either is right
