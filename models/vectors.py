@@ -1,4 +1,4 @@
-"""Small maths for the generators: three-vectors as tuples, and repeatable smooth noise."""
+"""Small maths for the generators: three-vectors as tuples, repeatable smooth noise, profiles for a lathe."""
 
 import math
 
@@ -69,3 +69,16 @@ def noise(p, seed=0):
             for dz, wz in ((0, 1 - fz), (1, fz)):
                 total += wx * wy * wz * _lattice(base[0] + dx, base[1] + dy, base[2] + dz, seed)
     return total
+
+
+def smooth(points, pieces):
+    """Catmull-Rom through the points (radius, height) of a profile; its ends stay on the axis."""
+    out = []
+    for i in range(len(points) - 1):
+        a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
+        for k in range(pieces):
+            t = k / pieces
+            out.append(tuple(0.5 * (2 * b[n] + (c[n] - a[n]) * t + (2 * a[n] - 5 * b[n] + 4 * c[n] - d[n]) * t * t
+                                    + (3 * b[n] - a[n] - 3 * c[n] + d[n]) * t ** 3) for n in (0, 1)))
+    out.append(points[-1])
+    return [(max(r, 0.0), y) for r, y in out]

@@ -18,7 +18,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, cross, length, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
+from vectors import add, cross, length, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
 
 SIDES = 64
 STONE, DARK = (0.60, 0.57, 0.51), (0.40, 0.38, 0.35)
@@ -36,19 +36,6 @@ SLABS = [((-0.27, -0.05, -0.27), (0.27, 0.06, 0.27)), ((-0.215, 0.04, -0.215), (
 BOULDERS = [((0.62, 0.05, 0.38), (0.21, 0.15, 0.17), 3), ((0.40, 0.02, 0.56), (0.12, 0.09, 0.13), 5),
             ((-0.66, 0.04, 0.20), (0.17, 0.13, 0.20), 8), ((-0.47, 0.01, 0.49), (0.10, 0.08, 0.09), 13),
             ((0.10, 0.01, -0.62), (0.19, 0.14, 0.15), 21)]
-
-
-def smooth(points, pieces):
-    """Catmull-Rom through the points; its ends stay on the axis."""
-    out = []
-    for i in range(len(points) - 1):
-        a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
-        for k in range(pieces):
-            t = k / pieces
-            out.append(tuple(0.5 * (2 * b[n] + (c[n] - a[n]) * t + (2 * a[n] - 5 * b[n] + 4 * c[n] - d[n]) * t * t
-                                    + (3 * b[n] - a[n] - 3 * c[n] + d[n]) * t ** 3) for n in (0, 1)))
-    out.append(points[-1])
-    return [(max(r, 0.0), y) for r, y in out]
 
 
 def flutes(angle, radius, y):

@@ -17,7 +17,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent))
 
 from obj_writer import ObjWriter  # noqa: E402
-from vectors import add, cross, mix, noise, normalize, scale, smoothstep, sub  # noqa: E402
+from vectors import add, cross, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
 
 SIDES = 64
 PIECES = 16  # of the round, of glass
@@ -32,19 +32,6 @@ PROFILE = [(0.0, 0.0), (0.06, 0.0), (0.098, 0.002), (0.112, 0.010), (0.118, 0.02
            (0.1065, 0.256), (0.1075, 0.262), (0.1055, 0.268), (0.101, 0.27), (0.097, 0.268), (0.0945, 0.262),
            (0.0935, 0.25), (0.094, 0.238), (0.099, 0.225), (0.107, 0.211), (0.1115, 0.192), (0.112, 0.16),
            (0.112, 0.11), (0.112, 0.06), (0.110, 0.032), (0.103, 0.018), (0.09, 0.0125), (0.05, 0.012), (0.0, 0.012)]
-
-
-def smooth(points, pieces):
-    """Catmull-Rom through the points; its ends stay on the axis."""
-    out = []
-    for i in range(len(points) - 1):
-        a, b, c, d = (points[min(max(j, 0), len(points) - 1)] for j in (i - 1, i, i + 1, i + 2))
-        for k in range(pieces):
-            t = k / pieces
-            out.append(tuple(0.5 * (2 * b[n] + (c[n] - a[n]) * t + (2 * a[n] - 5 * b[n] + 4 * c[n] - d[n]) * t * t
-                                    + (3 * b[n] - a[n] - 3 * c[n] + d[n]) * t ** 3) for n in (0, 1)))
-    out.append(points[-1])
-    return [(max(r, 0.0), y) for r, y in out]
 
 
 def lathe(profile, sides, columns):
