@@ -5,11 +5,13 @@
 
 #include "hard/outcome.h"
 #include "support/catch.h"
+#include "support/colliders.h"
 
 namespace shoal {
 
 using test::at;
 using test::Judge;
+using test::plane;
 using test::run;
 using test::setSteps;
 
@@ -18,18 +20,7 @@ namespace {
 constexpr double g = 9.81, thickness = 0.01;
 
 Collider collider(ColliderShape shape, double restitution, double friction) {
-    Collider out;
-    out.shape = std::move(shape);
-    out.restitution = restitution;
-    out.friction = friction;
-    out.thickness = thickness;
-    return out;
-}
-
-PlaneCollider plane(const glm::dvec3& normal) {
-    PlaneCollider out;
-    out.normal = normal;
-    return out;
+    return test::collider(std::move(shape), restitution, friction, thickness);
 }
 
 // A method of order 1 keeps a velocity that lags half a step behind its position (physics/collide.glsl).

@@ -6,6 +6,7 @@
 #include "reference/contact.h"
 #include "reference/solve.h"
 #include "support/catch.h"
+#include "support/colliders.h"
 #include "support/shapes.h"
 
 namespace shoal::reference {
@@ -16,12 +17,7 @@ constexpr double g = 9.81, thickness = 0.01;
 const glm::dvec3 down{0, -g, 0};
 
 Collider collider(ColliderShape shape, double restitution, double friction) {
-    Collider out;
-    out.shape = std::move(shape);
-    out.restitution = restitution;
-    out.friction = friction;
-    out.thickness = thickness;
-    return out;
+    return test::collider(std::move(shape), restitution, friction, thickness);
 }
 
 Collider floor(double restitution, double friction) {
