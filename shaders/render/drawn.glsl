@@ -1,5 +1,5 @@
 // Which molecule an instance is. Variants: ORDERED (not as they are numbered), SLABS (only those of one slab of
-// depth), SLAB_DRAWS (the same, where each slab has a draw of its own).
+// depth), SLAB_DRAWS (the same, where each slab has a draw of its own). Needs lib/molecule.glsl.
 #ifdef ORDERED
 #include "render/order.glsl"
 #ifdef SLABS
@@ -22,15 +22,15 @@ bool findDrawn(out int molecule)
     molecule = int(pair.y);
 #ifdef SLABS
     uvec2 bounds = texelFetch(slabs, ivec2(slab, 0), 0).xy;
-    return pair.x >= bounds.x && pair.x < bounds.y;
+    return pair.x >= bounds.x && pair.x < bounds.y && isAlive(molecule);
 #else
-    return true;
+    return isAlive(molecule);
 #endif
 }
 #else
 bool findDrawn(out int molecule)
 {
     molecule = gl_InstanceID;
-    return true;
+    return isAlive(molecule);
 }
 #endif

@@ -25,9 +25,9 @@ struct Text {
     std::string cell = {};    // m: a way shorter than this passes through nothing
 };
 
-class Emitter {
+class ColliderWriter {
   public:
-    explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
+    explicit ColliderWriter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
     GeneratedColliders result;
 
@@ -170,8 +170,8 @@ std::string sourceOfOne(const Text& text) {
 class Joint {
   public:
     Joint(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples)
-        : colliders_(&colliders), samples_(&samples), emitter_(samples) {
-        emitter_.result.materials.resize(colliders.size());
+        : colliders_(&colliders), samples_(&samples), writer_(samples) {
+        writer_.result.materials.resize(colliders.size());
     }
 
     GeneratedColliders generate() {
@@ -182,21 +182,21 @@ class Joint {
             const Collider& collider = (*colliders_)[i];
             swept_ = swept_ || isSwept(collider.shape);
             if (slots > maxParameters && ColliderTable::holds(collider)) {
-                emitter_.result.materials[i] = tabledMaterial(collider);
-                table_.add(collider, i, emitter_.result.materials[i]);
+                writer_.result.materials[i] = tabledMaterial(collider);
+                table_.add(collider, i, writer_.result.materials[i]);
             } else {
-                write(emitter_.text(collider, i), i);
+                write(writer_.text(collider, i), i);
             }
         }
         const ColliderTable::Loops loops = table_.write(*samples_);
         clearances_ += loops.clearances;
         survey_ += loops.survey;
         std::string fastest = "0.0";
-        if (swept_ && !emitter_.result.moving.empty()) {
-            emitter_.result.fastestSlot = emitter_.result.parameters.size();
-            fastest = emitter_.slot({}) + ".x";
+        if (swept_ && !writer_.result.moving.empty()) {
+            writer_.result.fastestSlot = writer_.result.parameters.size();
+            fastest = writer_.slot({}) + ".x";
         }
-        GeneratedColliders out = std::move(emitter_.result);
+        GeneratedColliders out = std::move(writer_.result);
         out.source = source(out, fastest);
         return out;
     }
@@ -210,8 +210,8 @@ class Joint {
     // Colliders of the same surface share the uniform of their material, since they share it for every group.
     size_t tabledMaterial(const Collider& collider) {
         const auto key = std::make_tuple(collider.surface, collider.restitution, collider.friction);
-        const auto [found, isNew] = materials_.try_emplace(key, emitter_.result.parameters.size());
-        if (isNew) emitter_.slot({collider.restitution, collider.friction, 0});
+        const auto [found, isNew] = materials_.try_emplace(key, writer_.result.parameters.size());
+        if (isNew) writer_.slot({collider.restitution, collider.friction, 0});
         return found->second;
     }
 
@@ -260,7 +260,7 @@ class Joint {
 
     const std::vector<Collider>* colliders_;
     std::vector<glm::vec4>* samples_;
-    Emitter emitter_;
+    ColliderWriter writer_;
     ColliderTable table_;
     std::map<std::tuple<std::string, double, double>, size_t> materials_;
     std::string clearances_, survey_;  // statements
@@ -274,10 +274,10 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
     const bool joint =
         colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0].shape)));
     if (joint) return Joint(colliders, samples).generate();
-    Emitter emitter(samples);
-    emitter.result.materials.resize(colliders.size());
-    const std::string body = colliders.empty() ? "" : sourceOfOne(emitter.text(colliders[0], 0));
-    GeneratedColliders out = std::move(emitter.result);
+    ColliderWriter writer(samples);
+    writer.result.materials.resize(colliders.size());
+    const std::string body = colliders.empty() ? "" : sourceOfOne(writer.text(colliders[0], 0));
+    GeneratedColliders out = std::move(writer.result);
     out.source = concat("#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
                         parameterArray("colliderParameters", out.parameters.size()), body);
     return out;

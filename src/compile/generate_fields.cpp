@@ -11,9 +11,9 @@ namespace shoal {
 namespace {
 
 // Writes the call of one field: reads `x` (relative to the field's origin), `time`; parameters go to slots.
-class Emitter {
+class FieldWriter {
   public:
-    explicit Emitter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
+    explicit FieldWriter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
     Generated result;
 
@@ -104,10 +104,10 @@ class Emitter {
 }  // namespace
 
 Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
-    Emitter emitter(samples);
+    FieldWriter writer(samples);
     for (const Field& field : fields)
-        emitter.field(field);
-    Generated out = std::move(emitter.result);
+        writer.field(field);
+    Generated out = std::move(writer.result);
     out.source =
         concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
                parameterArray("fieldParameters", out.parameters.size()),

@@ -31,9 +31,13 @@ struct BufferLayout {
     static constexpr int lanes = 64;  // of a workgroup, a molecule each
     int vertexCount = 0;
     bool history = false;  // the changes of the last substep lie behind positions and velocities
+    bool life = false;     // age and length of life, s
 
     int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals
-    int stateElements() const { return (history ? 4 : 2) * positionElements(); }
+    int stateElements() const { return (history ? 4 : 2) * positionElements() + (lifeApart() ? 1 : 0); }
+    // Age and life take what the last 4-vectors of positions and of velocities leave free (their w), else the
+    // x and y of one more at the end.
+    bool lifeApart() const { return life && vertexCount % 4 == 0; }
     // Of the 4-vector e of molecule m, with `elements` a molecule.
     static size_t index(size_t m, int e, int elements) {
         return m / block * block * size_t(elements) + size_t(e) * block + m % block;

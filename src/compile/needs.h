@@ -18,6 +18,7 @@ struct Needs {
     bool phase = false;    // and in the phase of their muscles
     bool collide = false;
     bool normals = false;       // the shape has triangles
+    bool life = false;          // some are born or die
     bool acceleration = false;  // the solver keeps the springs' acceleration
 };
 

@@ -64,7 +64,7 @@ struct GroupPlan {
     Molecule shape;                             // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
-    BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history}; }
+    BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
 };
 
 enum class PassKind { records, normals, restore, advect, stage, collide, watch };

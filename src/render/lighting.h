@@ -15,7 +15,7 @@ namespace shoal {
 // Texture units, one for each sampler of the room.
 namespace unit {
 constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
-              order = 7, slabs = 8, slabDraws = 9;
+              order = 7, slabs = 8, slabDraws = 9, velocities = 10;
 }
 
 class Lighting {

@@ -15,14 +15,14 @@
 #include "molecule/molecule.h"
 #include "scene/collider_path.h"
 #include "scene/distance_field.h"
+#include "scene/emitter.h"
+#include "scene/force.h"
 #include "scene/mesh.h"
+#include "scene/particle.h"
+#include "scene/placement.h"
 #include "scene/solver.h"
 
 namespace shoal {
-
-struct Box {
-    glm::dvec3 low{-1}, high{1};  // m
-};
 
 // ---- Vector fields: fluid velocity u(x, t) in m/s. They add up, each times its weight, inside its box.
 
@@ -189,44 +189,6 @@ struct Model {
 
 // ---- Groups of molecules
 
-// Which vertices or triangles of a model may carry molecules. All conditions that are given must hold.
-struct Selection {
-    // The thinnest share, in (0, 1], of the vertices that meet all other conditions: the smallest branches.
-    std::optional<double> thinnest;
-    std::optional<double> maxThickness;  // m: local thickness (shape diameter) at most this
-    std::string object;                  // name of an object of the model; empty: all
-    std::optional<glm::dvec3> color;     // vertex colour within colorTolerance per channel
-    double colorTolerance = 0.1;
-    std::optional<double> minHeight, maxHeight;  // m, along y
-};
-
-struct Placement {
-    enum class Kind { vertices, surface, volume, grid, list };
-    Kind kind = Kind::volume;
-    int model = -1;  // index of the scene's model, for vertices and surface
-    Selection select;
-    Box box;                           // volume
-    glm::dvec3 origin{0}, spacing{1};  // grid
-    glm::ivec3 cells{1};               // grid: counts along x, y, z
-    struct Item {
-        glm::dvec3 position{0};
-        glm::dquat rotation{1, 0, 0, 0};
-        double scale = 1;
-    };
-    std::vector<Item> items;  // list
-
-    // Where the molecule's +Y points before turning. In files: normal on vertices and surfaces.
-    enum class Align { none, up, normal };
-    Align align = Align::none;
-    // Random turn about that axis, or any rotation. In files: none for lists, whose items say how they stand.
-    enum class Turn { none, yaw, any };
-    Turn turn = Turn::yaw;
-    double tilt = 0;         // rad: then tipped by up to this much in a random direction
-    double droop = 0;        // in [0, 1]: the axis is bent this share of the way to straight down
-    glm::dvec2 scale{1, 1};  // random between the two
-    double offset = 0;       // m along the axis, before it is bent
-};
-
 // Stokes drag rate in 1/s (gamma = 6 pi eta r / m for a sphere of radius r and mass m).
 struct Drag {
     double normal = 0;   // across the surface
@@ -254,8 +216,10 @@ struct GroupContact {
 struct Group {
     std::string name;
     Molecule molecule;
-    int count = 0;
+    std::optional<ParticleType> particle;  // then `molecule` is the type's
+    int count = 0;                         // at the start
     Placement place;
+    std::optional<Lifecycle> life;  // nothing: none is born and none dies
     Drag drag;
     bool held = true;  // pinned vertices hold; false: they are free from the start
     std::optional<Release> release;
@@ -342,6 +306,7 @@ struct Scene {
     SolverSettings solver;
     ContactSettings contact;  // means something where groups have contact
     std::vector<Field> fields;
+    std::vector<Force> forces;
     std::vector<Collider> colliders;
     std::vector<SurfaceRule> surfacePairs;
     std::vector<Model> models;
