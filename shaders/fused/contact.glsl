@@ -55,6 +55,9 @@ bool findContacts()
         if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k]));
     }
 #endif
+#ifdef LIFE
+    if (!taken()) least = 1.0;
+#endif
     return least < 0.0;
 }
 
@@ -115,6 +118,9 @@ void resolveContacts()
         v[i] = touchVelocity[i] != whole ? touchVelocity[i] - comingKick[i] : v[i];
 #else
         v[i] = touchVelocity[i];
+#endif
+#ifdef TOUCH_COUNTS
+        touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != whole;
 #endif
         x[i] = touchPosition[i];
     }

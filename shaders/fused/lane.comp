@@ -2,29 +2,16 @@
 #include "fused/watch.glsl"
 #include "physics/anchor.glsl"
 
-#ifdef PAIRED_STORES
-// Half as many stores, which a CPU rasteriser makes one by one.
-#define ELEMENT dvec2
-dvec2 stored(vec4 value)
-{
-    return dvec2(packDouble2x32(floatBitsToUint(value.xy)), packDouble2x32(floatBitsToUint(value.zw)));
-}
-#else
-#define ELEMENT vec4
-vec4 stored(vec4 value)
-{
-    return value;
-}
-#endif
-layout(std430, binding = 0) writeonly buffer NewState { ELEMENT newState[]; };
-#ifdef RECORDS
-layout(std430, binding = 1) writeonly buffer NewRecords { vec4 newRecords[]; };
-#endif
+#include "fused/store.glsl"
 #ifdef NORMALS
 layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
 #endif
 
 #include "generated/packing.glsl"
+
+#ifdef LIFE
+#include "particles/age.glsl"
+#endif
 
 // The anchor follows the molecule by steps of its lattice, exactly.
 bool followAnchor()
@@ -106,8 +93,19 @@ void main()
     sampleFrame();
     run();
     finishSolver();
+#ifdef LIFE
+    bool wasTaken = taken();
+    if (wasTaken) {
+        growOlder(molecule);
+    } else {
+        loadState(molecule);  // what has died stays as it was
+    }
+#endif
     storeState(molecule);
 #ifdef WATCH
+#ifdef LIFE
+    if (wasTaken)
+#endif
     watch();
 #endif
 #ifdef RECORDS

@@ -8,7 +8,8 @@
 //
 // so that neighbouring lanes touch neighbouring memory and a block is one contiguous piece. Normals lie alike, with
 // POSITION_ELEMENTS. A record is one 4-vector a molecule: xyz anchor (m); w: 1 + seed, negative once the pins have
-// let go. The constants, where instances differ: x scale, y phase of the muscles (rad).
+// let go. Where molecules are born and die (LIFE), age and length of life in s are the w of the last 4-vector of the
+// positions and of the velocities, or where those are full the x and y of one more. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
 // Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
 #include "lib/packed.glsl"
@@ -127,6 +128,16 @@ float scale = 1.0;      // of the rest lengths
 float phase = 0.0;      // rad
 bool released = false;  // the pins have let go
 uint seed;
+#ifdef LIFE
+float age;              // s
+float span;             // s, length of life; 0: the place is free
+bool touched = false;   // a collider, in this frame
+
+bool taken()
+{
+    return span > 0.0;
+}
+#endif
 
 // Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so that
 // every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own vertices,

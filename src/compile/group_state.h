@@ -7,6 +7,8 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/birth_schedule.h"
+
 namespace shoal {
 
 constexpr float noHistory = 1e30f;
@@ -21,6 +23,17 @@ struct GroupState {
     // first displacement is (noHistory, ...) starts anew.
     std::vector<glm::vec3> displacements;    // m
     std::vector<glm::vec3> velocityChanges;  // m/s
+    // Of groups of which some are born or die (compile/life_plan.h); empty for the others. One entry a place,
+    // but for clocks and totals.
+    std::vector<glm::vec2> lives;    // x age, y length of life, s; y = 0: free
+    std::vector<uint32_t> seeds;     // below 2^24
+    std::vector<glm::vec2> looks;    // x scale of the rest lengths, y phase of the muscles, rad
+    std::vector<BirthClock> clocks;  // one an emitter
+    std::vector<uint64_t> totals;    // born so far, and births that found no place
+    // Allocators on the CPU: when each place is free again, s. Stack: its free places, the top last; then
+    // as many zeros as there are places that are taken.
+    std::vector<double> ends;
+    std::vector<uint32_t> freed;
 
     bool operator==(const GroupState&) const = default;
 };

@@ -24,6 +24,11 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     out += glslArray("bool", "pinned", count, [&](size_t v) {
         return std::string(needs.pins && molecule.vertices[v].pinned ? "true" : "false");
     });
+    if (needs.life)
+        out += glslArray("vec3", "restPlace", count, [&](size_t v) {
+            const glm::dvec3& p = molecule.vertices[v].position;
+            return concat("vec3(", glslLiteral(p.x), ", ", glslLiteral(p.y), ", ", glslLiteral(p.z), ")");
+        });
     if (needs.release) {
         out +=
             "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = "
@@ -150,7 +155,9 @@ void forEachPart(int e, int floats, Visit visit) {
     }
 }
 
-std::string loadText(const char* array, int firstElement, int elements, int floats) {
+// `last`: what the w of the last 4-vector holds, where the vertices leave it free; or null.
+std::string loadText(const char* array, int firstElement, int elements, int floats,
+                     const char* last = nullptr) {
     std::string out;
     for (int e = 0; e < elements; ++e) {
         out +=
@@ -160,11 +167,12 @@ std::string loadText(const char* array, int firstElement, int elements, int floa
                           std::string("xyzw").substr(size_t(from - 4 * e), size_t(to - from)), ";\n");
         });
     }
+    if (last) out += concat("    ", last, " = e.w;\n");
     return out;
 }
 
 std::string storeText(const char* array, const char* buffer, const char* wrap, int firstElement, int elements,
-                      int floats) {
+                      int floats, const char* last = nullptr) {
     std::string out;
     for (int e = 0; e < elements; ++e) {
         std::string parts;
@@ -172,7 +180,7 @@ std::string storeText(const char* array, const char* buffer, const char* wrap, i
             parts += (parts.empty() ? "" : ", ") + components(array, from, to);
         });
         for (int k = floats; k < 4 * e + 4; ++k)
-            parts += ", 0.0";
+            parts += concat(", ", last && k == 4 * e + 3 ? last : "0.0");
         out += concat("    ", buffer, "[first + ", (firstElement + e) * BufferLayout::block, "] = ", wrap,
                       "(vec4(", parts, "));\n");
     }
@@ -180,18 +188,26 @@ std::string storeText(const char* array, const char* buffer, const char* wrap, i
 }
 
 std::string packingText(const Molecule& molecule, const Needs& needs, bool history) {
-    const BufferLayout layout{int(molecule.vertices.size()), history};
+    const BufferLayout layout{int(molecule.vertices.size()), history, needs.life};
     const int elements = layout.positionElements(), floats = 3 * layout.vertexCount;
+    const bool inside = layout.life && !layout.lifeApart();
+    const char *const age = inside ? "age" : nullptr, *const span = inside ? "span" : nullptr;
     std::string out =
         "void loadState(int molecule)\n{\n"
         "    int first = firstElement(molecule, STATE_ELEMENTS);\n    vec4 e;\n";
-    out += loadText("x", 0, elements, floats) + loadText("v", elements, elements, floats);
+    out += loadText("x", 0, elements, floats, age) + loadText("v", elements, elements, floats, span);
     if (history)
         out +=
             loadText("dx", 2 * elements, elements, floats) + loadText("dv", 3 * elements, elements, floats);
+    const int lifeAt = (layout.stateElements() - 1) * BufferLayout::block;
+    if (layout.lifeApart())
+        out +=
+            concat("    e = texelFetch(oldState, first + ", lifeAt, ");\n    age = e.x;\n    span = e.y;\n");
     out += "}\n\nvoid storeState(int molecule)\n{\n    int first = firstElement(molecule, STATE_ELEMENTS);\n";
-    out += storeText("x", "newState", "stored", 0, elements, floats);
-    out += storeText("v", "newState", "stored", elements, elements, floats);
+    out += storeText("x", "newState", "stored", 0, elements, floats, age);
+    out += storeText("v", "newState", "stored", elements, elements, floats, span);
+    if (layout.lifeApart())
+        out += concat("    newState[first + ", lifeAt, "] = stored(vec4(age, span, 0.0, 0.0));\n");
     if (history)
         out += storeText("dx", "newState", "stored", 2 * elements, elements, floats) +
                storeText("dv", "newState", "stored", 3 * elements, elements, floats);

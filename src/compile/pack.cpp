@@ -4,11 +4,36 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/random.h"
+
 namespace shoal {
 
-// The lattice point of 1/16 m nearest to a position: what shaders/physics/anchor.glsl keeps to.
-static glm::dvec3 anchorOf(const glm::dvec3& position) {
+glm::dvec3 latticePoint(const glm::dvec3& position) {
     return glm::floor(position * 16.0 + 0.5) / 16.0;
+}
+
+// Those at the start have their length of life from their seeds, as newborns do; the other places are free.
+static void packLives(const Group& source, GroupPlan& group) {
+    GroupState& start = group.start;
+    const size_t places = size_t(group.count);
+    for (const uint32_t seed : group.constants.seeds)
+        start.lives.emplace_back(0.0f, float(lifeOf(source.life->life, seed)));
+    start.positions.resize(places * size_t(group.vertexCount));
+    start.velocities.resize(start.positions.size());
+    start.anchors.resize(places);
+    start.lives.resize(places);
+    group.constants.seeds.resize(places);
+    group.constants.scales.resize(places, 1.0f);
+    group.constants.phases.resize(places, 0.0f);
+    start.seeds = group.constants.seeds;
+    for (size_t i = 0; i < places; ++i)
+        start.looks.emplace_back(group.constants.scales[i], group.constants.phases[i]);
+    start.clocks.resize(source.life->emitters.size());
+    start.totals.resize(2);
+}
+
+double lifeOf(const glm::dvec2& life, uint32_t seed) {
+    return glm::mix(life.x, life.y, double(hash(seed, bornLife) >> 8) / 16777216.0);
 }
 
 void packStart(const Scene& scene, GroupPlan& group) {
@@ -19,11 +44,13 @@ void packStart(const Scene& scene, GroupPlan& group) {
     start.velocities.reserve(vertices);
     start.anchors.reserve(molecules);
     start.released.assign(molecules, 0);
-    for (const Instance& instance : place(scene, group.index)) {
+    const std::vector<Instance> instances =
+        source.count > 0 ? place(scene, group.index) : std::vector<Instance>{};
+    for (const Instance& instance : instances) {
         const auto arm = [&](const Vertex& vertex) {
             return instance.rotation * (instance.scale * vertex.position);
         };
-        const glm::dvec3 anchor = anchorOf(instance.position + arm(source.molecule.vertices[0]));
+        const glm::dvec3 anchor = latticePoint(instance.position + arm(source.molecule.vertices[0]));
         for (const Vertex& vertex : source.molecule.vertices) {
             const glm::dvec3 offset = arm(vertex);
             const bool still = group.needs.pins && vertex.pinned;
@@ -37,11 +64,14 @@ void packStart(const Scene& scene, GroupPlan& group) {
         group.constants.scales.push_back(float(instance.scale));
         group.constants.phases.push_back(float(source.phaseSpread * double(instance.seed & 0xffff) / 65536));
     }
+    if (group.needs.life) packLives(source, group);
     const auto differs = [](const std::vector<float>& values, float from) {
         return std::any_of(values.begin(), values.end(), [from](float value) { return value != from; });
     };
-    group.needs.scale = group.needs.springs && differs(group.constants.scales, 1);
-    group.needs.phase = group.needs.actuation && differs(group.constants.phases, 0);
+    const bool newbornsScaled = source.life && source.life->scale != glm::dvec2(1);
+    const bool newbornsPhased = source.life && source.phaseSpread != 0;
+    group.needs.scale = group.needs.springs && (newbornsScaled || differs(group.constants.scales, 1));
+    group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 
 int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& topology) {

@@ -5,6 +5,13 @@
 
 namespace shoal {
 
+// The point of the anchors' lattice, of 1/16 m, nearest to a position (shaders/physics/anchor.glsl).
+glm::dvec3 latticePoint(const glm::dvec3& position);
+
+// The length of life of what has this seed, s (shaders/particles/emit.glsl).
+constexpr uint32_t bornLife = 0xe0000006u, bornTime = 0xe000000fu;
+double lifeOf(const glm::dvec2& life, uint32_t seed);
+
 // Fills the group's start state and constants: every molecule where it is placed.
 void packStart(const Scene& scene, GroupPlan& group);
 // Appends the molecule's tables and returns their base index.

@@ -63,6 +63,9 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
         throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
                            name(plan.fieldSampling), " needs the fused path"));
     for (const GroupPlan& group : plan.groups)
+        if (group.needs.life)
+            throw Error(group.life->cycle.location, "birth and death need the fused path (OpenGL 4.3)");
+    for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
             throw Error(group.location,
                         concat(name(group.solver), ", which \"", group.name,
@@ -96,7 +99,7 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
         const int most = std::max(FusedLimits::workgroup(limits, group.solver),
                                   limits.software ? FusedLimits::softwareLane : 0);
         checkMatrix(group, limits);
-        if (solver(group.solver).implicit) chooseLanes(group, Lanes::automatic, limits);
+        if (solver(group.solver).implicit || group.needs.life) chooseLanes(group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
@@ -152,6 +155,15 @@ Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits
                     concat(name(group.solver), " writes out the springs of a molecule, at most ",
                            FusedLimits::laneSprings, "; a molecule of \"", group.name, "\" has ",
                            group.springCount, ": use an explicit solver"));
+    if (group.needs.life && group.vertexCount > FusedLimits::softwareLane)
+        throw Error(group.location, concat("molecules of more than ", FusedLimits::softwareLane,
+                                           " vertices cannot be born or die; one of \"", group.name,
+                                           "\" has ", group.vertexCount));
+    if (group.needs.life && wanted != Lanes::vertex) return Lanes::molecule;
+    if (group.needs.life)
+        throw Error(group.location,
+                    concat("\"", group.name, "\" is born and dies, which keeps a molecule in one lane: ",
+                           "leave out --lanes vertex"));
     if (wanted == Lanes::automatic)
         return group.vertexCount <= most && group.springCount <= FusedLimits::laneSprings ? Lanes::molecule
                                                                                           : Lanes::vertex;

@@ -5,8 +5,10 @@
 
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
+#include "compile/generate_emitters.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
+#include "core/random.h"
 
 namespace shoal {
 
@@ -26,7 +28,8 @@ Needs findNeeds(const Scene& scene, const Group& group) {
     }
     needs.pins = group.held && molecule.hasPins();
     needs.release = needs.pins && group.release.has_value();
-    needs.records = !needs.pins || needs.release;
+    needs.life = group.life.has_value();
+    needs.records = !needs.pins || needs.release || needs.life;
     needs.collide = group.collide && !scene.colliders.empty();
     needs.normals = !molecule.triangles.empty();
     return needs;
@@ -45,6 +48,10 @@ std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     return taken ? concat(name, " ", index + 1) : name;
 }
 
+int placesOf(const Group& group) {
+    return group.life ? group.life->capacity : group.count;
+}
+
 // Of slabs in the textures; and what the group needs.
 GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     const Group& group = scene.groups[index];
@@ -52,7 +59,7 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.name = uniqueName(group, index, plan);
     out.location = group.location;
     out.index = index;
-    out.count = group.count;
+    out.count = placesOf(group);
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
     out.needs = findNeeds(scene, group);
@@ -61,11 +68,12 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     for (const Vertex& vertex : group.molecule.vertices)
         out.pinned.push_back(out.needs.pins && vertex.pinned);
     if (group.release) out.release = *group.release;
+    out.phaseSpread = group.phaseSpread;
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();
     TextureLayout& texture = out.texture;
-    texture.slabRows = slabRows(group.count);
+    texture.slabRows = slabRows(out.count);
     texture.firstRow = plan.rows;
     texture.rows = out.vertexCount * texture.slabRows;
     texture.firstRecordRow = plan.recordRows;
@@ -81,13 +89,41 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     for (const GroupPlan& group : plan.groups)
         before += int64_t(group.count) * group.vertexCount;
     const Group& group = scene.groups[index];
-    if (group.count < 1) throw Error(group.location, "a group needs at least one molecule");
+    const int64_t count = placesOf(group);
+    if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
-    if (before + group.count * vertices <= most) return;
-    throw Error(group.location, concat(group.count, " molecules of ", vertices, " vertices",
+    if (before + count * vertices <= most) return;
+    throw Error(group.location, concat(count, " molecules of ", vertices, " vertices",
                                        before > 0 ? ", beside the groups before," : "", " are more than the ",
                                        most, " vertices that a scene may have: at most ",
                                        (most - before) / vertices, " such molecules fit"));
+}
+
+// Who is born from whose deaths is known once all groups are.
+void planLives(const Scene& scene, Plan& plan) {
+    for (GroupPlan& group : plan.groups) {
+        const Group& source = scene.groups[group.index];
+        if (!source.life) continue;
+        LifePlan& life = group.life.emplace();
+        life.cycle = *source.life;
+        life.atStart = source.count;
+        life.seed = hash(uint32_t(scene.seed), uint32_t(scene.seed >> 32), uint32_t(group.index));
+    }
+    for (GroupPlan& group : plan.groups) {
+        if (!group.life) continue;
+        std::vector<BufferLayout> layouts;
+        for (const Emitter& emitter : group.life->cycle.emitters) {
+            size_t from = LifePlan::noSource;
+            for (size_t g = 0; g < plan.groups.size() && emitter.from == Emitter::From::death; ++g)
+                if (scene.groups[plan.groups[g].index].name == emitter.group) from = g;
+            group.life->sources.push_back(from);
+            layouts.push_back(from == LifePlan::noSource ? BufferLayout{} : plan.groups[from].layout());
+            if (from != LifePlan::noSource) plan.groups[from].life->feeds = true;
+        }
+        if (!group.life->bears()) continue;
+        group.life->source = generateEmitters(scene, group.life->cycle, layouts, plan.samples);
+        group.life->middles = emitterMiddles(scene, group.life->cycle);
+    }
 }
 
 void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
@@ -178,6 +214,10 @@ const char* name(FieldSampling sampling) {
     return names[size_t(sampling)];
 }
 
+bool Plan::hasLife() const {
+    return std::any_of(groups.begin(), groups.end(), [](const GroupPlan& g) { return g.life.has_value(); });
+}
+
 size_t Plan::tableBytes() const {
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
 }
@@ -240,6 +280,7 @@ Plan compile(const Scene& scene) {
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide) group.colliderParameters = parametersOf(scene, group, colliders);
+    planLives(scene, plan);
     plan.movingColliders = std::move(colliders.moving);
     plan.fastestSlot = colliders.fastestSlot;
     plan.sampleRows = tableRows(plan.samples);

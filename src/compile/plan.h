@@ -24,6 +24,7 @@
 #include "compile/contact_plan.h"
 #include "compile/group_state.h"
 #include "compile/kernel.h"
+#include "compile/life_plan.h"
 #include "compile/moving_colliders.h"
 #include "scene/scene.h"
 
@@ -42,7 +43,8 @@ struct GroupPlan {
     std::string name;
     Location location;  // of the group in the scene file, for messages
     size_t index = 0;   // in scene.groups
-    int count = 0, vertexCount = 0, springCount = 0;
+    int count = 0;      // places, where some are born or die
+    int vertexCount = 0, springCount = 0;
     TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
@@ -51,11 +53,13 @@ struct GroupPlan {
     Drag drag;
     Release release;
     double stiffness = 1, damping = 1;
-    double size = 1;              // m, of the molecule
-    double highestFrequency = 0;  // rad/s, of the molecule as held, with the group's stiffness
-    double stableStep = 0;        // s, largest substep of the solver; infinite without springs
-    bool rigid = false;           // all its springs are too stiff for the step: it is struck as a body
-    std::vector<bool> pinned;     // a vertex each: held at the start
+    double phaseSpread = 0;        // rad
+    double size = 1;               // m, of the molecule
+    double highestFrequency = 0;   // rad/s, of the molecule as held, with the group's stiffness
+    double stableStep = 0;         // s, largest substep of the solver; infinite without springs
+    bool rigid = false;            // all its springs are too stiff for the step: it is struck as a body
+    std::vector<bool> pinned;      // a vertex each: held at the start
+    std::optional<LifePlan> life;  // needs.life
     GroupState start;
     GroupConstants constants;
     std::vector<glm::vec4> colliderParameters;  // with the group's restitution and friction; 0 or as many as
@@ -107,6 +111,7 @@ struct Plan {
 
     std::vector<Warning> warnings;
 
+    bool hasLife() const;       // in some group some are born or die
     size_t tableBytes() const;  // topology and samples
 };
 

@@ -202,6 +202,11 @@ void Program::set(const char* name, const glm::mat4& value) const {
 void Program::set(const char* name, std::span<const float> values) const {
     glUniform1fv(location(name), static_cast<GLsizei>(values.size()), values.data());
 }
+void Program::set(const char* name, std::span<const glm::ivec4> values) const {
+    if (values.empty()) return;
+    glUniform4iv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
+}
+
 void Program::set(const char* name, std::span<const glm::vec4> values) const {
     if (values.empty()) return;
     glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));

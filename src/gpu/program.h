@@ -54,6 +54,7 @@ class Program {
     void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, std::span<const float> values) const;
     void set(const char* name, std::span<const glm::vec4> values) const;
+    void set(const char* name, std::span<const glm::ivec4> values) const;
 
     // Binds the texture to the unit and the sampler to it.
     void texture(const char* sampler, int unit, const Texture& texture) const;

@@ -14,11 +14,13 @@ struct Traffic {
         state,       // particle data: positions, velocities, normals; set-up and exports only
         parameters,  // tables, meshes, images, fields: what a scene is made of, and pictures that come back
         control,     // watchdog, counters, timers
+        births,      // places that allocators on the CPU hand out, 4 bytes a newborn
     };
+    static constexpr int kinds = 4;
     static constexpr uint64_t controlBytesPerFrame = 256;  // at most, all readers together
 
-    uint64_t uploaded[3] = {};
-    uint64_t readBack[3] = {};
+    uint64_t uploaded[kinds] = {};
+    uint64_t readBack[kinds] = {};
 
     void countUpload(Kind kind, size_t bytes) { uploaded[static_cast<size_t>(kind)] += bytes; }
     void countReadBack(Kind kind, size_t bytes) { readBack[static_cast<size_t>(kind)] += bytes; }
@@ -31,7 +33,7 @@ struct Traffic {
 // What crossed between two readings of the counters: after - before.
 inline Traffic operator-(const Traffic& after, const Traffic& before) {
     Traffic difference;
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < Traffic::kinds; ++i) {
         difference.uploaded[i] = after.uploaded[i] - before.uploaded[i];
         difference.readBack[i] = after.readBack[i] - before.readBack[i];
     }

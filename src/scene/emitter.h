@@ -24,6 +24,8 @@ enum class Allocator {
 };
 const char* name(Allocator allocator);
 
+constexpr double longestLife = 1e30;  // s: for ever
+
 struct Burst {
     double time = 0;   // s
     int count = 1;     // at least 1, all at that moment
@@ -78,12 +80,13 @@ struct Lifecycle {
     int capacity = 0;  // places, at least the group's count
     Allocator allocator = Allocator::gpu;
     std::vector<Emitter> emitters;
-    glm::dvec2 life{std::numeric_limits<double>::infinity()};  // s, above 0: random between the two
-    std::optional<Box> within;                                 // dies outside
+    glm::dvec2 life{longestLife};        // s, above 0: random between the two
+    std::optional<Box> within;           // dies outside
     std::optional<double> afterContact;  // s, at least 0: what touches a collider has only so long to live
     glm::dvec2 scale{1, 1};              // of newborn molecules, random between the two
-    double grow = 0, shrink = 0;         // s: molecules are drawn growing at birth and shrinking before death
-    glm::dvec3 spin{0};                  // rad/s: newborn molecules, about each axis up to this either way
+    Placement::Turn turn = Placement::Turn::any;  // of newborn molecules
+    double grow = 0, shrink = 0;  // s: molecules are drawn growing at birth and shrinking before death
+    glm::dvec3 spin{0};           // rad/s: newborn molecules, about each axis up to this either way
     Location location;
 };
 

@@ -23,6 +23,8 @@ struct Selection {
     std::optional<glm::dvec3> color;     // vertex colour within colorTolerance per channel
     double colorTolerance = 0.1;
     std::optional<double> minHeight, maxHeight;  // m, along y
+
+    bool operator==(const Selection&) const = default;
 };
 
 struct Placement {

@@ -112,28 +112,6 @@ bool same(const Pose& a, const Pose& b) {
            std::abs(glm::dot(a.rotation, b.rotation)) > 1 - 1e-9;
 }
 
-std::optional<ColliderPath> readPath(JsonReader& collider) {
-    auto r = collider.object("path");
-    if (!r) return {};
-    ColliderPath path;
-    int end = 0, interpolation = 0;
-    r->choose("end", {"hold", "repeat"}, end);
-    r->choose("interpolation", {"linear", "smooth"}, interpolation);
-    path.repeats = end == 1;
-    path.smooth = interpolation == 1;
-    r->require("keyframes");
-    for (JsonReader& frame : r->objects("keyframes"))
-        addKeyframe(frame, path);
-    if (path.keyframes.size() < 2)
-        throw Error(r->at("keyframes"),
-                    concat("expected at least two keyframes, found ", path.keyframes.size()));
-    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
-        throw Error(r->at("keyframes"),
-                    "expected the last pose to be the first again where the path repeats");
-    r->finish();
-    return path;
-}
-
 // A name of "between", which some collider or group must have.
 std::string needSurface(const JsonReader& r, const std::string& name, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return name;
@@ -157,6 +135,28 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
 }
 
 }  // namespace
+
+std::optional<ColliderPath> readPath(JsonReader& collider) {
+    auto r = collider.object("path");
+    if (!r) return {};
+    ColliderPath path;
+    int end = 0, interpolation = 0;
+    r->choose("end", {"hold", "repeat"}, end);
+    r->choose("interpolation", {"linear", "smooth"}, interpolation);
+    path.repeats = end == 1;
+    path.smooth = interpolation == 1;
+    r->require("keyframes");
+    for (JsonReader& frame : r->objects("keyframes"))
+        addKeyframe(frame, path);
+    if (path.keyframes.size() < 2)
+        throw Error(r->at("keyframes"),
+                    concat("expected at least two keyframes, found ", path.keyframes.size()));
+    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
+        throw Error(r->at("keyframes"),
+                    "expected the last pose to be the first again where the path repeats");
+    r->finish();
+    return path;
+}
 
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
                                     const FieldBaking& baking, std::vector<Warning>& warnings) {

@@ -10,33 +10,6 @@ namespace shoal {
 
 namespace {
 
-Selection readSelection(JsonReader& r, const Model& model) {
-    Selection select;
-    getOptional(r, "thinnest", select.thinnest, Range{0, 1, true});
-    getOptional(r, "maxThickness", select.maxThickness, aboveZero());
-    if (r.get("object", select.object)) {
-        std::vector<std::string> names;
-        for (const Mesh::Object& object : model.mesh.objects)
-            names.push_back(object.name);
-        bool known = false;
-        for (const std::string& name : names)
-            known = known || name == select.object;
-        if (!known)
-            throw Error(r.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
-                                            "\"" + suggestion(select.object, names));
-    }
-    getColor(r, "color", select.color);
-    if (r.get("colorTolerance", select.colorTolerance, Range::atLeast(0)) && !select.color)
-        throw Error(r.at("colorTolerance"), "colorTolerance needs a color");
-    getOptional(r, "minHeight", select.minHeight, Range::any());
-    getOptional(r, "maxHeight", select.maxHeight, Range::any());
-    if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
-        throw Error(r.at("maxHeight"), concat("expected maxHeight of at least minHeight (", *select.minHeight,
-                                              "), found ", *select.maxHeight));
-    r.finish();
-    return select;
-}
-
 void readGrid(JsonReader& r, Placement& place) {
     r.get("origin", place.origin);
     r.need("spacing", place.spacing);
@@ -83,21 +56,6 @@ void readHost(JsonReader& r, Placement& place, const std::vector<Model>& models)
     }
 }
 
-// "scale": a number, or [least, most].
-void readScale(JsonReader& r, glm::dvec2& scale) {
-    const JsonValue* value = r.raw("scale");
-    if (!value) return;
-    if (value->kind == JsonValue::Kind::number) {
-        double both = 1;
-        r.get("scale", both, aboveZero());
-        scale = {both, both};
-        return;
-    }
-    r.get("scale", scale, aboveZero());
-    if (scale.x > scale.y)
-        throw Error(r.at("scale"), concat("expected [least, most], found ", scale.x, " above ", scale.y));
-}
-
 Placement readPlacement(JsonReader& r, const std::vector<Model>& models) {
     Placement place;
     int kind = 0, align = 0, turn = 0;
@@ -117,7 +75,7 @@ Placement readPlacement(JsonReader& r, const std::vector<Model>& models) {
     if (r.choose("turn", {"none", "yaw", "any"}, turn)) place.turn = static_cast<Placement::Turn>(turn);
     r.get("tilt", place.tilt, Range::between(0, 3.141592653589794));
     r.get("droop", place.droop, Range::between(0, 1));
-    readScale(r, place.scale);
+    getSpan(r, "scale", place.scale, aboveZero());
     r.get("offset", place.offset);
     r.finish();
     return place;
@@ -202,10 +160,15 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     group.name = group.molecule.name;
     r.get("name", group.name);
 
-    r.require("place");
-    auto place = r.object("place");
-    group.place = readPlacement(*place, models);
-    group.count = readCount(r, group.place);
+    // what is born needs nothing to start with
+    if (!r.has("emitters")) r.require("place");
+    if (auto place = r.object("place")) {
+        group.place = readPlacement(*place, models);
+        group.count = readCount(r, group.place);
+    } else if (r.has("count")) {
+        throw Error(r.at("count"), "expected a \"place\" for those at the start");
+    }
+    readLife(r, group, models);
 
     readDrag(r, group.drag);
     readRelease(r, group, warnings);
@@ -227,6 +190,33 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
 
 }  // namespace
 
+Selection readSelection(JsonReader& r, const Model& model) {
+    Selection select;
+    getOptional(r, "thinnest", select.thinnest, Range{0, 1, true});
+    getOptional(r, "maxThickness", select.maxThickness, aboveZero());
+    if (r.get("object", select.object)) {
+        std::vector<std::string> names;
+        for (const Mesh::Object& object : model.mesh.objects)
+            names.push_back(object.name);
+        bool known = false;
+        for (const std::string& name : names)
+            known = known || name == select.object;
+        if (!known)
+            throw Error(r.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
+                                            "\"" + suggestion(select.object, names));
+    }
+    getColor(r, "color", select.color);
+    if (r.get("colorTolerance", select.colorTolerance, Range::atLeast(0)) && !select.color)
+        throw Error(r.at("colorTolerance"), "colorTolerance needs a color");
+    getOptional(r, "minHeight", select.minHeight, Range::any());
+    getOptional(r, "maxHeight", select.maxHeight, Range::any());
+    if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
+        throw Error(r.at("maxHeight"), concat("expected maxHeight of at least minHeight (", *select.minHeight,
+                                              "), found ", *select.maxHeight));
+    r.finish();
+    return select;
+}
+
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings) {
     scene.require("groups");
@@ -238,6 +228,7 @@ std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& model
         names.push_back(groups.back().name);
     }
     if (groups.empty()) throw Error(scene.at("groups"), "expected at least one group, found none");
+    checkDeaths(groups);
     return groups;
 }
 

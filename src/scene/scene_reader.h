@@ -36,6 +36,17 @@ DistanceFieldCollider readDistanceField(JsonReader& reader, const std::vector<Mo
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 
+// "life" and "emitters" of a group whose molecule and count are read. Error, located: a rate below 0, a life
+// without length, no capacity where nothing says it, and more.
+void readLife(JsonReader& reader, Group& group, const std::vector<Model>& models);
+// Error, located at the emitter: from the deaths of no group, of one where none dies, or in a circle.
+void checkDeaths(const std::vector<Group>& groups);
+Selection readSelection(JsonReader& reader, const Model& model);
+std::optional<ColliderPath> readPath(JsonReader& reader);  // "path"
+
+// A number, or [least, most].
+bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range);
+
 // A key that names a file: its path, relative to the folder of the file that names it.
 // Error at the key: absent, empty, or no such file.
 std::string needFile(JsonReader& reader, const std::string& key);

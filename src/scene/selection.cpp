@@ -143,4 +143,13 @@ Selected select(const Mesh& mesh, const Selection& selection) {
     return Selector(mesh, selection).run();
 }
 
+double selectedArea(const Mesh& mesh, const Selection& selection) {
+    double sum = 0;
+    for (const int t : select(mesh, selection).triangles) {
+        const auto corner = [&](int i) { return mesh.positions[size_t(mesh.triangles[size_t(t)][i])]; };
+        sum += 0.5 * glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0)));
+    }
+    return sum;
+}
+
 }  // namespace shoal

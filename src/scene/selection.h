@@ -20,4 +20,7 @@ struct Selected {
 // A vertex belongs to an object or has a colour when one of its corners does.
 Selected select(const Mesh& mesh, const Selection& selection);
 
+// m^2, of the selected triangles.
+double selectedArea(const Mesh& mesh, const Selection& selection);
+
 }  // namespace shoal

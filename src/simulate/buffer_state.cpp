@@ -58,6 +58,40 @@ void repeatLast(std::vector<glm::vec4>& packed, int elements, size_t count) {
             packed[BufferLayout::index(m, e, elements)] = packed[BufferLayout::index(count - 1, e, elements)];
 }
 
+// Where age, and where length of life lie: the 4-vector of a molecule, and which of its numbers.
+struct LifeAt {
+    int element;
+    int component;
+};
+LifeAt ageAt(const BufferLayout& layout) {
+    if (layout.lifeApart()) return {layout.stateElements() - 1, 0};
+    return {layout.positionElements() - 1, 3};
+}
+LifeAt spanAt(const BufferLayout& layout) {
+    if (layout.lifeApart()) return {layout.stateElements() - 1, 1};
+    return {2 * layout.positionElements() - 1, 3};
+}
+
+void packLives(const BufferLayout& layout, const std::vector<glm::vec2>& lives, std::vector<glm::vec4>& out) {
+    const int elements = layout.stateElements();
+    const LifeAt age = ageAt(layout), span = spanAt(layout);
+    for (size_t m = 0; m < lives.size(); ++m) {
+        out[BufferLayout::index(m, age.element, elements)][age.component] = lives[m].x;
+        out[BufferLayout::index(m, span.element, elements)][span.component] = lives[m].y;
+    }
+}
+
+std::vector<glm::vec2> unpackLives(const BufferLayout& layout, const std::vector<glm::vec4>& packed,
+                                   size_t count) {
+    const int elements = layout.stateElements();
+    const LifeAt age = ageAt(layout), span = spanAt(layout);
+    std::vector<glm::vec2> out;
+    for (size_t m = 0; m < count; ++m)
+        out.emplace_back(packed[BufferLayout::index(m, age.element, elements)][age.component],
+                         packed[BufferLayout::index(m, span.element, elements)][span.component]);
+    return out;
+}
+
 std::vector<glm::vec4> download(const Buffer& buffer) {
     std::vector<glm::vec4> out(buffer.bytes() / sizeof(glm::vec4));
     buffer.download(Traffic::Kind::state, 0, out.data(), buffer.bytes());
@@ -143,6 +177,10 @@ GroupBuffers::Range GroupBuffers::records(const Part& part) const {
     return rangeOf(part, records_, 1);
 }
 
+GroupBuffers::Range GroupBuffers::constants(const Part& part) const {
+    return rangeOf(part, constants_, 1);
+}
+
 GroupBuffers::Range GroupBuffers::normals(const Part& part) const {
     return rangeOf(part, normals_, layout_.positionElements());
 }
@@ -153,17 +191,28 @@ void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {
     pack(layout_, state.positions, 0, elements, packed);
     pack(layout_, state.velocities, layout_.positionElements(), elements, packed);
     if (layout_.history) packHistory(layout_, state, packed);
-    repeatLast(packed, elements, size_t(group.count));
+    // lanes past the last place are free places for ever
+    if (layout_.life)
+        packLives(layout_, state.lives, packed);
+    else
+        repeatLast(packed, elements, size_t(group.count));
     state_[size_t(current_)].update(Traffic::Kind::state, 0, packed.data(),
                                     packed.size() * sizeof(glm::vec4));
     std::vector<glm::vec4> records(molecules_);
+    const std::vector<uint32_t>& seeds = state.seeds.empty() ? seeds_ : state.seeds;
     for (size_t m = 0; m < size_t(group.count); ++m) {
-        const float label = float(seeds_[m] + 1);
+        const float label = float(seeds[m] + 1);
         records[m] = glm::vec4(state.anchors[m], state.released[m] ? -label : label);
     }
     // a record is one element, and one element of a block of molecules lies as they are counted
     repeatLast(records, 1, size_t(group.count));
     records_.update(Traffic::Kind::state, 0, records.data(), records_.bytes());
+    if (constants_ && !state.looks.empty()) {
+        std::vector<glm::vec4> looks(molecules_);
+        for (size_t m = 0; m < state.looks.size(); ++m)
+            looks[m] = glm::vec4(state.looks[m], 0, 0);
+        constants_.update(Traffic::Kind::state, 0, looks.data(), constants_.bytes());
+    }
 }
 
 GroupState GroupBuffers::read(const GroupPlan& group) const {
@@ -190,6 +239,15 @@ GroupState GroupBuffers::readSide(const GroupPlan& group, const Buffer& side) co
     for (size_t m = 0; m < count; ++m) {
         state.anchors.emplace_back(records[m]);
         state.released.push_back(std::signbit(records[m].w));
+    }
+    if (layout_.life) {
+        state.lives = unpackLives(layout_, packed, count);
+        for (size_t m = 0; m < count; ++m)
+            state.seeds.push_back(records[m].w == 0 ? 0 : uint32_t(std::abs(records[m].w)) - 1);
+        const std::vector<glm::vec4> looks =
+            constants_ ? download(constants_) : std::vector<glm::vec4>(count, glm::vec4(1, 0, 0, 0));
+        for (size_t m = 0; m < count; ++m)
+            state.looks.emplace_back(looks[m].x, looks[m].y);
     }
     return state;
 }

@@ -48,6 +48,7 @@ class GroupBuffers {
     Range newState(const Part& part) const;
     Range currentState(const Part& part) const;  // to be changed between dispatches
     Range records(const Part& part) const;
+    Range constants(const Part& part) const;
     Range normals(const Part& part) const;
     void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
 

@@ -63,13 +63,21 @@ Head readHead(FileReader& file) {
 // All arrays of a group in the file's order. A new member of GroupState has to find its place here.
 template <typename State, typename Visit>
 void forEachArray(State& state, Visit visit) {
-    auto& [positions, velocities, anchors, released, displacements, velocityChanges] = state;
+    auto& [positions, velocities, anchors, released, displacements, velocityChanges, lives, seeds, looks,
+           clocks, totals, ends, freed] = state;
     visit(positions);
     visit(velocities);
     visit(anchors);
     visit(released);
     visit(displacements);
     visit(velocityChanges);
+    visit(lives);
+    visit(seeds);
+    visit(looks);
+    visit(clocks);
+    visit(totals);
+    visit(ends);
+    visit(freed);
 }
 
 // Room for what the file holds; `history`: of a solver that remembers its last substep.
@@ -82,6 +90,16 @@ GroupState emptyState(const GroupPlan& group, bool history) {
     state.released.resize(molecules);
     state.displacements.resize(history ? vertices : 0);
     state.velocityChanges.resize(history ? vertices : 0);
+    if (!group.life) return state;
+    const Lifecycle& life = group.life->cycle;
+    state.lives.resize(molecules);
+    state.seeds.resize(molecules);
+    state.looks.resize(molecules);
+    state.clocks.resize(life.emitters.size());
+    state.totals.resize(2);
+    if (!group.life->bears()) return state;
+    if (life.allocator == Allocator::stack || life.allocator == Allocator::heap) state.ends.resize(molecules);
+    if (life.allocator == Allocator::stack) state.freed.resize(molecules);
     return state;
 }
 
@@ -139,6 +157,21 @@ void checkState(const GroupState& state, const GroupPlan& group, const Location&
                           perVertex ? concat(", vertex ", i % vertices) : std::string(), " is not finite"));
         }
     });
+    const auto any = [](const auto& values, auto wrong) {
+        return std::any_of(values.begin(), values.end(), wrong);
+    };
+    const auto places = uint32_t(group.count);
+    if (any(state.lives,
+            [](const glm::vec2& life) {
+                return !std::isfinite(life.x) || !std::isfinite(life.y) || life.x < 0 || life.y < 0;
+            }) ||
+        any(state.seeds, [](uint32_t seed) { return seed >= 1u << 24; }) ||
+        any(state.looks,
+            [](const glm::vec2& look) { return !std::isfinite(look.x) || !std::isfinite(look.y); }) ||
+        any(state.clocks, [](const BirthClock& clock) { return !(clock.due >= 0 && clock.due < 1); }) ||
+        any(state.ends, [](double end) { return std::isnan(end); }) ||
+        any(state.freed, [places](uint32_t place) { return place >= places; }))
+        refuse(" has births or deaths that make no sense");
     if (std::any_of(state.released.begin(), state.released.end(), [](uint8_t flag) { return flag > 1; }))
         refuse(" has pins that neither hold nor let go");
 }

@@ -7,6 +7,8 @@
 //          u64 checksum of the head
 //   body   a group: positions, velocities (3 f32 a vertex), anchors (3 f32 a molecule), released (u8)
 //          with a history: displacements, changes of velocity of the last substep (3 f32 a vertex)
+//          with life: age and length of life (2 f32), seeds (u32), scale and phase (2 f32) a place;
+//          emitters' clocks (f64, u64); born, lost (u64); allocators on the CPU: their books
 //          u64 checksum of the body
 //
 // Numbers are in the byte order of the machine that wrote them. The head is checked before anything of the
@@ -28,7 +30,7 @@
 
 namespace shoal {
 
-constexpr uint32_t checkpointVersion = 1;
+constexpr uint32_t checkpointVersion = 2;
 
 struct Checkpoint {
     SavedState state;

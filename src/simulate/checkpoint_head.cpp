@@ -18,6 +18,10 @@ uint64_t shapeOf(const Plan& plan, const GroupPlan& group) {
             sum.add(spring.w);
         }
     }
+    if (group.life) {
+        sum.add(uint32_t(group.life->cycle.allocator));
+        sum.add(uint32_t(group.life->cycle.emitters.size()));
+    }
     return sum.sum();
 }
 
@@ -57,7 +61,8 @@ std::string difference(const std::vector<GroupHead>& saved, const std::vector<Gr
             return concat(group, "molecules of ", was.springCount, " springs, here they have ",
                           is.springCount);
         if (was.shape != is.shape)
-            return concat(group, "springs between other vertices or of other rest lengths");
+            return concat(group,
+                          "springs between other vertices or of other rest lengths, or was born otherwise");
         if (was.instances != is.instances)
             return concat(group, "other seeds, sizes or muscle phases: another --seed or other ranges");
     }

@@ -49,11 +49,13 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     const gpu::ContextInfo& info = context.info();
     constexpr uint32_t fine = 0;
     if (options.watch) alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
+    if (plan.hasLife()) births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, options.cache);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
         kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
-        kernel.normals = options.drawn && !plan.contact.any();  // contact still moves what a dispatch leaves
+        // contact still moves what a dispatch leaves, and newborns come after it
+        kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
         kernel.watch = options.watch;
@@ -110,37 +112,6 @@ void Fused::makeFactors(size_t index) {
     kernel.factors.update(gpu::Traffic::Kind::parameters, 0, factors.data(), bytes);
 }
 
-void Fused::setUniforms(const Program& program, const GroupPlan& group, const Frame& frame) const {
-    const Parameters& parameters = frame.parameters;
-    const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
-    program.set("givenFrame", frame.number);
-    program.set("givenSubsteps", parameters.substeps);
-    program.set("givenSubstep", float(frame.h));
-    program.set("givenFrameTime", float(frame.time));
-    program.set("givenFrameDuration", float(parameters.frameTime));
-    program.set("givenGravity", glm::vec3(parameters.gravity));
-    program.set("givenWind", float(parameters.wind));
-    program.set("givenDecay", drag.decay);
-    program.set("givenPhi", drag.phi);
-    program.set("givenSlips", int(drag.slips));
-    program.set("givenFlightBend", drag.bend);
-    program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
-    program.set("givenDampingFactor", float(group.damping * parameters.damping));
-    const ReleaseLimits release = releaseLimits(group, frame);
-    program.set("givenReleaseForce", release.force);
-    program.set("givenReleaseChance", release.chance);
-    program.set("givenDriftOfStep", driftOf(group.solver, frame.h, drag.slips));
-    program.set("givenDragRate", glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag));
-    const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
-    program.set("givenStageEta", stage.eta);
-    program.set("givenStageDecay", stage.drag.decay);
-    program.set("givenStagePhi", stage.drag.phi);
-    program.set("givenRestarts", int(frame.restarts));
-    if (group.needs.collide && !plan_->movingColliders.empty())
-        program.set("givenColliderParameters",
-                    std::span<const glm::vec4>(colliderParameters(*plan_, group, frame)));
-}
-
 void Fused::updateFactors(size_t index, const Frame& frame) {
     const GroupPlan& group = plan_->groups[index];
     if (!group.factored()) return;
@@ -176,16 +147,26 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     bind(program, index, part);
     const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].options.lanes);
+    if (births_ && births_->has(index) && &program == &kernels_[index].step) {
+        births_->bindStep(program, index);
+        return births_->dispatchStep(program, index, lanes);
+    }
     program.dispatch(kernels_[index].options.lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes
                                                                       : part.count);
 }
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
-    if (!contact_) return run(frame, timers);
+    if (!contact_) {
+        run(frame, timers);
+        if (births_) births_->step(frame, state, timers);
+        if (drawn_ && births_) computeNormals(timers);
+        return;
+    }
     const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         run(piece, timers);
+        if (births_) births_->step(piece, state, timers);
         contact_->step(piece, state, timers);
     }
     if (drawn_) computeNormals(timers);
@@ -199,7 +180,7 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         updateFactors(g, frame);
         const Program& program = kernels_[g].step;
         program.use();
-        setUniforms(program, plan_->groups[g], frame);
+        setStepUniforms(program, *plan_, plan_->groups[g], frame);
         if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);

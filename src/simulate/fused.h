@@ -11,6 +11,7 @@
 #include "compile/corotated.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/births.h"
 #include "simulate/buffer_state.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/molecule_contact.h"
@@ -40,6 +41,7 @@ class Fused {
     std::vector<GroupBuffers> state;  // per group
     Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
     const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
+    Births* births() const { return births_.get(); }                   // null: none is born and none dies
     // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
     bool alarmed() const;
     void disarm();
@@ -55,7 +57,6 @@ class Fused {
     void makeFactors(size_t index);
     void updateFactors(size_t index, const Frame& frame);
     void run(const Frame& frame, gpu::PassTimers& timers);
-    void setUniforms(const gpu::Program& program, const GroupPlan& group, const Frame& frame) const;
     void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
 
@@ -68,6 +69,7 @@ class Fused {
     std::vector<Kernel> kernels_;
     gpu::Buffer alarm_;  // one word; where watched
     std::unique_ptr<MoleculeContact> contact_;
+    std::unique_ptr<Births> births_;
 };
 
 // Of a context, for compile/path.h.

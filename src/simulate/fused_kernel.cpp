@@ -13,6 +13,29 @@ namespace shoal {
 
 namespace {
 
+int deathRunsOf(const Lifecycle& life) {
+    return int(std::count_if(life.emitters.begin(), life.emitters.end(),
+                             [](const Emitter& emitter) { return emitter.from == Emitter::From::death; }));
+}
+
+void defineLife(const LifePlan& life, bool births, std::vector<std::string>& out) {
+    const Lifecycle& cycle = life.cycle;
+    const auto define = [&](bool need, const char* name) {
+        if (need) out.emplace_back(name);
+    };
+    define(true, "LIFE");
+    define(life.feeds, "DEATHS_LISTED");
+    define(cycle.within.has_value(), "CONFINED");
+    define(cycle.afterContact.has_value(), "TOUCH_COUNTS");
+    if (!births) return;
+    define(cycle.allocator != Allocator::ring, "LISTED");
+    define(cycle.allocator == Allocator::gpu, "ALLOCATED");
+    define(cycle.turn == Placement::Turn::any, "TURN_ANY");
+    define(cycle.turn == Placement::Turn::yaw, "TURN_YAW");
+    out.push_back(concat("RUNS ", std::max(1, mostRuns(cycle))));
+    if (const int runs = deathRunsOf(cycle)) out.push_back(concat("DEATH_RUNS ", runs));
+}
+
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
     const BufferLayout layout = group.layout();
@@ -43,8 +66,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.actuation, "ACTUATION");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
-    define(plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
-    define(plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
+    define(options.births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
+    define(!options.births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.collide, "COLLIDE");
     define(group.rigid && perLane, "RIGID_IMPACT");
@@ -52,6 +75,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     if (solver(group.solver).history) out.push_back("NO_HISTORY 1e30");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     define(needs.collide && needs.springs && group.solver == SolverKind::leapfrog, "COMING_KICK");
+    if (needs.life) defineLife(*group.life, options.births, out);
     return out;
 }
 
@@ -69,6 +93,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
+    if (options.births) return out + "#include \"particles/bear.comp\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
@@ -123,13 +148,46 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/factors.glsl", factorsText(group, options)},
                      {"generated/packing.glsl", group.kernel.packing},
                      {"generated/fields.glsl", plan.fieldSource},
+                     {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
                      {"generated/colliders.glsl", plan.collideSource}};
-    out.label = concat("fused step of ", group.name);
+    out.label = concat(options.births ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         gpu::resolveConditions(source);
         expand(source, loops);
     };
     return out;
+}
+
+void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
+                     const Frame& frame) {
+    const Parameters& parameters = frame.parameters;
+    const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
+    program.set("givenFrame", frame.number);
+    program.set("givenSubsteps", parameters.substeps);
+    program.set("givenSubstep", float(frame.h));
+    program.set("givenFrameTime", float(frame.time));
+    program.set("givenFrameDuration", float(parameters.frameTime));
+    program.set("givenGravity", glm::vec3(parameters.gravity));
+    program.set("givenWind", float(parameters.wind));
+    program.set("givenDecay", drag.decay);
+    program.set("givenPhi", drag.phi);
+    program.set("givenSlips", int(drag.slips));
+    program.set("givenFlightBend", drag.bend);
+    program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
+    program.set("givenDampingFactor", float(group.damping * parameters.damping));
+    const ReleaseLimits release = releaseLimits(group, frame);
+    program.set("givenReleaseForce", release.force);
+    program.set("givenReleaseChance", release.chance);
+    program.set("givenDriftOfStep", driftOf(group.solver, frame.h, drag.slips));
+    program.set("givenDragRate", glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag));
+    const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
+    program.set("givenStageEta", stage.eta);
+    program.set("givenStageDecay", stage.drag.decay);
+    program.set("givenStagePhi", stage.drag.phi);
+    program.set("givenRestarts", int(frame.restarts));
+    if (group.needs.collide && !plan.movingColliders.empty())
+        program.set("givenColliderParameters",
+                    std::span<const glm::vec4>(colliderParameters(plan, group, frame)));
 }
 
 std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,

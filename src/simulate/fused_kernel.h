@@ -6,6 +6,7 @@
 
 #include "compile/path.h"
 #include "gpu/program.h"
+#include "simulate/step.h"
 
 namespace shoal {
 
@@ -17,12 +18,17 @@ struct KernelOptions {
     bool groupVote = false;         // ContextInfo::groupVote
     bool software = false;          // what suits a CPU rasteriser
     bool watch = false;             // for states that run away
+    bool births = false;            // of newborns instead of a step (shaders/particles/bear.comp)
 };
 
 // Lanes of a workgroup.
 int workgroupLanes(const GroupPlan& group, Lanes lanes);
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);
+
+// The numbers of a frame, for a step and for births.
+void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
+                     const Frame& frame);
 
 // What the driver gets, to be read by people. Error: a shader file is missing.
 std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,

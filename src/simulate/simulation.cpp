@@ -40,7 +40,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {
         // what the other path does not have
-        if (!plan_.contact.onlyOfVertices()) throw;
+        if (!plan_.contact.onlyOfVertices() || plan_.hasLife()) throw;
         for (const GroupPlan& group : plan_.groups)
             if (solver(group.solver).implicit) throw;
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
@@ -54,7 +54,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
 
 void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
-        writeGroup(g, plan_.groups[g].start);
+        writeGroup(g, plan_.groups[g].start, 0);
     time_ = lastStep_ = 0;
     frames_ = 0;
     disarm();
@@ -110,6 +110,15 @@ Lanes Simulation::lanes(size_t group) const {
 const ContactResult* Simulation::contact() const {
     if (const auto* fused = std::get_if<Fused>(&path_)) return fused->contact();
     return std::get<PingPong>(path_).contact();
+}
+
+LifeCounts Simulation::lifeCounts(size_t group) const {
+    return std::get<Fused>(path_).births()->counts(group);
+}
+
+bool Simulation::changeLife(size_t group, const Lifecycle& life) {
+    auto* fused = std::get_if<Fused>(&path_);
+    return fused && plan_.groups[group].needs.life && fused->births()->change(group, life);
 }
 
 StateView Simulation::state() const {

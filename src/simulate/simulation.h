@@ -28,6 +28,7 @@ struct Snapshot {
     std::vector<glm::dvec3> positions, velocities;  // m, m/s
     std::vector<glm::vec3> normals;                 // unit; zero where the shape has no triangles
     std::vector<bool> released;                     // per molecule: pins let go
+    std::vector<bool> alive;                        // per molecule; empty: all, for ever
 };
 
 // All that a run goes on from, exact to the bit: another simulation of the same plan, on either path, can
@@ -77,6 +78,11 @@ class Simulation {
     gpu::Context& context() const { return *context_; }
     // Of molecules with one another; null: there is none.
     const ContactResult* contact() const;
+    // Of a group with life. Waits; reads 128 bytes of control.
+    LifeCounts lifeCounts(size_t group) const;
+    // Other numbers for birth and death, from the next frame on. False, and nothing changes: what differs
+    // needs another plan.
+    bool changeLife(size_t group, const Lifecycle& life);
     // What was done otherwise than asked, such as one side instead of two for want of memory.
     const std::vector<Warning>& warnings() const { return warnings_; }
 
@@ -93,7 +99,7 @@ class Simulation {
     std::variant<std::monostate, PingPong, Fused> makePath(const std::string& shaderRoot,
                                                            const SimulationOptions& options);
     GroupState readGroup(size_t group) const;
-    void writeGroup(size_t group, const GroupState& state);
+    void writeGroup(size_t group, const GroupState& state, double time);
     void computeNormals();
     bool alarmed() const;
     void disarm();

@@ -7,15 +7,20 @@ namespace shoal {
 
 GroupState Simulation::readGroup(size_t index) const {
     const GroupPlan& group = plan_.groups[index];
-    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->state[index].read(group);
+    if (const auto* fused = std::get_if<Fused>(&path_)) {
+        GroupState state = fused->state[index].read(group);
+        if (group.needs.life) fused->births()->read(index, state);
+        return state;
+    }
     return std::get<PingPong>(path_).state.read(group, index);
 }
 
-void Simulation::writeGroup(size_t index, const GroupState& state) {
+void Simulation::writeGroup(size_t index, const GroupState& state, double time) {
     const GroupPlan& group = plan_.groups[index];
-    if (auto* fused = std::get_if<Fused>(&path_))
+    if (auto* fused = std::get_if<Fused>(&path_)) {
         fused->state[index].write(group, state);
-    else
+        if (group.needs.life) fused->births()->write(index, state, time);
+    } else
         std::get<PingPong>(path_).state.write(group, index, state);
 }
 
@@ -56,7 +61,7 @@ void Simulation::load(const SavedState& saved) {
     assert(saved.groups.size() == plan_.groups.size() && "a state of another plan");
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
         assert(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
-        writeGroup(g, asHeld(plan_.groups[g], saved.groups[g]));
+        writeGroup(g, asHeld(plan_.groups[g], saved.groups[g]), saved.time);
     }
     time_ = saved.time;
     frames_ = saved.frames;
@@ -77,6 +82,8 @@ Snapshot Simulation::snapshot(size_t index) const {
     const size_t vertices = size_t(group.vertexCount);
     for (size_t i = 0; i < state.positions.size(); ++i)
         out.positions.push_back(glm::dvec3(state.anchors[i / vertices]) + glm::dvec3(state.positions[i]));
+    for (const glm::vec2& life : state.lives)
+        out.alive.push_back(life.x < life.y);
     out.released.assign(state.released.begin(), state.released.end());
     out.normals.resize(state.positions.size());
     if (!drawn_ || !group.needs.normals) return out;
@@ -104,6 +111,10 @@ uint64_t Simulation::hash() const {
         addAll(state.anchors);
         for (const uint8_t released : state.released)
             add(released);
+        for (const glm::vec2& life : state.lives) {
+            add(std::bit_cast<uint32_t>(life.x));
+            add(std::bit_cast<uint32_t>(life.y));
+        }
     }
     return hash;
 }

@@ -1,0 +1,36 @@
+// What lives grows older, and dies of age, outside a box (CONFINED), or some time after it has touched a collider
+// (TOUCH_COUNTS): its place becomes free, and with DEATHS_LISTED others are told. One bit a place, so that neighbours
+// that die together leave the same behind in whatever order. Needs fused/state.glsl.
+layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
+#ifdef DEATHS_LISTED
+layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };
+#endif
+#ifdef CONFINED
+uniform vec3 livesAbove, livesBelow;  // m, corners of the box
+#endif
+#ifdef TOUCH_COUNTS
+uniform float afterContact;  // s
+#endif
+
+void growOlder(int molecule)
+{
+    age += frameDuration;
+#ifdef TOUCH_COUNTS
+    if (touched) span = min(span, age + afterContact);
+#endif
+    bool dies = age >= span;
+#ifdef CONFINED
+    vec3 above = (anchor - livesAbove) + x[0];
+    vec3 below = (anchor - livesBelow) + x[0];
+    dies = dies || min(above.x, min(above.y, above.z)) < 0.0 || max(below.x, max(below.y, below.z)) > 0.0;
+#endif
+    if (dies) {
+        age = clamp(age - span, 0.0, frameDuration);  // how long ago
+        span = 0.0;
+        uint bit = 1u << (uint(molecule) & 31u);
+        atomicOr(freeBits[molecule >> 5], bit);
+#ifdef DEATHS_LISTED
+        atomicOr(diedBits[molecule >> 5], bit);
+#endif
+    }
+}

@@ -1,0 +1,24 @@
+// Sums of set bits, a lane each WORDS words; with ALLOCATE also one past the last place that is taken.
+#include "particles/control.glsl"
+#include "particles/places.glsl"
+
+layout(local_size_x = LANES) in;
+
+layout(std430, binding = 0) readonly buffer Bits { uint bits[]; };
+layout(std430, binding = 1) writeonly buffer Counts { uvec2 counts[]; };  // x set bits, y one past the last clear one
+
+void main()
+{
+    int lane = int(gl_GlobalInvocationID.x);
+    if (lane >= laneCount) return;
+    uint sum = 0u;
+    uint top = 0u;
+    for (int i = 0; i < WORDS; ++i) {
+        int w = lane * WORDS + i;
+        uint word = bits[w];
+        sum += uint(bitCount(word));
+        uint takenBits = ~word & validBits(w);
+        if (takenBits != 0u) top = uint(w * 32 + findMSB(takenBits) + 1);
+    }
+    counts[lane] = uvec2(sum, top);
+}

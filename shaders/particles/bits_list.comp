@@ -1,0 +1,47 @@
+// The first set bits as a list of their places, in ascending order. With DEATHS all of them, and the bits are cleared;
+// else as many as are born, whose bits are cleared.
+#include "particles/control.glsl"
+#include "particles/places.glsl"
+
+layout(local_size_x = LANES) in;
+
+layout(std430, binding = 0) buffer Bits { uint bits[]; };
+layout(std430, binding = 1) readonly buffer Counts { uvec2 counts[]; };
+layout(std430, binding = 2) buffer Control { uint control[]; };
+layout(std430, binding = 3) writeonly buffer List { uint list[]; };
+
+uniform int controlBase;
+#ifndef DEATHS
+uniform int stepLanes;
+#endif
+
+void main()
+{
+    int lane = int(gl_GlobalInvocationID.x);
+    if (lane >= laneCount) return;
+#ifdef DEATHS
+    uint limit = control[controlBase + controlDeaths];
+#else
+    uint limit = control[controlBase + controlBorn];
+#endif
+    uint rank = counts[lane].x;
+    for (int w = lane * WORDS; w < (lane + 1) * WORDS && rank < limit; ++w) {
+        uint word = bits[w];
+        uint before = word;
+        while (word != 0u && rank < limit) {
+            uint place = uint(w * 32 + findLSB(word));
+            word &= word - 1u;
+            list[rank] = place;
+            ++rank;
+#ifndef DEATHS
+            if (rank == limit) {  // the last newborn, which only this lane meets
+                uint mark = max(control[controlBase + controlMark], place + 1u);
+                uint reach = max(mark, control[controlBase + controlMarkBefore]);
+                control[controlBase + controlMark] = mark;
+                control[controlBase + controlStepGroups] = (reach + uint(stepLanes) - 1u) / uint(stepLanes);
+            }
+#endif
+        }
+        if (word != before) bits[w] = word;
+    }
+}

@@ -1,0 +1,69 @@
+// One workgroup: the sums before each lane's words, and what follows from their total: how many died (DEATHS), or how
+// many of the births that are asked for find a place.
+#include "particles/control.glsl"
+#include "particles/places.glsl"
+
+layout(local_size_x = LANES) in;
+
+#include "sort/group_scan.glsl"
+
+layout(std430, binding = 1) buffer Counts { uvec2 counts[]; };
+layout(std430, binding = 2) buffer Control { uint control[]; };
+
+uniform int controlBase;
+#ifndef DEATHS
+uniform int scheduled;      // births that the CPU knows of
+uniform int allocates;      // 0: only counts
+uniform int deathRunCount;
+uniform ivec4 deathRuns[mostDeathRuns];  // x control of the group that dies, y births for each
+uniform int stepLanes;      // of a workgroup of the step
+#endif
+
+shared uint tops[LANES];
+
+void main()
+{
+    int lane = int(gl_LocalInvocationID.x);
+    int chunk = (laneCount + LANES - 1) / LANES;
+    int first = lane * chunk;
+    int last = min(first + chunk, laneCount);
+    uint sum = 0u;
+    uint top = 0u;
+    for (int i = first; i < last; ++i) {
+        sum += counts[i].x;
+        top = max(top, counts[i].y);
+    }
+    tops[lane] = top;
+    uint total;
+    uint before = sumBefore(sum, total);
+    for (int i = first; i < last; ++i) {
+        uint own = counts[i].x;
+        counts[i].x = before;
+        before += own;
+    }
+    if (lane != 0) return;
+#ifdef DEATHS
+    control[controlBase + controlDeaths] = total;
+#else
+    uint mark = 0u;
+    for (int i = 0; i < LANES; ++i) mark = max(mark, tops[i]);
+    uint requested = uint(scheduled);
+    for (int d = 0; d < deathRunCount; ++d) {
+        control[controlBase + controlFirsts + d] = requested;
+        requested += control[deathRuns[d].x + controlDeaths] * uint(deathRuns[d].y);
+    }
+    uint born = allocates != 0 ? min(requested, total) : 0u;
+    control[controlBase + controlLive] = uint(placeCount) - total + born;
+    control[controlBase + controlMarkBefore] = control[controlBase + controlMark];
+    control[controlBase + controlMark] = mark;
+    uint reach = max(mark, control[controlBase + controlMarkBefore]);
+    control[controlBase + controlStepGroups] = (reach + uint(stepLanes) - 1u) / uint(stepLanes);
+    if (allocates != 0) {
+        control[controlBase + controlRequested] = requested;
+        control[controlBase + controlBorn] = born;
+        control[controlBase + controlLost] += requested - born;
+        control[controlBase + controlBornEver] += born;
+        control[controlBase + controlBirthGroups] = (born + 63u) / 64u;
+    }
+#endif
+}

@@ -1,0 +1,41 @@
+// When emitters bear: the births of a frame as a few runs, each of one emitter at equal distances in time, so
+// that the moment of a birth does not hang on the frames.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "scene/emitter.h"
+
+namespace shoal {
+
+// What an emitter carries from frame to frame.
+struct BirthClock {
+    double due = 0;     // in [0, 1): share of the next birth that has passed
+    uint64_t born = 0;  // so far, with those that found no place
+
+    bool operator==(const BirthClock&) const = default;
+};
+
+// Birth j in [0, count) is number `ordinal + j` of its emitter, at time first + interval (j / each), or where
+// `random` anywhere in [first, first + interval).
+struct BirthRun {
+    int emitter = 0;
+    uint64_t ordinal = 0;
+    int count = 0, each = 1;
+    double first = 0, interval = 0;  // s
+    bool random = false;
+};
+
+// At most so many in a run: more than a group can hold.
+constexpr int mostInRun = 1 << 25;
+
+// The runs of emitter number `index` in [from, to), after which its clock stands at `to`. None for emitters
+// from deaths.
+void addRuns(const Emitter& emitter, int index, uint32_t seed, double from, double to, BirthClock& clock,
+             std::vector<BirthRun>& runs);
+
+// At most so many runs in a frame.
+int mostRuns(const Lifecycle& life);
+
+}  // namespace shoal

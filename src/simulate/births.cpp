@@ -1,0 +1,490 @@
+#include "simulate/births.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+#include "compile/generate_emitters.h"
+#include "compile/pack.h"
+#include "core/random.h"
+#include "gpu/barrier.h"
+
+namespace shoal {
+
+using gpu::Barrier;
+using gpu::Buffer;
+using gpu::Program;
+using gpu::Traffic;
+
+namespace {
+
+// shaders/particles/control.glsl
+constexpr int controls = 32, mostDeathRuns = 8;
+namespace control {
+constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, stepGroups = 12;
+}
+
+constexpr int wordsOfLane = 8, groupLanes = 64, scanLanes = 256;
+
+void store(const Program& program, const char* block, int at, const Buffer& buffer) {
+    program.storage(block, at, buffer, 0, buffer.bytes());
+}
+
+void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
+    program.storage(block, at, *range.buffer, range.offset, range.bytes);
+}
+
+void settled() {
+    gpu::barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
+}
+
+Program makeProgram(gpu::Context& context, const std::string& root, const char* file, bool deaths, int own,
+                    gpu::ProgramCache* cache) {
+    gpu::ProgramOptions options;
+    options.compute = file;
+    options.label = concat(file, deaths ? " of deaths" : "");
+    options.defines = {concat("LANES ", own), concat("WORDS ", wordsOfLane)};
+    if (deaths) options.defines.emplace_back("DEATHS");
+    options.cache = cache;
+    return Program(context, root, options);
+}
+
+void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
+    const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
+    const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
+                                 size_t(info.maxBufferTexels) / size_t(group.layout().stateElements()));
+    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * BufferLayout::lanes);
+    if (BufferLayout::padded(size_t(group.count)) <= reach) return;
+    throw Error(group.life->cycle.location,
+                concat("a capacity of ", group.count, " for \"", group.name,
+                       "\" is more than this context holds: at most ", reach / 64 * 64));
+}
+
+}  // namespace
+
+Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+               gpu::ProgramCache* cache)
+    : context_(&context), plan_(&plan), tables_(&tables), groups_(plan.groups.size()) {
+    const auto program = [&](const char* file, bool deaths, int own) {
+        return makeProgram(context, shaderRoot, file, deaths, own, cache);
+    };
+    count_ = program("particles/bits_count.comp", false, groupLanes);
+    scanPlaces_ = program("particles/bits_scan.comp", false, scanLanes);
+    listPlaces_ = program("particles/bits_list.comp", false, groupLanes);
+    scanDeaths_ = program("particles/bits_scan.comp", true, scanLanes);
+    listDeaths_ = program("particles/bits_list.comp", true, groupLanes);
+
+    size_t died = 0, mostSums = 1;
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        if (!plan.groups[g].life) continue;
+        make(g, shaderRoot, cache);
+        Living& living = *groups_[g];
+        mostSums = std::max(mostSums, size_t(living.laneCount));
+        living.diedAt = died;
+        if (living.died) died += BufferLayout::padded(size_t(living.plan->count));
+    }
+    order();
+    counts_ =
+        Buffer(context, Buffer::Use::storage, nullptr, mostSums * 2 * sizeof(uint32_t), "sums of places");
+    if (died > 0) died_ = Buffer(context, Buffer::Use::storage, nullptr, died * sizeof(uint32_t), "deaths");
+    std::vector<uint32_t> words(plan.groups.size() * controls);
+    for (size_t g = 0; g < plan.groups.size(); ++g) {
+        for (const size_t xyz : {control::birthGroups, control::stepGroups})
+            words[g * controls + xyz + 1] = words[g * controls + xyz + 2] = 1;
+    }
+    control_ = Buffer(context, Buffer::Use::storage, words.data(), words.size() * sizeof(uint32_t),
+                      "control of births");
+}
+
+void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* cache) {
+    const GroupPlan& group = plan_->groups[g];
+    checkPlaces(context_->info(), group);
+    groups_[g] = std::make_unique<Living>();
+    Living& living = *groups_[g];
+    living.plan = &group;
+    living.life = group.life->cycle;
+    living.middles = group.life->middles;
+    const int words = (group.count + 31) / 32;
+    living.laneCount = (words + wordsOfLane - 1) / wordsOfLane;
+    const size_t bytes = size_t(living.laneCount) * wordsOfLane * sizeof(uint32_t);
+    living.free = Buffer(*context_, Buffer::Use::storage, nullptr, bytes, "free places");
+    if (group.life->feeds) {
+        const std::vector<uint8_t> none(bytes);
+        living.died = Buffer(*context_, Buffer::Use::storage, none.data(), bytes, "died");
+    }
+    if (!group.life->bears()) return;
+    if (living.listed())
+        living.places = Buffer(*context_, Buffer::Use::storage, nullptr,
+                               BufferLayout::padded(size_t(group.count)) * sizeof(uint32_t), "places");
+    for (size_t e = 0; e < living.life.emitters.size(); ++e)
+        if (group.life->sources[e] != LifePlan::noSource)
+            living.deathRuns.push_back({group.life->sources[e], int(e), living.life.emitters[e].perDeath});
+    if (living.deathRuns.size() > mostDeathRuns)
+        throw Error(living.life.location,
+                    concat("\"", group.name, "\" is born from the deaths of ", living.deathRuns.size(),
+                           " groups; at most ", mostDeathRuns, " are possible"));
+    KernelOptions kernel;
+    kernel.births = true;
+    kernel.software = context_->info().software;
+    gpu::ProgramOptions program = kernelProgram(*plan_, g, kernel);
+    program.cache = cache;
+    living.bear = Program(*context_, shaderRoot, program);
+    living.bear.use();
+    if (group.needs.fields)
+        living.bear.set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+}
+
+// What is born from a group's deaths reads them where they lie, so it comes before that group bears anew.
+void Births::order() {
+    std::vector<bool> done(groups_.size());
+    const auto visit = [&](const auto& self, size_t g) -> void {
+        if (done[g]) return;
+        done[g] = true;
+        for (size_t other = 0; other < groups_.size(); ++other) {
+            if (!groups_[other]) continue;
+            for (const Living::DeathRun& run : groups_[other]->deathRuns)
+                if (run.source == g) self(self, other);
+        }
+        if (groups_[g] && groups_[g]->bear) order_.push_back(g);
+    };
+    for (size_t g = 0; g < groups_.size(); ++g)
+        visit(visit, g);
+}
+
+void Births::bindStep(const Program& program, size_t group) const {
+    const Living& living = *groups_[group];
+    store(program, "FreeBits", 4, living.free);
+    if (living.died) store(program, "DiedBits", 5, living.died);
+    if (living.life.within) {
+        program.set("livesAbove", glm::vec3(living.life.within->low));
+        program.set("livesBelow", glm::vec3(living.life.within->high));
+    }
+    if (living.life.afterContact) program.set("afterContact", float(*living.life.afterContact));
+}
+
+void Births::dispatchStep(const Program& program, size_t group, int own) const {
+    const Living& living = *groups_[group];
+    if (living.bear && living.onGpu())
+        return program.dispatchIndirect(control_,
+                                        (controlAt(group) + control::stepGroups) * sizeof(uint32_t));
+    program.dispatch((reachOf(living) + own - 1) / own);
+}
+
+// What died one step ago lies alive on the other side still: a step reaches as far as the one before needed.
+int Births::reachOf(const Living& living) const {
+    if (!living.bear || living.onGpu()) return living.plan->count;
+    return std::max(markOf(living), living.markBefore);
+}
+
+int Births::markOf(const Living& living) const {
+    if (living.listed()) return living.book.mark();
+    const uint64_t used = uint64_t(living.plan->life->atStart) + living.born;
+    return int(std::min(used, uint64_t(living.plan->count)));
+}
+
+size_t Births::controlAt(size_t group) const {
+    return group * controls;
+}
+
+void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
+    if (order_.empty()) return;
+    const auto timer = timers.time("births");
+    settled();
+    for (size_t g = 0; g < groups_.size(); ++g)
+        if (groups_[g] && groups_[g]->died) listDeaths(g);
+    for (const size_t g : order_)
+        bear(g, frame, state);
+    settled();
+}
+
+void Births::listDeaths(size_t group) {
+    const Living& living = *groups_[group];
+    sum(living, living.died);
+    scanDeaths_.use();
+    store(scanDeaths_, "Counts", 1, counts_);
+    store(scanDeaths_, "Control", 2, control_);
+    scanDeaths_.set("laneCount", living.laneCount);
+    scanDeaths_.set("controlBase", int(controlAt(group)));
+    scanDeaths_.dispatch(1);
+    settled();
+    listDeaths_.use();
+    store(listDeaths_, "Bits", 0, living.died);
+    store(listDeaths_, "Counts", 1, counts_);
+    store(listDeaths_, "Control", 2, control_);
+    listDeaths_.storage("List", 3, died_, living.diedAt * sizeof(uint32_t),
+                        BufferLayout::padded(size_t(living.plan->count)) * sizeof(uint32_t));
+    listDeaths_.set("laneCount", living.laneCount);
+    listDeaths_.set("controlBase", int(controlAt(group)));
+    listDeaths_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
+    settled();
+}
+
+void Births::sum(const Living& living, const Buffer& bits) {
+    count_.use();
+    store(count_, "Bits", 0, bits);
+    store(count_, "Counts", 1, counts_);
+    count_.set("laneCount", living.laneCount);
+    count_.set("placeCount", living.plan->count);
+    count_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
+    settled();
+}
+
+void Births::countPlaces(size_t group, int scheduled, bool allocate) {
+    const Living& living = *groups_[group];
+    sum(living, living.free);
+    scanPlaces_.use();
+    store(scanPlaces_, "Counts", 1, counts_);
+    store(scanPlaces_, "Control", 2, control_);
+    scanPlaces_.set("laneCount", living.laneCount);
+    scanPlaces_.set("placeCount", living.plan->count);
+    scanPlaces_.set("controlBase", int(controlAt(group)));
+    scanPlaces_.set("scheduled", scheduled);
+    scanPlaces_.set("allocates", int(allocate));
+    scanPlaces_.set("stepLanes", BufferLayout::lanes);
+    scanPlaces_.set("deathRunCount", int(living.deathRuns.size()));
+    std::vector<glm::ivec4> runs(mostDeathRuns);
+    for (size_t d = 0; d < living.deathRuns.size(); ++d)
+        runs[d] = {int(controlAt(living.deathRuns[d].source)), living.deathRuns[d].each, 0, 0};
+    scanPlaces_.set("deathRuns", std::span<const glm::ivec4>(runs));
+    scanPlaces_.dispatch(1);
+    settled();
+}
+
+void Births::listPlaces(size_t group) {
+    const Living& living = *groups_[group];
+    listPlaces_.use();
+    store(listPlaces_, "Bits", 0, living.free);
+    store(listPlaces_, "Counts", 1, counts_);
+    store(listPlaces_, "Control", 2, control_);
+    store(listPlaces_, "List", 3, living.places);
+    listPlaces_.set("laneCount", living.laneCount);
+    listPlaces_.set("placeCount", living.plan->count);
+    listPlaces_.set("controlBase", int(controlAt(group)));
+    listPlaces_.set("stepLanes", BufferLayout::lanes);
+    listPlaces_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
+    settled();
+}
+
+int Births::takePlaces(Living& living, const std::vector<BirthRun>& runs, double end) {
+    living.markBefore = living.book.mark();
+    living.book.freeUntil(end);
+    std::vector<uint32_t> places;
+    for (const BirthRun& run : runs) {
+        for (int j = 0; j < run.count; ++j) {
+            const uint32_t seed = hash(hash(living.plan->life->seed, uint32_t(run.emitter)),
+                                       uint32_t(run.ordinal) + uint32_t(j)) >>
+                                  8;
+            const double moment =
+                run.random ? double(hash(seed, bornTime) >> 8) / 16777216.0 : double(j / run.each);
+            const double dies = run.first + run.interval * moment + lifeOf(living.life.life, seed);
+            uint32_t place = 0;
+            if (!living.book.take(dies, place)) {
+                living.lost += uint64_t(run.count - j);
+                break;
+            }
+            places.push_back(place);
+        }
+    }
+    living.born += places.size();
+    if (!places.empty())
+        living.places.update(Traffic::Kind::births, 0, places.data(), places.size() * sizeof(uint32_t));
+    return int(places.size());
+}
+
+void Births::setRuns(const Living& living, const std::vector<BirthRun>& runs, double begin) const {
+    const size_t most = size_t(std::max(1, mostRuns(living.life)));
+    std::vector<glm::ivec4> numbers(most);
+    std::vector<glm::vec4> times(most);
+    int first = 0;
+    for (size_t r = 0; r < runs.size(); ++r) {
+        const BirthRun& run = runs[r];
+        numbers[r] = {first, run.emitter, int(uint32_t(run.ordinal)), run.random ? 0 : run.each};
+        times[r] = glm::vec4(float(run.first - begin), float(run.interval), 0, 0);
+        first += run.count;
+    }
+    const Program& program = living.bear;
+    program.set("runCount", int(runs.size()));
+    program.set("runs", std::span<const glm::ivec4>(numbers));
+    program.set("runTimes", std::span<const glm::vec4>(times));
+    if (living.deathRuns.empty()) return;
+    std::vector<glm::ivec4> deaths;
+    for (const Living::DeathRun& run : living.deathRuns)
+        deaths.emplace_back(run.emitter, run.each, int(groups_[run.source]->diedAt), 0);
+    program.set("deathRuns", std::span<const glm::ivec4>(deaths));
+}
+
+void Births::setNumbers(size_t group, const Frame& frame) const {
+    const Living& living = *groups_[group];
+    const Program& program = living.bear;
+    setStepUniforms(program, *plan_, *living.plan, frame);
+    const std::vector<glm::vec4> parameters =
+        emitterParameters(living.life, living.middles, frame.time, frame.parameters.frameTime);
+    program.set("emitterParameters", std::span<const glm::vec4>(parameters));
+    program.set("controlBase", int(controlAt(group)));
+    program.set("placeCount", living.plan->count);
+    program.set("groupSeed", int(living.plan->life->seed));
+    program.set("lifeSpan", glm::vec2(living.life.life));
+    program.set("newbornScale", glm::vec2(living.life.scale));
+    program.set("newbornSpin", glm::vec3(living.life.spin));
+    program.set("newbornPhase", float(plan_->groups[group].phaseSpread));
+}
+
+void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
+    const Living& living = *groups_[group];
+    const Program& program = living.bear;
+    const GroupBuffers& buffers = state[group];
+    const GroupBuffers::Part& part = buffers.parts().front();
+    store(program, "NewState", 0, buffers.currentState(part));
+    store(program, "NewRecords", 1, buffers.records(part));
+    if (buffers.hasConstants()) store(program, "NewConstants", 2, buffers.constants(part));
+    if (living.listed()) store(program, "Places", 3, living.places);
+    if (!living.onGpu()) store(program, "FreeBits", 4, living.free);
+    if (!living.deathRuns.empty()) store(program, "Died", 5, died_);
+    store(program, "Control", 6, control_);
+    if (program.uses("samples")) program.texture("samples", 3, tables_->samples);
+    int unit = 4;
+    for (const Living::DeathRun& run : living.deathRuns) {
+        const GroupBuffers& source = state[run.source];
+        const GroupBuffers::Part& sourcePart = source.parts().front();
+        program.texture(concat("sourceStates", run.emitter).c_str(), unit++, source.oldState(sourcePart));
+        program.texture(concat("sourceRecords", run.emitter).c_str(), unit++, sourcePart.record);
+    }
+}
+
+void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state) {
+    Living& living = *groups_[group];
+    const double begin = frame.time, end = begin + frame.parameters.frameTime;
+    std::vector<BirthRun> runs;
+    for (size_t e = 0; e < living.life.emitters.size(); ++e)
+        addRuns(living.life.emitters[e], int(e), living.plan->life->seed, begin, end, living.clocks[e], runs);
+    int64_t asked = 0;
+    for (const BirthRun& run : runs)
+        asked += run.count;
+    const int scheduled = int(std::min<int64_t>(asked, 1 << 30));
+    int born = 0;
+    if (living.onGpu()) {
+        countPlaces(group, scheduled, true);
+        if (scheduled == 0 && living.deathRuns.empty()) return;
+        listPlaces(group);
+    } else if (living.listed()) {
+        born = takePlaces(living, runs, end);
+    } else {
+        living.markBefore = markOf(living);
+        born = std::min(scheduled, living.plan->count);
+        living.lost += uint64_t(scheduled - born);
+    }
+    if (!living.onGpu() && born == 0) return;
+    living.bear.use();
+    setNumbers(group, frame);
+    setRuns(living, runs, begin);
+    bindBirths(group, state);
+    if (living.onGpu()) {
+        living.bear.dispatchIndirect(control_, (controlAt(group) + control::birthGroups) * sizeof(uint32_t));
+    } else {
+        living.bear.set("givenBorn", born);
+        if (!living.listed()) {
+            living.bear.set("firstPlace", int((uint64_t(living.plan->life->atStart) + living.born) %
+                                              uint64_t(living.plan->count)));
+            living.born += uint64_t(born);
+        }
+        living.bear.dispatch((born + groupLanes - 1) / groupLanes);
+    }
+    settled();
+}
+
+void Births::write(size_t group, const GroupState& state, double time) {
+    Living& living = *groups_[group];
+    std::vector<uint32_t> bits(living.free.bytes() / sizeof(uint32_t));
+    uint32_t live = 0;
+    for (size_t m = 0; m < state.lives.size(); ++m) {
+        if (state.lives[m].y > 0)
+            ++live;
+        else
+            bits[m / 32] |= uint32_t(1) << (m % 32);
+    }
+    living.free.update(Traffic::Kind::state, 0, bits.data(), living.free.bytes());
+    // the whole capacity: the other side of the state is what it was before
+    const auto all = uint32_t(living.plan->count);
+    std::vector<uint32_t> words(controls);
+    words[control::live] = live;
+    words[control::mark] = all;
+    words[control::lost] = uint32_t(state.totals[1]);
+    words[control::bornEver] = uint32_t(state.totals[0]);
+    words[control::stepGroups] = (all + groupLanes - 1) / groupLanes;
+    for (const size_t xyz : {control::birthGroups, control::stepGroups})
+        words[xyz + 1] = words[xyz + 2] = 1;
+    control_.update(Traffic::Kind::state, controlAt(group) * sizeof(uint32_t), words.data(),
+                    words.size() * sizeof(uint32_t));
+    living.markBefore = int(all);
+    living.clocks = state.clocks;
+    living.clocks.resize(living.life.emitters.size());
+    living.born = state.totals[0];
+    living.lost = living.listed() ? state.totals[1] : 0;
+    if (!living.bear || living.onGpu() || !living.listed()) return;
+    living.book = Places(living.allocator(), size_t(living.plan->count));
+    std::vector<double> ends = state.ends;
+    for (size_t m = ends.size(); m < state.lives.size(); ++m)
+        ends.push_back(state.lives[m].y > 0 ? time + double(state.lives[m].y - state.lives[m].x)
+                                            : -std::numeric_limits<double>::infinity());
+    living.book.restore(ends, state.freed, time);
+}
+
+uint64_t Births::bornOf(const Living& living, const uint32_t* words) {
+    return living.onGpu() ? words[control::bornEver] : living.born;
+}
+
+// The ring counts the lives that it cuts short on the GPU, and births beyond its capacity here.
+uint64_t Births::lostOf(const Living& living, const uint32_t* words) {
+    if (living.onGpu()) return words[control::lost];
+    return living.listed() ? living.lost : living.lost + words[control::lost];
+}
+
+void Births::read(size_t group, GroupState& state) const {
+    const Living& living = *groups_[group];
+    state.clocks = living.clocks;
+    uint32_t words[controls];
+    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words, sizeof words);
+    state.totals = {bornOf(living, words), lostOf(living, words)};
+    if (!living.bear || living.onGpu() || !living.listed()) return;
+    state.ends = living.book.ends();
+    state.freed = living.book.stack();
+}
+
+LifeCounts Births::counts(size_t group) {
+    const Living& living = *groups_[group];
+    if (!living.onGpu() || !living.bear) {
+        settled();
+        countPlaces(group, 0, false);
+    }
+    uint32_t words[controls];
+    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words, sizeof words);
+    LifeCounts out;
+    out.capacity = living.plan->count;
+    out.live = int(words[control::live]);
+    out.mark = int(words[control::mark]);
+    out.born = living.onGpu() ? words[control::bornEver] : living.born;
+    out.lost =
+        living.onGpu() ? words[control::lost] : living.lost + (living.listed() ? 0 : words[control::lost]);
+    return out;
+}
+
+bool Births::change(size_t group, const Lifecycle& life) {
+    Living& living = *groups_[group];
+    const Lifecycle& now = living.life;
+    bool same = life.emitters.size() == now.emitters.size() && life.capacity == now.capacity &&
+                life.allocator == now.allocator && life.turn == now.turn &&
+                life.within.has_value() == now.within.has_value() &&
+                life.afterContact.has_value() == now.afterContact.has_value() &&
+                ((life.scale == glm::dvec2(1)) == (now.scale == glm::dvec2(1)));
+    for (size_t e = 0; same && e < life.emitters.size(); ++e)
+        same = sameText(life.emitters[e], now.emitters[e]);
+    if (!same) return false;
+    for (size_t e = 0; e < life.emitters.size(); ++e)
+        if (life.emitters[e].from != Emitter::From::surface) living.middles[e] = middleOf(life.emitters[e]);
+    living.life = life;
+    for (Living::DeathRun& run : living.deathRuns)
+        run.each = life.emitters[size_t(run.emitter)].perDeath;
+    return true;
+}
+
+}  // namespace shoal

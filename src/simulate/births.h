@@ -1,0 +1,111 @@
+// Birth and death on the fused path (compile/life_plan.h). The step lets die (shaders/particles/age.glsl):
+// what dies sets the bit of its place. After it:
+//
+//   deaths   where others are born from them: the bits that were set in this step, as a list
+//   places   allocator gpu: the first free places, as many as are asked for
+//   births   a lane each; groups that are born from the deaths of others before those bear anew
+//
+// The lists come from sums over the bits (count, scan, list), in ascending order: the same for the same bits.
+// With the allocator gpu, how many are born, where, and how far the next step and birth have to reach is
+// known on the GPU alone.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compile/plan.h"
+#include "gpu/buffer.h"
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "simulate/buffer_state.h"
+#include "simulate/fused_kernel.h"
+#include "simulate/places.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+
+namespace shoal {
+
+struct LifeCounts {
+    int capacity = 0;
+    int live = 0;       // taken places
+    int mark = 0;       // one past the last of them: as far as a step reaches
+    uint64_t born = 0;  // so far
+    uint64_t lost = 0;  // so far: births that found no place; allocator ring: lives that a birth cut short
+};
+
+class Births {
+  public:
+    // Borrows all but the strings. Error, located at the group: more places than the context holds.
+    Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+           gpu::ProgramCache* cache);
+
+    bool has(size_t group) const { return bool(groups_[group]); }
+    // The step of a group with life: what growOlder() needs, and as many workgroups as there are lives.
+    void bindStep(const gpu::Program& program, size_t group) const;
+    void dispatchStep(const gpu::Program& program, size_t group, int lanes) const;
+    // After the step of all groups: who is born in it.
+    void step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
+
+    // What of a group's state lies here; `time`: of the state, s.
+    void write(size_t group, const GroupState& state, double time);
+    void read(size_t group, GroupState& state) const;
+
+    // Waits; reads 128 bytes of control.
+    LifeCounts counts(size_t group);
+    // Other numbers for the same emitters, from the next frame on. False, and nothing changes: they need
+    // another program, or other places.
+    bool change(size_t group, const Lifecycle& life);
+
+  private:
+    struct Living {
+        const GroupPlan* plan;
+        Lifecycle life;
+        gpu::Buffer free, died, places;   // bits, bits, list
+        int laneCount = 0;                // of the sums
+        size_t diedAt = 0;                // of its deaths in died_
+        gpu::Program bear;                // none: nothing is born
+        std::vector<glm::dvec3> middles;  // m, of the emitters
+        std::vector<BirthClock> clocks;
+        Places book;                  // allocators stack and heap
+        uint64_t born = 0, lost = 0;  // of the allocators on the CPU, and born of the ring
+        int markBefore = 0;
+        struct DeathRun {
+            size_t source;
+            int emitter, each;
+        };
+        std::vector<DeathRun> deathRuns;
+
+        Allocator allocator() const { return life.allocator; }
+        bool listed() const { return life.allocator != Allocator::ring; }
+        bool onGpu() const { return life.allocator == Allocator::gpu; }
+    };
+    void make(size_t group, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void order();
+    void listDeaths(size_t group);
+    void countPlaces(size_t group, int scheduled, bool allocate);
+    void listPlaces(size_t group);
+    // Of the allocators on the CPU: how many have a place; uploads the list.
+    int takePlaces(Living& living, const std::vector<BirthRun>& runs, double end);
+    void bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state);
+    void setRuns(const Living& living, const std::vector<BirthRun>& runs, double begin) const;
+    void setNumbers(size_t group, const Frame& frame) const;
+    void bindBirths(size_t group, std::vector<GroupBuffers>& state) const;
+    void sum(const Living& living, const gpu::Buffer& bits);
+    int reachOf(const Living& living) const;
+    int markOf(const Living& living) const;
+    size_t controlAt(size_t group) const;
+    static uint64_t bornOf(const Living& living, const uint32_t* words);  // `words`: of its control
+    static uint64_t lostOf(const Living& living, const uint32_t* words);
+
+    gpu::Context* context_;
+    const Plan* plan_;
+    const Tables* tables_;
+    std::vector<std::unique_ptr<Living>> groups_;  // of the plan; null: without life
+    std::vector<size_t> order_;                    // groups that bear, the born from deaths first
+    gpu::Program count_, scanDeaths_, scanPlaces_, listDeaths_, listPlaces_;
+    gpu::Buffer control_, counts_, died_;
+};
+
+}  // namespace shoal
