@@ -13,7 +13,7 @@ uniform int partSpheres;
 uniform int label;           // of the group's first molecule
 uniform int keyMask;
 uniform float cell;
-uniform float radius;
+uniform float givenRadius;
 uniform vec3 cellShift;      // m, of a staggered grid
 
 layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
@@ -59,6 +59,17 @@ void findWall(int sphere, vec3 anchor, vec3 position, vec3 velocity, float radiu
 }
 #endif
 
+#ifdef LIFE
+bool livesAt(int first)
+{
+#ifdef LIFE_APART
+    return texelFetch(oldState, first + (STATE_ELEMENTS - 1) * BLOCK).y > 0.0;
+#else
+    return texelFetch(oldState, first + (2 * POSITION_ELEMENTS - 1) * BLOCK).w > 0.0;
+#endif
+}
+#endif
+
 void main()
 {
     int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
@@ -88,11 +99,19 @@ void main()
     float weight = weightOf(shape, released);
 #endif
     float scale = 1.0;
+    float radius = givenRadius;
 #ifdef CONSTANTS
     scale = texelFetch(constants, molecule).x;
 #endif
     CellPlace place = cellPlace(record.xyz, position + cellShift, cell);
     int sphere = firstSphere + lane;
+#ifdef LIFE
+    // what is not there has a cell of its own, far from all others
+    if (!livesAt(first)) {
+        place.cell = ivec3(0x40000000, sphere, 0);
+        radius = 0.0;
+    }
+#endif
     pairs[sphere] = uvec2(cellKey(place.cell, uint(keyMask)), uint(sphere));
 #ifndef ONLY_KEYS
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));

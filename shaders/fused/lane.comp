@@ -99,6 +99,7 @@ void main()
         growOlder(molecule);
     } else {
         loadState(molecule);  // what has died stays as it was
+        moved = false;
     }
 #endif
     storeState(molecule);

@@ -4,6 +4,12 @@
 //
 // Which place: LISTED from a list, else one after another from `firstPlace`, around the capacity.
 #include "fused/store.glsl"
+
+#ifdef HISTORY
+vec3 dx[VERTICES];
+vec3 dv[VERTICES];
+#endif
+
 #include "generated/packing.glsl"
 #include "physics/anchor.glsl"
 #include "physics/random.glsl"
@@ -69,11 +75,6 @@ int triangleAt(int base, int count, float x)
 }
 
 #include "generated/emitters.glsl"
-
-#ifdef HISTORY
-vec3 dx[VERTICES];
-vec3 dv[VERTICES];
-#endif
 
 // 1 - exp(-y), without a difference that cancels.
 float decayOf(float y)

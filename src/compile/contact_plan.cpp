@@ -81,12 +81,14 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
 
 float largestScale(const GroupPlan& group) {
     const std::vector<float>& scales = group.constants.scales;
-    return scales.empty() ? 1 : *std::max_element(scales.begin(), scales.end());
+    const float born = group.life ? float(group.life->cycle.scale.y) : 0;
+    return scales.empty() ? 1 : std::max(born, *std::max_element(scales.begin(), scales.end()));
 }
 
 float smallestScale(const GroupPlan& group) {
     const std::vector<float>& scales = group.constants.scales;
-    return scales.empty() ? 1 : *std::min_element(scales.begin(), scales.end());
+    const float born = group.life ? float(group.life->cycle.scale.x) : scales.empty() ? 1 : scales[0];
+    return scales.empty() ? 1 : std::min(born, *std::min_element(scales.begin(), scales.end()));
 }
 
 // As many of the smallest spheres as lie around the largest one, pushed together a little.

@@ -149,16 +149,17 @@ class EmitterText {
     std::string fromDeath() {
         const int elements = layout_.stateElements(), positions = layout_.positionElements();
         const std::string states = concat("sourceStates", index_), records = concat("sourceRecords", index_);
-        return concat(
-            "        int first = (source.molecule / ", BufferLayout::block, ") * ",
-            BufferLayout::block * elements, " + source.molecule % ", BufferLayout::block, ";\n",
-            "        vec3 carried = texelFetch(", states, ", first + ", positions * BufferLayout::block,
-            ").xyz;\n", "        start.lattice = texelFetch(", records, ", source.molecule).xyz;\n",
-            "        start.place = texelFetch(", states, ", first).xyz - carried * source.since;\n",
-            emitter_->along == Along::outward
-                ? "        vec3 outward = anyDirection(drawn(seed, bornOutward), drawn(seed, bornOutward + "
-                  "1u));\n"
-                : "");
+        const std::string outward =
+            "        vec3 outward = anyDirection(drawn(seed, bornOutward), drawn(seed, bornOutward + 1u));\n";
+        // back from the frame's end to its death, as gravity had it
+        return concat("        int first = (source.molecule / ", BufferLayout::block, ") * ",
+                      BufferLayout::block * elements, " + source.molecule % ", BufferLayout::block, ";\n",
+                      "        vec3 carried = texelFetch(", states, ", first + ",
+                      positions * BufferLayout::block, ").xyz - gravity * source.since;\n",
+                      "        start.lattice = texelFetch(", records, ", source.molecule).xyz;\n",
+                      "        start.place = texelFetch(", states,
+                      ", first).xyz - (carried + gravity * (0.5 * source.since)) * source.since;\n",
+                      emitter_->along == Along::outward ? outward : "");
     }
 
     const Scene* scene_;

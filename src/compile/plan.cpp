@@ -72,6 +72,12 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();
+    if (group.life) {
+        LifePlan& life = out.life.emplace();
+        life.cycle = *group.life;
+        life.atStart = group.count;
+        life.seed = hash(uint32_t(scene.seed), uint32_t(scene.seed >> 32), uint32_t(index));
+    }
     TextureLayout& texture = out.texture;
     texture.slabRows = slabRows(out.count);
     texture.firstRow = plan.rows;
@@ -101,14 +107,6 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
 
 // Who is born from whose deaths is known once all groups are.
 void planLives(const Scene& scene, Plan& plan) {
-    for (GroupPlan& group : plan.groups) {
-        const Group& source = scene.groups[group.index];
-        if (!source.life) continue;
-        LifePlan& life = group.life.emplace();
-        life.cycle = *source.life;
-        life.atStart = source.count;
-        life.seed = hash(uint32_t(scene.seed), uint32_t(scene.seed >> 32), uint32_t(group.index));
-    }
     for (GroupPlan& group : plan.groups) {
         if (!group.life) continue;
         std::vector<BufferLayout> layouts;

@@ -147,6 +147,8 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
         concat("STATE_ELEMENTS ", layout.stateElements())};
     if (group.triangles) common.push_back("TRIANGLES");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
+    if (layout.life) common.push_back("LIFE");
+    if (layout.lifeApart()) common.push_back("LIFE_APART");
     if (layout.history) {
         common.push_back("HISTORY");
         common.push_back("NO_HISTORY 1e30");
@@ -243,7 +245,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
         program.set("label", int(uint32_t(g) << 26) + part.first);
         program.set("keyMask", (1 << contact_->tableBits) - 1);
         program.set("cell", float(contact_->cell));
-        program.set("radius", float(group.radius));
+        program.set("givenRadius", float(group.radius));
         program.set("cellShift", glm::vec3(staggered ? float(contact_->cell / 2) : 0.0f));
         store(program, "Pairs", 0, staggered ? staggered_.buffer : pairs_.buffer);
         if (!staggered) {
