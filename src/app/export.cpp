@@ -19,6 +19,10 @@ void print(std::string& out, const char* format, Values... values) {
     out.append(line, size_t(length));
 }
 
+bool isThere(const Snapshot& state, size_t molecule) {
+    return state.alive.empty() || state.alive[molecule];
+}
+
 std::string csv(Simulation& simulation) {
     std::string out = "frame,time,group,molecule,vertex,x,y,z,vx,vy,vz,nx,ny,nz\n";
     for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
@@ -26,6 +30,7 @@ std::string csv(Simulation& simulation) {
         for (size_t i = 0; i < state.positions.size(); ++i) {
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
+            if (!isThere(state, i / size_t(state.vertexCount))) continue;
             print(out, "%d,%.9g,%zu,%zu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
                   simulation.frames(), state.time, g, i / size_t(state.vertexCount),
                   i % size_t(state.vertexCount), x.x, x.y, x.z, v.x, v.y, v.z, double(n.x), double(n.y),
@@ -41,21 +46,23 @@ std::string ply(Simulation& simulation, const Scene& scene) {
     for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
         const Snapshot state = simulation.snapshot(g);
         const size_t perMolecule = size_t(state.vertexCount);
+        size_t here = 0;  // vertices
         for (size_t i = 0; i < state.positions.size(); ++i) {
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
+            if (!isThere(state, i / perMolecule)) continue;
+            ++here;
             print(vertices, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", x.x, x.y, x.z,
                   double(n.x), double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
         }
-        for (size_t m = 0; m < size_t(state.count); ++m) {
+        for (size_t first = vertexCount; first < vertexCount + here; first += perMolecule) {
             for (const Triangle& t : scene.groups[g].molecule.triangles) {
-                const size_t first = vertexCount + m * perMolecule;
                 print(faces, "3 %zu %zu %zu\n", first + size_t(t.a), first + size_t(t.b),
                       first + size_t(t.c));
                 ++faceCount;
             }
         }
-        vertexCount += state.positions.size();
+        vertexCount += here;
     }
     std::string out = "ply\nformat ascii 1.0\n";
     print(out, "comment shoal: frame %d, time %.9g s; metres, metres per second\nelement vertex %zu\n",

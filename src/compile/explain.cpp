@@ -46,8 +46,34 @@ static std::string kernelParts(const GroupPlan& group) {
     with(needs.fields, "fields");
     with(needs.collide, "colliders");
     with(needs.normals, "normals where drawn");
+    with(needs.life, "death");
     with(true, "watched");
     return parts;
+}
+
+// Who is born, and where.
+static void listBirths(std::ostringstream& out, const GroupPlan& group) {
+    if (!group.life) return;
+    const Lifecycle& life = group.life->cycle;
+    out << "  life     ";
+    if (life.life.x >= longestLife)
+        out << "for ever";
+    else
+        out << life.life.x << " to " << life.life.y << " s";
+    if (life.within) out << ", dies outside a box";
+    if (life.afterContact) out << ", dies " << *life.afterContact << " s after contact";
+    out << "; " << group.life->atStart << " of " << life.capacity << " places taken at the start\n";
+    if (!group.life->bears()) return;
+    out << "  births   once a frame" << std::string(9, ' ') << "allocator " << name(life.allocator) << "\n";
+    for (const Emitter& emitter : life.emitters) {
+        out << "           from " << name(emitter.from);
+        if (emitter.from == Emitter::From::death)
+            out << " of \"" << emitter.group << "\", " << emitter.perDeath << " each";
+        else
+            out << ", " << emitter.rate << " a second" << (emitter.random ? " at random" : "");
+        if (!emitter.bursts.empty()) out << ", " << emitter.bursts.size() << " bursts";
+        out << "\n";
+    }
 }
 
 static std::string leftOut(const GroupPlan& group, bool fused) {
@@ -102,6 +128,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
             listPasses(out, plan, g);
+        listBirths(out, group);
         const std::string absent = leftOut(group, choice.path == Path::fused);
         if (!absent.empty()) out << "  left out: " << absent << "\n";
     }
@@ -135,6 +162,10 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
         if (group.needs.springs) entry.add("highestFrequency", JsonValue::makeNumber(group.highestFrequency));
         if (group.needs.springs && !solver(group.solver).implicit)
             entry.add("stableStep", JsonValue::makeNumber(group.stableStep));
+        if (group.life)
+            entry.add("atStart", JsonValue::makeNumber(group.life->atStart))
+                .add("allocator", JsonValue::makeString(name(group.life->cycle.allocator)))
+                .add("emitters", JsonValue::makeNumber(double(group.life->cycle.emitters.size())));
         entry.add("passes", std::move(passes));
         groups.items.push_back(std::move(entry));
     }

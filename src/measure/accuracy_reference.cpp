@@ -36,6 +36,9 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.drag = group.drag;
     out.fields = scene.fields;
     out.colliders = collidersOf(scene, group);
+    if (group.life)
+        throw Error(group.life->location,
+                    "the reference knows no births and deaths: nothing to measure against");
     for (const Collider& collider : out.colliders)
         if (collider.path)
             throw Error(group.location,

@@ -22,6 +22,7 @@ static Box boundsOf(const GroupPlan& group) {
     Box box = emptyBox;
     const size_t vertices = size_t(group.vertexCount);
     for (size_t m = 0; m < group.start.anchors.size(); ++m) {
+        if (group.life && group.start.lives[m].y <= 0) continue;
         const glm::dvec3 place =
             glm::dvec3(group.start.anchors[m]) + glm::dvec3(group.start.positions[m * vertices]);
         include(box, place, place);
@@ -31,19 +32,43 @@ static Box boundsOf(const GroupPlan& group) {
     return box;
 }
 
-// A tree's crown: many molecules with a surface, on a model, about as high as wide (not a lawn).
-static bool isCrown(const Group& group, const Box& box) {
-    const glm::dvec3 extent = box.high - box.low;
-    return group.count >= 200 && group.place.model >= 0 && !group.molecule.triangles.empty() &&
-           extent.y > 0.35 * std::max(extent.x, extent.z);
-}
-
 static void includePlaced(Box& out, const Box& box, const Pose& pose) {
     for (int corner = 0; corner < 8; ++corner) {
         const glm::dvec3 side(corner & 1, corner >> 1 & 1, corner >> 2);
         const glm::dvec3 place = pose.position + pose.rotation * glm::mix(box.low, box.high, side);
         include(out, place, place);
     }
+}
+
+// Where an emitter's newborn go: as far as they are thrown, for a few seconds at most.
+static Box reachOf(const Scene& scene, const Lifecycle& life, const Emitter& emitter) {
+    Box out{emitter.position, emitter.position};
+    if (emitter.from == Emitter::From::death) return emptyBox;
+    if (emitter.from == Emitter::From::line)
+        out = {glm::min(emitter.lineFrom, emitter.lineTo), glm::max(emitter.lineFrom, emitter.lineTo)};
+    if (emitter.from == Emitter::From::box) out = emitter.box;
+    if (emitter.from == Emitter::From::surface) {
+        const Mesh& mesh = scene.models[size_t(emitter.model)].mesh;
+        out = {mesh.low, mesh.high};
+    }
+    constexpr double seconds = 3;
+    const double speed = emitter.speed.y, gravity = glm::length(scene.gravity);
+    double reach = speed * std::min(life.life.y, seconds);
+    if (gravity > 0) reach = std::min(reach, speed * speed / gravity);
+    out.low -= emitter.radius + reach;
+    out.high += emitter.radius + reach;
+    if (!emitter.path) return out;
+    Box moved = emptyBox;
+    for (const ColliderPath::Keyframe& frame : emitter.path->keyframes)
+        includePlaced(moved, out, frame.pose);
+    return moved;
+}
+
+// A tree's crown: many molecules with a surface, on a model, about as high as wide (not a lawn).
+static bool isCrown(const Group& group, const Box& box) {
+    const glm::dvec3 extent = box.high - box.low;
+    return group.count >= 200 && group.place.model >= 0 && !group.molecule.triangles.empty() &&
+           extent.y > 0.35 * std::max(extent.x, extent.z);
 }
 
 // Nothing of what has no end, and of height fields, which are not drawn.
@@ -69,7 +94,14 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     for (const GroupPlan& group : plan.groups) {
         if (group.start.anchors.empty()) continue;
         const Group& source = scene.groups[group.index];
-        const Box box = boundsOf(group);
+        Box box = boundsOf(group);
+        if (source.life) {
+            for (const Emitter& emitter : source.life->emitters) {
+                const Box reach = reachOf(scene, *source.life, emitter);
+                if (!isEmpty(reach)) include(box, reach.low, reach.high);
+            }
+        }
+        if (isEmpty(box)) continue;
         include(bounds.casters, box.low, box.high);
         if (isCrown(source, box)) include(crown, box.low, box.high);
         const int carrier = source.place.kind == Placement::Kind::vertices ? source.place.model : -1;

@@ -75,6 +75,8 @@ struct Emitter {
     Location location;  // in the file, for messages
 };
 
+const char* name(Emitter::From from);
+
 // Of a group of which some are born or die.
 struct Lifecycle {
     int capacity = 0;  // places, at least the group's count

@@ -181,6 +181,11 @@ const char* name(Allocator allocator) {
     return names[size_t(allocator)];
 }
 
+const char* name(Emitter::From from) {
+    static constexpr const char* names[] = {"point", "line", "disc", "sphere", "box", "surface", "death"};
+    return names[size_t(from)];
+}
+
 bool getSpan(JsonReader& r, const std::string& key, glm::dvec2& out, Range range) {
     const JsonValue* value = r.raw(key);
     if (!value) return false;

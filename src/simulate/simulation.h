@@ -90,7 +90,8 @@ class Simulation {
     Snapshot snapshot(size_t group) const;
     SavedState save() const;
     // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
-    // ping-pong path, in place, and without a frame since the last load or restart.
+    // ping-pong path, in place, where some are born or die, and without a frame since the last load or
+    // restart.
     std::optional<SavedState> saveBefore() const;
     void load(const SavedState& saved);
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits

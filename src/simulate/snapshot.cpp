@@ -34,6 +34,7 @@ SavedState Simulation::save() const {
 std::optional<SavedState> Simulation::saveBefore() const {
     const auto* fused = std::get_if<Fused>(&path_);
     if (!fused || !before_) return std::nullopt;
+    if (plan_.hasLife()) return std::nullopt;  // newborns have taken places since
     if (fused->contact() && plan_.contact.steps > 1)
         return std::nullopt;  // the side of a step within the frame
     SavedState out{before_->time, before_->frames, {}, before_->step};

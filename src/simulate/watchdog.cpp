@@ -68,6 +68,7 @@ Alarm findAlarm(const SavedState& saved) {
         const GroupState& state = saved.groups[g];
         const size_t vertices = state.positions.size() / state.anchors.size();
         for (size_t i = 0; i < state.positions.size(); ++i) {
+            if (!state.lives.empty() && state.lives[i / vertices].y <= 0) continue;  // a free place
             const bool finite = finiteSquare(state.positions[i]) && finiteSquare(state.velocities[i]);
             const double speed = glm::length(glm::dvec3(state.velocities[i]));
             if (finite && !(speed > worst.speed)) continue;
