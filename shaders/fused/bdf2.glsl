@@ -37,9 +37,23 @@ void endHistory()
     if (restart) dx[0].x = NO_HISTORY;
 }
 
+// A thrust before the stage, whose forces have to be those at its end: over h, from the velocity with half of what the
+// last substep's forces changed, which is of order 2. dv is without it. A step without history has it over h/2 here and
+// when the stage is accepted.
+void thrustAhead()
+{
+#ifdef THRUST
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = restart ? v[i] : v[i] + dv[i] * 0.5;
+    }
+    thrustBy(!restart);
+#endif
+}
+
 // The stage without springs.
 void predict(int step)
 {
+    thrustAhead();
     releasePins(step);
     eta = restart ? substep : stageEta;
     vec2 stepPhi = restart ? phi : stagePhi;
@@ -56,9 +70,9 @@ void predict(int step)
     sampleSubstep(frameTime + float(step + 1) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
-        vec3 flown = dragged(v[i], fluid[i], normal[i]);
-        unsprung[i] = restart ? flown : stageDragged(v[i] + dv[i] * third, fluid[i], normal[i]);
-        vec3 known = restart ? flight(v[i], fluid[i], normal[i]) - flown * substep : dx[i] * third;
+        vec3 flown = dragged(v[i], fluid[i], FALL(i), normal[i]);
+        unsprung[i] = restart ? flown : stageDragged(v[i] + dv[i] * third, fluid[i], FALL(i), normal[i]);
+        vec3 known = restart ? flight(v[i], fluid[i], FALL(i), normal[i]) - flown * substep : dx[i] * third;
         z[i] = held ? vec3(0.0) : known;
         q[i] = held ? vec3(0.0) : known + unsprung[i] * eta;
         weight[i] = held ? 0.0 : inverseMass[i] * (eta * stepPhi.y);
@@ -76,5 +90,8 @@ void accept()
         v[i] = velocity;
         x[i] += q[i];
     }
+#ifdef THRUST
+    if (restart) thrust(false);
+#endif
     restart = false;
 }

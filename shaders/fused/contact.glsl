@@ -83,7 +83,7 @@ void resolveContacts()
     bool changed = false;
     for (int n = 0; n < VERTICES; ++n) {
         if (!isHeld(pinned[n]) && margin(touchPosition[n], driftedBy[n]) < 0.0) {
-            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], gravity,
+            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(touchPosition[n]),
                                    Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime);
             changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
             touchPosition[n] = c.position;
@@ -97,7 +97,7 @@ void resolveContacts()
 #else
     for (int k = 0; k < VERTICES; ++k) {
         if (!isHeld(pinned[k])) {
-            Contact c = collideAll(anchor, touchPosition[k], touchVelocity[k], gravity,
+            Contact c = collideAll(anchor, touchPosition[k], touchVelocity[k], fallAt(touchPosition[k]),
                                    Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;

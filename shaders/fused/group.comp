@@ -83,6 +83,9 @@ void main()
 #ifdef FIELDS
     loadFieldParameters();
 #endif
+#ifdef FORCE_PARAMETERS
+    loadForceParameters();
+#endif
 #ifdef COLLIDE
     loadColliderParameters();
 #endif

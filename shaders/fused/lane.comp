@@ -80,6 +80,9 @@ void main()
 #ifdef FIELDS
     loadFieldParameters();
 #endif
+#ifdef FORCE_PARAMETERS
+    loadForceParameters();
+#endif
 #ifdef COLLIDE
     loadColliderParameters();
 #endif

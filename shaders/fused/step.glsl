@@ -1,7 +1,25 @@
 // What a solver calls in a substep beside the springs: fields, drag and gravity, pins that let go. Needs
-// fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl.
+// fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl, with FORCES, THRUST or WIND
+// generated/scene_forces.glsl.
 #include "physics/drag.glsl"
 #include "physics/random.glsl"
+
+// m/s^2 on vertex i beside drag and springs.
+#ifdef FORCES
+#define FALL(i) (gravity + pull[i])
+#else
+#define FALL(i) gravity
+#endif
+
+// The same anywhere, m.
+vec3 fallAt(vec3 position)
+{
+#ifdef FORCES
+    return gravity + forceAcceleration(anchor, position);
+#else
+    return gravity;
+#endif
+}
 
 bool isHeld(bool pinned)
 {
@@ -55,9 +73,15 @@ void sampleFrame()
 #endif
 }
 
-// The others at every probe, now.
+// The others at every probe, now; and the forces, which are always taken there: once a frame would be too seldom for
+// what circles a point.
 void sampleSubstep(float time)
 {
+#ifdef FORCES
+    for (int j = 0; j < VERTICES; ++j) {
+        pull[j] = forceAcceleration(anchor, probe[j]);
+    }
+#endif
 #if defined(FIELDS) && defined(SAMPLE_SUBSTEPS)
     for (int j = 0; j < VERTICES; ++j) {
         fluid[j] = fieldAt(probe[j], time);
@@ -94,52 +118,90 @@ void kickWhole(int step, float time)
 #endif
 }
 
-// Drag towards u and gravity by factors of which `decays` and `phis` are across and along the surface, whose normal is n.
-vec3 draggedBy(vec3 velocity, vec3 u, vec3 n, vec2 decays, vec2 phis)
+#ifdef THRUST
+// To all that is not held.
+void gain(vec3 gained)
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) v[i] += gained;
+    }
+}
+
+// What a thrust adds to the mean of the velocities w over a substep, or over half of one.
+void thrustBy(bool whole)
+{
+    meet();
+    vec3 mean = meanVelocity();
+    gain(thrustedVelocity(mean, whole) - mean);
+}
+#endif
+
+// The thrust over a substep or half of one, exactly, so that halves before and after what else a substep does keep an
+// order of 2.
+void thrust(bool whole)
+{
+#ifdef THRUST
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    thrustBy(whole);
+#endif
+}
+
+// What the fields and the wind among the forces make of the fluid's velocity.
+vec3 fluidOf(vec3 u)
 {
 #ifndef FIELDS
     u = vec3(0.0);
 #endif
+#ifdef WIND
+    u += forceWind();
+#endif
+    return u;
+}
+
+// Drag towards u and the acceleration a, gravity and forces, by factors of which `decays` and `phis` are across and along
+// the surface, whose normal is n.
+vec3 draggedBy(vec3 velocity, vec3 u, vec3 a, vec3 n, vec2 decays, vec2 phis)
+{
+    u = fluidOf(u);
 #ifdef DIRECTIONAL_DRAG
-    return directionalDragAndGravity(velocity, u, gravity, n, decays, phis);
+    return directionalDragAndGravity(velocity, u, a, n, decays, phis);
 #else
-    return dragAndGravity(velocity, u, gravity, decays.y, phis.y);
+    return dragAndGravity(velocity, u, a, decays.y, phis.y);
 #endif
 }
 
 // Over a substep, exactly.
-vec3 dragged(vec3 velocity, vec3 u, vec3 n)
+vec3 dragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
-    return draggedBy(velocity, u, n, decay, phi);
+    return draggedBy(velocity, u, a, n, decay, phi);
 }
 
 // Inside an implicit stage, where the velocity that drags is the one that results.
-vec3 stageDragged(vec3 velocity, vec3 u, vec3 n)
+vec3 stageDragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
-    return draggedBy(velocity, u, n, stageDecay, stagePhi);
+    return draggedBy(velocity, u, a, n, stageDecay, stagePhi);
 }
 
-// As an acceleration now.
-vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 n)
+// As an acceleration now, with `a` of gravity and forces.
+vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
-#ifndef FIELDS
-    u = vec3(0.0);
-#endif
-    vec3 slip = u - velocity;
-    vec3 a = gravity + slip * dragRate.y;
+    vec3 slip = fluidOf(u) - velocity;
+    a += slip * dragRate.y;
 #ifdef DIRECTIONAL_DRAG
     a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
 #endif
     return a;
 }
 
-// How far drag and gravity carry over a substep, exactly.
-vec3 flight(vec3 velocity, vec3 u, vec3 n)
+// How far drag and the acceleration carry over a substep, exactly.
+vec3 flight(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
-    vec3 a = dragAcceleration(velocity, u, n);
-    vec3 bend = a * flightBend.y;
+    vec3 slope = dragAcceleration(velocity, u, a, n);
+    vec3 bend = slope * flightBend.y;
 #ifdef DIRECTIONAL_DRAG
-    bend += n * (dot(a, n) * (flightBend.x - flightBend.y));
+    bend += n * (dot(slope, n) * (flightBend.x - flightBend.y));
 #endif
     return velocity * substep + bend;
 }

@@ -79,7 +79,11 @@ Contact comesOut(vec3 anchor, Contact c, vec3 gravity, Drift drift, float time)
     vec3 n = together > 0.1 ? s.outwards / together : across;
     vec3 relative = c.velocity - t.velocity;
     float vn = dot(relative, n);
+#ifdef VERLET
+    float way = min(-t.distance, max(pushSpeed - vn, 0.0) * drift.step);
+#else
     float way = min(-t.distance, (pushSpeed - min(vn, 0.0)) * drift.step);
+#endif
     return Contact(c.position + n * way, c.velocity + n * (clamp(vn, 0.0, pushSpeed) - vn));
 }
 #endif
@@ -109,6 +113,14 @@ void keepToBoth(inout Contact c, vec3 a, vec3 b, vec2 off, vec2 speeds)
     c.position -= (a * (off.x - cosine * off.y) + b * (off.y - cosine * off.x)) / across;
     c.velocity -= (a * (speeds.x - cosine * speeds.y) + b * (speeds.y - cosine * speeds.x)) / across;
 }
+
+#ifdef VERLET
+// Where contact is a constraint on the position: the velocity is what that leaves.
+void followPosition(inout Contact c, vec3 position, vec3 velocity, float step)
+{
+    c.velocity = velocity + (c.position - position) / step;
+}
+#endif
 
 // Whether neither surface alone takes the velocity out of the other.
 bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
@@ -146,17 +158,24 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
             // the third that presses, or the last of many
             bool fits = dot(position, before.normal) - beforeOff > -touching;
             c = Contact(crease && fits ? position - (velocity - t.velocity) * drift.kickDrift : from, t.velocity);
+#ifdef VERLET
+            if (!(crease && fits)) followPosition(c, position, velocity, drift.step);
+#endif
             break;
         }
         float off = dot(c.position, t.normal) - t.distance;
         vec2 material = materialOf(t);
-        Contact r = respond(c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x, material.y,
+        Contact r = answer(c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x, material.y,
                             drift);
 #ifdef RIGID_IMPACT
         struckLast = vec4(t.normal, material.y);
         struckVelocity = t.velocity;
 #endif
+#ifdef VERLET
+        bool rests = true;  // nothing bounces
+#else
         bool rests = dot(r.velocity, t.normal) < 1e-5;
+#endif
         r.velocity += t.velocity;
         if (n > 0) {
             vec2 offs = vec2(dot(r.position, before.normal) - beforeOff, dot(r.position, t.normal) - off);
@@ -166,6 +185,9 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                      bothPress(velocity - before.velocity, velocity - t.velocity, before.normal, t.normal);
             if (crease) {
                 keepToBoth(r, before.normal, t.normal, offs, speeds);
+#ifdef VERLET
+                followPosition(r, position, velocity, drift.step);
+#endif
                 // at rest in it: back to where the substep began, exactly, or roundings would add up
                 vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
@@ -175,6 +197,9 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                 }
             } else if (offs.x < -touching) {
                 keepToBoth(r, before.normal, t.normal, vec2(offs.x, 0.0), vec2(min(speeds.x, 0.0), 0.0));
+#ifdef VERLET
+                followPosition(r, position, velocity, drift.step);
+#endif
             }
         }
         c = r;

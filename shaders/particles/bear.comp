@@ -107,9 +107,22 @@ void setStep(float h)
     flightBend = vec2(bendOf(dragRate.x, h), bendOf(dragRate.y, h));
 }
 
+// A thrust over any time, s.
+void thrustFor(float time)
+{
+#ifdef THRUST
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    vec3 mean = meanVelocity();
+    gain(thrustedOver(mean, time) - mean);
+#endif
+}
+
 void flyOn(float since)
 {
     setStep(since);
+    thrustFor(0.5 * since);
     for (int i = 0; i < VERTICES; ++i) {
         probe[i] = x[i] + v[i] * (0.5 * since);
     }
@@ -119,10 +132,11 @@ void flyOn(float since)
     sampleSubstep(frameTime + frameDuration - 0.5 * since);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
-            x[i] += flight(v[i], fluid[i], normal[i]);
-            v[i] = dragged(v[i], fluid[i], normal[i]);
+            x[i] += flight(v[i], fluid[i], FALL(i), normal[i]);
+            v[i] = dragged(v[i], fluid[i], FALL(i), normal[i]);
         }
     }
+    thrustFor(0.5 * since);
 }
 
 vec4 rotationOf(vec3 axis)
@@ -209,6 +223,9 @@ void main()
     loadUniforms();
 #ifdef FIELDS
     loadFieldParameters();
+#endif
+#ifdef FORCE_PARAMETERS
+    loadForceParameters();
 #endif
 #ifdef LISTED
     int molecule = int(places[i]);

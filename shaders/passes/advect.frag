@@ -2,12 +2,16 @@
 //   euler      v += exact drag and gravity at x;  x += h v              (after restore added the springs' kick)
 //   verlet     the same, then v = (x' - x) / h
 //   leapfrog   v += a h/2;  x += v h/2;  v += exact drag and gravity at that x;  x += v h/2
+// The scene's forces join gravity, a wind among them the fields.
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
 #include "lib/state.glsl"
 #include "physics/anchor.glsl"
 #include "physics/drag.glsl"
 #ifdef FIELDS
 #include "generated/fields.glsl"
+#endif
+#if defined(FORCES) || defined(WIND)
+#include "generated/scene_forces.glsl"
 #endif
 
 uniform sampler2D vertexNormals;
@@ -29,10 +33,17 @@ vec3 accelerate(vec3 v, vec3 anchor, vec3 x, float t, ivec2 texel)
 #ifdef FIELDS
     u = wind * fluidVelocity(anchor, x, t);
 #endif
+#ifdef WIND
+    u += forceWind();
+#endif
+    vec3 a = gravity;
+#ifdef FORCES
+    a += forceAcceleration(anchor, x);
+#endif
 #ifdef DIRECTIONAL_DRAG
-    return directionalDragAndGravity(v, u, gravity, texelFetch(vertexNormals, texel, 0).xyz, decay, phi);
+    return directionalDragAndGravity(v, u, a, texelFetch(vertexNormals, texel, 0).xyz, decay, phi);
 #else
-    return dragAndGravity(v, u, gravity, decay.y, phi.y);
+    return dragAndGravity(v, u, a, decay.y, phi.y);
 #endif
 }
 
@@ -56,7 +67,7 @@ void main()
         return;
     }
     vec3 anchor = vec3(0.0);
-#ifdef FIELDS
+#if defined(FIELDS) || defined(FORCES)
     anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
 #endif
 #ifdef LEAPFROG

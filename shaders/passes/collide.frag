@@ -3,6 +3,9 @@
 // it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
 #include "lib/state.glsl"
 #include "generated/colliders.glsl"
+#ifdef FORCES
+#include "generated/scene_forces.glsl"
+#endif
 
 uniform vec3 gravity;
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
@@ -23,6 +26,10 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
+        vec3 fall = gravity;
+#ifdef FORCES
+        fall += forceAcceleration(anchor, x);
+#endif
         vec3 kick = vec3(0.0);
 #if defined(LEAPFROG) && defined(SPRINGS)
         kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);
@@ -35,9 +42,9 @@ void main()
         free.x = min(free.x, beyondReach(free.y, v, drift.x));
 #endif
         Contact contact = Contact(x, whole);
-        if (free.x < 0.0) contact = collideAll(anchor, x, whole, v, gravity, drifted, contactTime);
+        if (free.x < 0.0) contact = collideAll(anchor, x, whole, v, fall, drifted, contactTime);
 #else
-        Contact contact = collideAll(anchor, x, whole, gravity, drifted);
+        Contact contact = collideAll(anchor, x, whole, fall, drifted);
 #endif
         x = contact.position;
         if (contact.velocity != whole) v = contact.velocity - kick;

@@ -5,6 +5,9 @@
 #ifdef FIELDS
 #include "generated/fields.glsl"
 #endif
+#if defined(FORCES) || defined(WIND)
+#include "generated/scene_forces.glsl"
+#endif
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
@@ -32,8 +35,15 @@ vec3 dragAcceleration(vec3 v, vec3 anchor, vec3 x, ivec2 texel)
 #ifdef FIELDS
     u = wind * fluidVelocity(anchor, x, time);
 #endif
+#ifdef WIND
+    u += forceWind();
+#endif
+    vec3 a = gravity;
+#ifdef FORCES
+    a += forceAcceleration(anchor, x);
+#endif
     vec3 slip = u - v;
-    vec3 a = gravity + slip * dragRate.y;
+    a += slip * dragRate.y;
 #ifdef DIRECTIONAL_DRAG
     vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
     a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
@@ -65,7 +75,7 @@ void main()
     if (stage == 0) x -= shift;
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     vec3 anchor = vec3(0.0);
-#ifdef FIELDS
+#if defined(FIELDS) || defined(FORCES)
     anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
 #endif
     vec3 a = dragAcceleration(v, anchor, x, texel);

@@ -86,6 +86,37 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     return Contact(outside ? x : position, outside ? v : velocity);
 }
 
+// Contact as a constraint on the position (Jakobsen 2001; Latta 2004, section 3.4.3), for verlet: the vertex is moved
+// out of the surface, and its velocity is what that leaves of the substep's way, v + moved / h = (x' - x_before) / h.
+// Nothing bounces. Friction takes back the way along the surface, by at most mu times the depth (Coulomb: a depth of h^2 g
+// is a pressure of g); what is caught leaves at no more than pushSpeed.
+Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float step)
+{
+    float vn = dot(v, n);
+    float moved = min(max(-distance, 0.0f), max(pushSpeed - vn, 0.0f) * step);
+    vec3 tangential = v - n * vn;
+    float speed = sqrt(dot(tangential, tangential));
+    float lost = min(friction * moved / step, speed);
+    vec3 change = n * (moved / step) - tangential * (lost / max(speed, 1e-30f));
+
+    // what began the substep at rest on the surface goes back exactly, as in respond
+    float started = distance - vn * step;
+    bool rests = lost >= speed && abs(started) < min(restingSlack, -0.02f * vn * step);
+    bool outside = distance >= 0.0f;
+    return Contact(outside ? x : (rests ? x - v * step : x + change * step),
+                   outside ? v : (rests ? vec3(0.0f) : v + change));
+}
+
+// As the solver takes contact.
+Contact answer(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
+{
+#ifdef VERLET
+    return constrain(x, v, distance, n, friction, drift.step);
+#else
+    return respond(x, v, distance, n, gravity, restitution, friction, drift);
+#endif
+}
+
 // Height field cell: bilinear height from the four corner heights, fractions f in [0, 1].
 float bilinear(float h00, float h10, float h01, float h11, vec2 f)
 {

@@ -1,5 +1,5 @@
 // euler: symplectic Euler with drag and gravity taken exactly (Latta, 3 and 8), order 1.
-//   v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
+//   v by the thrust over h;  v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
 
 void beginSolver()
 {
@@ -9,11 +9,12 @@ void beginSolver()
 void advance(int step)
 {
     float time = frameTime + float(step) * substep;
+    thrust(true);
     kickWhole(step, time);
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
-            v[i] = dragged(v[i], fluid[i], normal[i]);
+            v[i] = dragged(v[i], fluid[i], FALL(i), normal[i]);
             x[i] += v[i] * substep;
         }
     }

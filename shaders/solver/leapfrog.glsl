@@ -1,6 +1,7 @@
 // leapfrog: order 2; one evaluation of the springs a substep, and one more to start a frame.
 //   v += a h/2;  x1 = x + v h/2;  v += drag and gravity over h at x1, t + h/2;  x = x1 + v h/2;  contact;
 //   a = F(x, v + a h/2, t + h) / m;  v += a h/2
+// A thrust acts over h/2 before and after all of it.
 // The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
 
@@ -40,6 +41,7 @@ void advance(int step)
 {
     float halfStep = 0.5 * substep;
     kickBySprings(step, step == 0 ? 0.0 : halfStep);
+    thrust(step > 0);
     for (int i = 0; i < VERTICES; ++i) {
 #ifdef SPRINGS
         v[i] += acceleration[i] * halfStep;
@@ -53,7 +55,7 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
             vec3 before = v[i];
-            v[i] = dragged(v[i], fluid[i], normal[i]);
+            v[i] = dragged(v[i], fluid[i], FALL(i), normal[i]);
             // added at once: one rounding, so that contact can take a drift back exactly
             x[i] += ((slips != 0 ? v[i] : before) + v[i]) * halfStep;
         }
@@ -66,4 +68,5 @@ void advance(int step)
 void finishSolver()
 {
     kickBySprings(substeps, 0.5 * substep);
+    thrust(false);
 }

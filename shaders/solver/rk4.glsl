@@ -22,7 +22,7 @@ void stage(int step, float time, float share, float ahead)
     letGo(step);
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 a = dragAcceleration(v[i], fluid[i], normal[i]);
+        vec3 a = dragAcceleration(v[i], fluid[i], FALL(i), normal[i]);
 #ifdef SPRINGS
         a += force[i] * inverseMass[i];
 #endif
@@ -34,9 +34,10 @@ void stage(int step, float time, float share, float ahead)
     }
 }
 
-// A substep up to contact.
+// A substep up to contact. A thrust, which is not smooth at its limit, acts exactly before and after it: of order 2.
 void advance(int step)
 {
+    thrust(false);
     for (int i = 0; i < VERTICES; ++i) {
         startPosition[i] = x[i];
         startVelocity[i] = v[i];
@@ -56,6 +57,7 @@ void advance(int step)
             v[i] = startVelocity[i] + sumAcceleration[i] * substep;
         }
     }
+    thrust(false);
 }
 
 void finishSolver()

@@ -2,6 +2,7 @@
 //   x' = x + (x - x_before) + h^2 a, with drag and gravity exact over h and the springs' part of h^2 a bounded: a spring
 //   is a distance constraint (Latta 3.4.3, Jakobsen 2001) that moves its ends by the share k h^2 (1/m_i + 1/m_j) of the
 //   way to its rest length, at most all of it (physics/spring.glsl, through VERLET in the springs' text).
+//   A collider is a constraint on the position as well (constrain in physics/collide.glsl): what entered is moved out.
 //   v = (x' - x) / h: what is left of it after positions are rounded.
 
 void beginSolver()
@@ -12,12 +13,13 @@ void beginSolver()
 void advance(int step)
 {
     float time = frameTime + float(step) * substep;
+    thrust(true);
     kickWhole(step, time);
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
             vec3 before = x[i];
-            x[i] += dragged(v[i], fluid[i], normal[i]) * substep;
+            x[i] += dragged(v[i], fluid[i], FALL(i), normal[i]) * substep;
             v[i] = (x[i] - before) / substep;
         }
     }

@@ -13,12 +13,13 @@ void beginSolver()
 void advance(int step)
 {
     float time = frameTime + float(step) * substep;
+    thrust(true);
     releasePins(step);
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         z[i] = vec3(0.0);
-        q[i] = held ? vec3(0.0) : dragged(v[i], fluid[i], normal[i]) * substep;
+        q[i] = held ? vec3(0.0) : dragged(v[i], fluid[i], FALL(i), normal[i]) * substep;
         weight[i] = held ? 0.0 : inverseMass[i] * (substep * phi.y);
     }
 #ifdef SPRINGS

@@ -8,7 +8,8 @@
 
 namespace shoal::app {
 
-Controls::Controls(const Plan& plan) : gravity(plan.gravity), substeps(plan.substeps) {}
+Controls::Controls(const Plan& plan)
+    : gravity(plan.gravity), forces(plan.forces.size(), 1.0f), substeps(plan.substeps) {}
 
 void Controls::follow(const Parameters& parameters) {
     gravity = parameters.gravity;
@@ -16,6 +17,8 @@ void Controls::follow(const Parameters& parameters) {
     drag = float(parameters.drag);
     stiffness = float(parameters.stiffness);
     damping = float(parameters.damping);
+    for (size_t i = 0; i < forces.size(); ++i)
+        forces[i] = float(parameters.forces[i].factor);
     substeps = parameters.substeps;
 }
 
@@ -27,6 +30,8 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
     follow(parameters.drag, drag);
     follow(parameters.stiffness, stiffness);
     follow(parameters.damping, damping);
+    for (size_t i = 0; i < forces.size(); ++i)
+        follow(parameters.forces[i].factor, forces[i]);
     // explicit solvers stay within their limit: stiffer springs take more substeps
     parameters.substeps = substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping,
                                          parameters.drag, substeps);
@@ -41,6 +46,11 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
                               group.place.kind == Placement::Kind::list);
     }
     choice.count = groupCounts_.front();
+    for (size_t i = 0; i < scene.forces.size(); ++i) {
+        const Force& force = scene.forces[i];
+        const std::string name = force.name.empty() ? concat(kindName(force.shape), " ", i + 1) : force.name;
+        forceNames_.push_back(force.mouse ? name + " (Shift, left)" : name);
+    }
 }
 
 static void heading(const char* text) {
@@ -99,6 +109,11 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
     slider(any(&Needs::drag), "Drag", controls.drag, 0, 4);
     slider(any(&Needs::springs), "Stiffness", controls.stiffness, 0.02f, 20, ImGuiSliderFlags_Logarithmic);
     slider(any(&Needs::springDamping), "Damping", controls.damping, 0, 4);
+    for (size_t i = 0; i < controls.forces.size(); ++i) {
+        ImGui::PushID(int(i));
+        slider(true, forceNames_[i].c_str(), controls.forces[i], -4, 4);
+        ImGui::PopID();
+    }
     ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);
     if (simulation.parameters.substeps > controls.substeps)
         ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);

@@ -14,6 +14,7 @@ namespace shoal::app {
 struct Controls {
     glm::dvec3 gravity{0};
     float gravityFactor = 1, wind = 1, drag = 1, stiffness = 1, damping = 1;
+    std::vector<float> forces;  // factors on the strengths of the scene's
     int substeps = 4;
     bool paused = false;
 
@@ -54,6 +55,7 @@ class Panel {
     std::vector<std::string> groupNames_;
     std::vector<int> groupCounts_;
     std::vector<bool> fixedCount_;  // placed one by one: the number cannot be changed
+    std::vector<std::string> forceNames_;
     std::string sceneName_;
 };
 

@@ -183,6 +183,7 @@ class WindowRun {
             return true;
         }
         const gpu::Traffic before = context_.traffic();
+        holdForces();
         if (!controls_.paused || action_ == Panel::Action::step) {
             controls_.lead(simulation_->parameters, simulation_->plan(), simulation_->parameters.frameTime);
             advance();
@@ -286,9 +287,32 @@ class WindowRun {
         ImGui::End();
     }
 
+    // Forces of the mouse act while Shift and the left button are held: where the pointer is, at the distance
+    // of what the camera looks at.
+    bool holdsForces() const {
+        const ImGuiIO& io = ImGui::GetIO();
+        const auto& forces = simulation_->plan().forces;
+        return !io.WantCaptureMouse && io.KeyShift && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
+               std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.mouse; });
+    }
+
+    void holdForces() {
+        const ImGuiIO& io = ImGui::GetIO();
+        const bool held = shown_ > 0 && holdsForces();
+        const std::vector<Force>& forces = simulation_->plan().forces;
+        for (size_t i = 0; i < forces.size(); ++i) {
+            if (!forces[i].mouse) continue;
+            ForceControl& control = simulation_->parameters.forces[i];
+            control.on = held;
+            if (!held) continue;
+            const glm::dvec2 place(io.MousePos.x / io.DisplaySize.x, io.MousePos.y / io.DisplaySize.y);
+            control.position = onTargetPlane(camera_.view(), place, double(width_) / height_);
+        }
+    }
+
     void moveCamera() {
         const ImGuiIO& io = ImGui::GetIO();
-        if (io.WantCaptureMouse) return;
+        if (io.WantCaptureMouse || holdsForces()) return;
         const double dx = double(io.MouseDelta.x) / height_, dy = double(io.MouseDelta.y) / height_;
         if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera_.turn(dx, dy);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))

@@ -44,6 +44,9 @@ static std::string kernelParts(const GroupPlan& group) {
     with(needs.drag && !needs.directionalDrag, "drag");
     with(needs.directionalDrag, "drag by direction");
     with(needs.fields, "fields");
+    with(needs.forces, "forces");
+    with(needs.wind, "wind");
+    with(needs.thrust, "thrust");
     with(needs.collide, "colliders");
     with(needs.normals, "normals where drawn");
     with(needs.life, "death");
@@ -91,6 +94,25 @@ static std::string leftOut(const GroupPlan& group, bool fused) {
     return absent;
 }
 
+// Of those that act on a group: kind, and name where there is one.
+static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& group) {
+    std::vector<std::string> out;
+    for (const auto* kind : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
+        for (const GroupForces::One& one : *kind) {
+            const Force& force = plan.forces[one.force];
+            out.push_back(force.name.empty() ? kindName(force.shape)
+                                             : concat(kindName(force.shape), " \"", force.name, "\""));
+        }
+    return out;
+}
+
+static std::string listed(const std::vector<std::string>& names) {
+    std::string out;
+    for (const std::string& name : names)
+        out += (out.empty() ? "" : ", ") + name;
+    return out;
+}
+
 static void tellContact(std::ostringstream& out, const Plan& plan) {
     const ContactPlan& contact = plan.contact;
     if (!contact.any()) return;
@@ -124,6 +146,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             else
                 out << " is stable up to " << group.stableStep << " s\n";
         }
+        if (group.forces.any()) out << "  forces   " << listed(forceNames(plan, group)) << "\n";
         if (choice.path == Path::fused)
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
@@ -166,6 +189,12 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
             entry.add("atStart", JsonValue::makeNumber(group.life->atStart))
                 .add("allocator", JsonValue::makeString(name(group.life->cycle.allocator)))
                 .add("emitters", JsonValue::makeNumber(double(group.life->cycle.emitters.size())));
+        if (group.forces.any()) {
+            JsonValue forces = JsonValue::makeArray();
+            for (const std::string& force : forceNames(plan, group))
+                forces.items.push_back(JsonValue::makeString(force));
+            entry.add("forces", std::move(forces));
+        }
         entry.add("passes", std::move(passes));
         groups.items.push_back(std::move(entry));
     }

@@ -155,7 +155,7 @@ std::string sourceOfOne(const Text& text) {
     return concat(
         "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
         "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", text.comment,
-        "    surface = ", text.surface, ";\n    c = respond(c.position, c.velocity, surface.w - ",
+        "    surface = ", text.surface, ";\n    c = answer(c.position, c.velocity, surface.w - ",
         text.material, ".z, surface.xyz, gravity, ", text.material, ".x, ", text.material,
         ".y, drift);\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, surface.w < ", text.material,
         ".z ? ", text.material,

@@ -40,7 +40,15 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
-    return out + concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
+    out += concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
+    if (!needs.thrust) return out;
+    double mass = 0;
+    for (const Vertex& vertex : molecule.vertices)
+        mass += vertex.mass;
+    out += "\n// Of w, by mass.\nvec3 meanVelocity()\n{\n    vec3 sum = vec3(0.0);\n";
+    for (size_t v = 0; v < count; ++v)
+        out += concat("    sum += w[", v, "] * ", glslLiteral(molecule.vertices[v].mass / mass), ";\n");
+    return out + "    return sum;\n}\n";
 }
 
 std::string restLength(const Molecule& molecule, const Spring& spring, const Needs& needs) {

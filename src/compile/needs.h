@@ -8,6 +8,9 @@ struct Needs {
     bool drag = false;
     bool directionalDrag = false;
     bool gravity = false;
+    bool forces = false;  // some accelerate by place: attract, vortexLine
+    bool thrust = false;
+    bool wind = false;  // a wind among the forces, and the group has drag
     bool springs = false;
     bool springDamping = false;
     bool actuation = false;

@@ -63,6 +63,10 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
     out.needs = findNeeds(scene, group);
+    out.forces = generateForces(scene.forces, group.name, out.needs.drag);
+    out.needs.forces = !out.forces.pulls.empty();
+    out.needs.thrust = !out.forces.thrusts.empty();
+    out.needs.wind = !out.forces.winds.empty();
     out.drag = group.drag;
     if (!out.needs.directionalDrag) out.drag.normal = out.drag.tangent;  // no surface
     for (const Vertex& vertex : group.molecule.vertices)
@@ -137,6 +141,9 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
     if (needs.acceleration)
         add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
     const bool stages = group.solver == SolverKind::rk4;
+    // symmetrically where the solver is: half before and half after the rest of a substep
+    const bool halves = needs.thrust && shoal::solver(group.solver).order > 1;
+    if (needs.thrust) add(PassKind::thrust, When::substep, "a thrust pushes along the velocity");
     if (needs.springs && shoal::solver(group.solver).order == 1)
         add(PassKind::restore, When::substep, "the molecule has springs");
     if (needs.directionalDrag && !stages)
@@ -146,10 +153,13 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
                needs.gravity ? " under gravity" : "",
                needs.fields ? ", dragged by the fields"
                : needs.drag ? ", with drag"
-                            : ""));
+                            : "",
+               needs.forces ? ", with forces" : "", needs.wind ? ", in the wind" : ""));
+    if (halves && stages) add(PassKind::thrust, When::substep, "the other half of the thrust");
     if (needs.collide) add(PassKind::collide, When::substep, "the scene has colliders");
     if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::substep, "the molecule has springs");
+    if (halves && !stages) add(PassKind::thrust, When::substep, "the other half of the thrust");
     if (needs.normals) add(PassKind::normals, When::frameEnd, "drawn, or exported, with its normals");
     add(PassKind::watch, When::frameEnd, "stops a run whose state is not finite or too fast");
 }
@@ -202,8 +212,8 @@ int tableRows(std::vector<glm::vec4>& table) {
 }  // namespace
 
 const char* name(PassKind kind) {
-    static constexpr const char* names[] = {"records", "normals", "restore", "advect",
-                                            "stage",   "collide", "watch"};
+    static constexpr const char* names[] = {"records", "normals", "thrust",  "restore",
+                                            "advect",  "stage",   "collide", "watch"};
     return names[size_t(kind)];
 }
 
@@ -228,6 +238,7 @@ Plan compile(const Scene& scene) {
     plan.frameRate = scene.frameRate;
     plan.substeps = scene.solver.substeps;
     plan.gravity = scene.gravity;
+    plan.forces = scene.forces;
     plan.fieldSampling = scene.solver.fieldSampling;
     plan.warnings = scene.warnings;
 
@@ -272,6 +283,12 @@ Plan compile(const Scene& scene) {
             Location{scene.file, 0, 0, {}},
             concat("the scene has ", scene.fields.size(), " fields and ", scene.colliders.size(),
                    " colliders, more than the ", maxParameters, " 4-vectors of uniforms that each may take"));
+    for (const GroupPlan& group : plan.groups)
+        if (group.forces.parameterCount > maxForceParameters)
+            throw Error(
+                group.location,
+                concat("the forces on \"", group.name, "\" take ", group.forces.parameterCount,
+                       " 4-vectors of uniforms, more than the ", maxForceParameters, " that they may"));
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
     plan.collideSource = std::move(colliders.source);

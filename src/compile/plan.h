@@ -22,6 +22,7 @@
 #include <glm/glm.hpp>
 
 #include "compile/contact_plan.h"
+#include "compile/generate_forces.h"
 #include "compile/group_state.h"
 #include "compile/kernel.h"
 #include "compile/life_plan.h"
@@ -64,14 +65,15 @@ struct GroupPlan {
     GroupConstants constants;
     std::vector<glm::vec4> colliderParameters;  // with the group's restitution and friction; 0 or as many as
                                                 // Plan::colliderParameterCount
-    KernelText kernel;                          // of the fused path
-    Molecule shape;                             // bdf2-corotated only: of its matrix (compile/corotated.h)
+    GroupForces forces;
+    KernelText kernel;  // of the fused path
+    Molecule shape;     // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
 };
 
-enum class PassKind { records, normals, restore, advect, stage, collide, watch };
+enum class PassKind { records, normals, thrust, restore, advect, stage, collide, watch };
 const char* name(PassKind kind);
 
 struct PassPlan {
@@ -87,6 +89,7 @@ struct Plan {
     int substeps = 4;
     glm::dvec3 gravity{0};
     FieldSampling fieldSampling = FieldSampling::vertexSubstep;
+    std::vector<Force> forces;  // as in the scene
     std::vector<GroupPlan> groups;
     ContactPlan contact;           // of molecules with one another
     std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat

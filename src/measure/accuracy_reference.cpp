@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "compile/surface_pair.h"
+#include "reference/forces.h"
 
 namespace shoal::measure {
 
@@ -35,6 +36,7 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.gravity = scene.gravity;
     out.drag = group.drag;
     out.fields = scene.fields;
+    out.forces = reference::forcesOn(scene, group);
     out.colliders = collidersOf(scene, group);
     if (group.life)
         throw Error(group.life->location,

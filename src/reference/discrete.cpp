@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "reference/fields.h"
+#include "reference/forces.h"
 #include "reference/implicit.h"
 #include "reference/solve.h"
 
@@ -19,11 +20,11 @@ glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& g
 }
 
 // The same with a rate along the unit normal n and another across it.
-glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
-                      double h, bool slips) {
-    const glm::dvec3 plain = relaxed(v, u, problem.gravity, problem.drag.tangent, h, slips);
+glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& a,
+                      const glm::dvec3& n, double h, bool slips) {
+    const glm::dvec3 plain = relaxed(v, u, a, problem.drag.tangent, h, slips);
     if (!problem.drag.directional()) return plain;
-    const glm::dvec3 across = relaxed(v, u, problem.gravity, problem.drag.normal, h, slips);
+    const glm::dvec3 across = relaxed(v, u, a, problem.drag.normal, h, slips);
     return plain + glm::dot(across - plain, n) * n;
 }
 
@@ -34,8 +35,10 @@ void applyLinearPart(const Problem& problem, Vectors& velocity, const Vectors& p
     for (size_t i = 0; i < position.size(); ++i) {
         if (problem.pinned(i)) continue;
         glm::dvec3 u(0);
-        if (problem.drag.any()) u = fluidVelocity(problem.fields, position[i], time);
-        velocity[i] = linearPart(problem, velocity[i], u, normal[i], h, slips);
+        if (problem.drag.any())
+            u = forceWind(problem.forces, time) + fluidVelocity(problem.fields, position[i], time);
+        const glm::dvec3 a = problem.gravity + forceAcceleration(problem.forces, position[i], time);
+        velocity[i] = linearPart(problem, velocity[i], u, a, normal[i], h, slips);
     }
 }
 
@@ -47,7 +50,15 @@ void add(const Problem& problem, Vectors& to, const Vectors& rate, double h) {
 
 }  // namespace
 
+void push(const Problem& problem, State& state, double h) {
+    const glm::dvec3 mean = meanVelocity(problem, state.velocity);
+    const glm::dvec3 gained = thrusted(problem.forces, mean, state.time, h) - mean;
+    for (size_t i = 0; i < state.velocity.size(); ++i)
+        if (!problem.pinned(i)) state.velocity[i] += gained;
+}
+
 void eulerStep(const Problem& problem, State& state, double h) {
+    push(problem, state, h);
     add(problem, state.velocity, springAcceleration(problem, state.position, state.velocity, state.time), h);
     applyLinearPart(problem, state.velocity, state.position, state.time, h);
     add(problem, state.position, state.velocity, h);
@@ -72,6 +83,7 @@ void verletStep(const Problem& problem, State& state, double h) {
 
 void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double h) {
     const bool slips = std::min(problem.drag.normal, problem.drag.tangent) * h > slipFrom;
+    push(problem, state, h / 2);
     add(problem, state.velocity, springs, h / 2);
     const Vectors start = state.position;
     add(problem, state.position, state.velocity, h / 2);
@@ -83,6 +95,7 @@ void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double
     add(problem, predicted, springs, h / 2);
     springs = springAcceleration(problem, state.position, predicted, state.time);
     add(problem, state.velocity, springs, h / 2);
+    push(problem, state, h / 2);
 }
 
 void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps) {
@@ -90,6 +103,9 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
     Vectors springs;
     if (kind == SolverKind::leapfrog)
         springs = springAcceleration(problem, state.position, state.velocity, state.time);
+    Problem smooth = problem;  // without thrust
+    std::erase_if(smooth.forces,
+                  [](const Force& force) { return std::holds_alternative<ThrustForce>(force.shape); });
     History history;
     for (int i = 0; i < substeps; ++i) {
         switch (kind) {
@@ -103,7 +119,9 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
             leapfrogStep(problem, state, springs, h);
             break;
         case SolverKind::rk4:
-            rungeKuttaStep(problem, state, h);
+            push(problem, state, h / 2);
+            rungeKuttaStep(smooth, state, h);
+            push(problem, state, h / 2);
             break;
         case SolverKind::xpbd:
             xpbdStep(problem, state, h);

@@ -1,12 +1,17 @@
 // The explicit methods of the GPU, step for step, in double precision: what the passes would compute if
 // floats had no rounding. `euler` is symplectic Euler (Latta 2004, 3 and 8), `leapfrog` its second-order
 // relative. All but rk4 take gravity and drag exactly over the step they are given:
-//   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma.
+//   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma,
+// with the scene's forces in g. Thrust acts exactly, over h before a step of order 1, else over h/2 before
+// and after it.
 #pragma once
 
 #include "reference/problem.h"
 
 namespace shoal::reference {
+
+// The thrust over h: what the mean velocity gains goes to all that is not pinned.
+void push(const Problem& problem, State& state, double h);
 
 // v += h F(x, v, t) / m;  exact drag and gravity with u(x, t) and the normal at x;  x += h v.
 void eulerStep(const Problem& problem, State& state, double h);

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "reference/fields.h"
+#include "reference/forces.h"
 
 namespace shoal::reference {
 
@@ -65,15 +66,24 @@ void Equations::everything(const Vectors& position, const Vectors& velocity, dou
     for (size_t i = 0; i < out.size(); ++i) {
         if (!pinned(i)) out[i] += problem_->gravity;
     }
+    if (!problem_->forces.empty()) addForces(position, velocity, time, out);
     if (problem_->drag.any()) addDrag(position, velocity, time, out);
+}
+
+void Equations::addForces(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
+    const std::vector<Force>& forces = problem_->forces;
+    const glm::dvec3 thrust = thrustAcceleration(forces, meanVelocity(*problem_, velocity), time);
+    for (size_t i = 0; i < out.size(); ++i)
+        if (!pinned(i)) out[i] += thrust + forceAcceleration(forces, position[i], time);
 }
 
 void Equations::addDrag(const Vectors& position, const Vectors& velocity, double time, Vectors& out) {
     const Drag& drag = problem_->drag;
+    const glm::dvec3 wind = forceWind(problem_->forces, time);
     if (drag.directional()) sumNormals(*problem_->molecule, position, normals_);
     for (size_t i = 0; i < out.size(); ++i) {
         if (pinned(i)) continue;
-        const glm::dvec3 slip = fluidVelocity(problem_->fields, position[i], time) - velocity[i];
+        const glm::dvec3 slip = wind + fluidVelocity(problem_->fields, position[i], time) - velocity[i];
         out[i] += drag.tangent * slip;
         if (drag.directional())
             out[i] += (drag.normal - drag.tangent) * glm::dot(slip, normals_[i]) * normals_[i];

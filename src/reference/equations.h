@@ -39,6 +39,7 @@ class Equations {
 
     void addLink(const Spring& spring);
     void flex(double time);
+    void addForces(const Vectors& position, const Vectors& velocity, double time, Vectors& out);
     void addDrag(const Vectors& position, const Vectors& velocity, double time, Vectors& out);
 
     const Problem* problem_;

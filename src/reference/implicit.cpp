@@ -5,7 +5,9 @@
 #include <Eigen/Dense>
 
 #include "compile/kernel.h"
+#include "reference/discrete.h"
 #include "reference/fields.h"
+#include "reference/forces.h"
 
 namespace shoal::reference {
 
@@ -29,10 +31,10 @@ glm::dmat3 byDirection(const glm::dvec3& n, const Rates& rates) {
     return glm::dmat3(rates.along) + (rates.across - rates.along) * glm::outerProduct(n, n);
 }
 
-// v + decay (u - v) + phi g, each by its direction.
-glm::dvec3 relaxed(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& n,
+// v + decay (u - v) + phi a, each by its direction.
+glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& a, const glm::dvec3& n,
                    const Rates& decay, const Rates& phi) {
-    return v + byDirection(n, decay) * (u - v) + byDirection(n, phi) * problem.gravity;
+    return v + byDirection(n, decay) * (u - v) + byDirection(n, phi) * a;
 }
 
 template <typename Function>
@@ -57,7 +59,15 @@ Flight flightOf(const Problem& problem, double h) {
 Vectors fluidAt(const Problem& problem, const Vectors& position, double time) {
     Vectors out(position.size(), glm::dvec3(0));
     for (size_t i = 0; i < out.size() && problem.drag.any(); ++i)
-        out[i] = fluidVelocity(problem.fields, position[i], time);
+        out[i] = forceWind(problem.forces, time) + fluidVelocity(problem.fields, position[i], time);
+    return out;
+}
+
+// Gravity and forces.
+Vectors fallAt(const Problem& problem, const Vectors& position, double time) {
+    Vectors out(position.size(), problem.gravity);
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] += forceAcceleration(problem.forces, position[i], time);
     return out;
 }
 
@@ -197,13 +207,15 @@ bool improve(const Problem& problem, const State& state, Stage& stage) {
 
 void xpbdStep(const Problem& problem, State& state, double h) {
     const size_t count = state.position.size();
+    push(problem, state, h);
     const Vectors u = fluidAt(problem, state.position, state.time), n = surfaceAt(problem, state.position);
+    const Vectors a = fallAt(problem, state.position, state.time);
     const Flight flight = flightOf(problem, h);
     Stage stage{h, state.time + h, Vectors(count, glm::dvec3(0)), Vectors(count, glm::dvec3(0)),
                 std::vector<glm::dmat3>(count, glm::dmat3(0))};
     for (size_t i = 0; i < count; ++i) {
         if (problem.pinned(i)) continue;
-        stage.moved[i] = h * relaxed(problem, state.velocity[i], u[i], n[i], flight.decay, flight.phi);
+        stage.moved[i] = h * relaxed(state.velocity[i], u[i], a[i], n[i], flight.decay, flight.phi);
         stage.weight[i] = h / problem.molecule->vertices[i].mass * byDirection(n[i], flight.phi);
     }
     sweep(problem, state, stage, false);
@@ -214,10 +226,23 @@ void xpbdStep(const Problem& problem, State& state, double h) {
     state.time += h;
 }
 
+// The thrust over h from the velocity with half of the last step's change; without history over h/2.
+static void pushAhead(const Problem& problem, State& state, const History& history, double h) {
+    if (history.velocityChange.empty()) return push(problem, state, h / 2);
+    Vectors between = state.velocity;
+    for (size_t i = 0; i < between.size(); ++i)
+        between[i] += history.velocityChange[i] / 2.0;
+    const glm::dvec3 mean = meanVelocity(problem, between);
+    const glm::dvec3 gained = thrusted(problem.forces, mean, state.time, h) - mean;
+    for (size_t i = 0; i < between.size(); ++i)
+        if (!problem.pinned(i)) state.velocity[i] += gained;
+}
+
 void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated) {
     const size_t count = state.position.size();
     const bool fresh = history.displacement.empty();
     const double eta = fresh ? h : 2 * h / 3;
+    pushAhead(problem, state, history, h);
     Vectors ahead = state.position;
     for (size_t i = 0; i < count; ++i) {
         const glm::dvec3 v = state.velocity[i];
@@ -226,6 +251,7 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
             fresh ? h * v : history.displacement[i] / 3.0 + eta * (v + history.velocityChange[i] / 3.0);
     }
     const Vectors u = fluidAt(problem, ahead, state.time + h), n = surfaceAt(problem, ahead);
+    const Vectors a = fallAt(problem, ahead, state.time + h);
     const Flight flight = flightOf(problem, h);
     const Rates phi =
         fresh ? flight.phi : ratesOf(problem.drag, [eta](double gamma) { return eta / (1 + gamma * eta); });
@@ -236,12 +262,12 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
         if (problem.pinned(i)) continue;
         const glm::dvec3 v = state.velocity[i];
         const glm::dvec3 w = fresh ? v : v + history.velocityChange[i] / 3.0;
-        const glm::dvec3 velocity = relaxed(problem, w, u[i], n[i], decay, phi);
+        const glm::dvec3 velocity = relaxed(w, u[i], a[i], n[i], decay, phi);
         stage.known[i] = fresh ? h * v - eta * velocity : history.displacement[i] / 3.0;
         if (fresh)
-            stage.known[i] += byDirection(n[i], flight.bend) *
-                              (problem.gravity +
-                               byDirection(n[i], {problem.drag.normal, problem.drag.tangent}) * (u[i] - v));
+            stage.known[i] +=
+                byDirection(n[i], flight.bend) *
+                (a[i] + byDirection(n[i], {problem.drag.normal, problem.drag.tangent}) * (u[i] - v));
         stage.moved[i] = stage.known[i] + eta * velocity;
         stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
     }
@@ -255,6 +281,7 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
         state.velocity[i] = velocity;
         state.position[i] += stage.moved[i];
     }
+    if (fresh) push(problem, state, h / 2);
     state.time += h;
 }
 

@@ -1,10 +1,11 @@
 // One molecule's equations of motion in double precision (NUMERICS: the yardstick for every error).
 //
-//   m dv/dt = sum of spring forces + m g + m drag(u(x, t) - v),   dx/dt = v
+//   m dv/dt = sum of spring forces + m g + m a(x, t) + m thrust(V) + m drag(u(x, t) - v),   dx/dt = v
 //
 // A spring's force on its end a is -[k (l - L(t)) + c n.(va - vb)] n, n = (xa - xb) / l; none where l
 // vanishes. Drag is gamma (u - v), or with two rates gamma_n across and gamma_t along the surface at the
-// vertex. A pinned vertex has infinite mass: it neither moves nor accelerates, and its velocity counts as 0.
+// vertex. The scene's forces are a, thrust, which pushes along the mean velocity V, and wind, a part of u. A
+// pinned vertex has infinite mass: it neither moves nor accelerates, and its velocity counts as 0.
 #pragma once
 
 #include <vector>
@@ -25,6 +26,7 @@ struct Problem {
     glm::dvec3 gravity{0};               // m/s^2
     Drag drag{};
     std::vector<Field> fields{};
+    std::vector<Force> forces{};        // those that act on it (reference/forces.h)
     std::vector<Collider> colliders{};  // pinned vertices pass through them
 
     bool pinned(size_t vertex) const { return held && molecule->vertices[vertex].pinned; }

@@ -5,6 +5,7 @@
 
 #include "reference/contact.h"
 #include "reference/deadline.h"
+#include "reference/forces.h"
 #include "reference/runge_kutta.h"
 
 namespace shoal::reference {
@@ -130,6 +131,7 @@ double fastestRate(const Problem& problem) {
         if (const auto* wind = std::get_if<OscillatingField>(&field.shape))
             driven = std::max(driven, 6.3 * wind->frequency);
     }
+    driven = std::max(driven, fastestRate(problem.forces));
     double rate = std::max({driven, std::abs(problem.drag.normal), std::abs(problem.drag.tangent)});
     for (size_t i = 0; i < molecule.vertices.size(); ++i) {
         if (problem.pinned(i)) continue;

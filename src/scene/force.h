@@ -1,4 +1,5 @@
-// Forces beside the fields: accelerations that hang on place and velocity. They add up.
+// Forces beside the fields: accelerations that hang on place and velocity (GLSL: shaders/physics/force.glsl).
+// They add up.
 #pragma once
 
 #include <optional>
@@ -14,7 +15,7 @@ namespace shoal {
 
 // Towards a point, or away from it where the strength is negative. With d the distance:
 //   inverseSquare   strength / d^2 (m^3/s^2), at most `most`       constant   strength (m/s^2)
-// Nothing beyond `radius`.
+// Nothing beyond `radius`, and nothing at the point itself.
 struct AttractForce {
     enum class Falloff { inverseSquare, constant };
     glm::dvec3 position{0};
@@ -36,8 +37,9 @@ struct VortexLineForce {
 };
 
 // Along the velocity: dv/dt = rate v while the speed is below the limit, which a rate above 0 does not pass
-// (un-damping, Latta: what propels itself). A rate below 0 damps at any speed. Molecules are pushed as a
-// whole.
+// (un-damping, Latta: what propels itself). A rate below 0 damps at any speed. A molecule of several vertices
+// is pushed as a whole: v is the mean velocity by mass, with what pins hold as at rest, and its vibrations
+// neither grow nor fade by it.
 struct ThrustForce {
     double rate = 1;   // 1/s
     double limit = 1;  // m/s, above 0
@@ -70,5 +72,15 @@ struct Force {
     bool mouse = false;  // follows the pointer in the window while a button is held, and acts only then
     Location location;
 };
+
+// What a path adds to the position and multiplies the strength by, at a time (s); nothing without a path.
+struct ForceMoment {
+    glm::dvec3 offset{0};  // m
+    double factor = 1;
+};
+ForceMoment momentOf(const std::optional<ForcePath>& path, double time);
+
+// Whether it is for the groups of that name.
+bool actsOn(const Force& force, const std::string& group);
 
 }  // namespace shoal

@@ -98,6 +98,7 @@ Scene parseScene(const std::string& text, const std::string& file, const FieldBa
     scene.models = readModels(r);
     scene.colliders = readColliders(r, scene.models, baking, scene.warnings);
     scene.groups = readGroups(r, scene.models, scene.warnings);
+    scene.forces = readForces(r, scene.groups);
     scene.surfacePairs = readSurfacePairs(r, scene.colliders, scene.groups);
     r.finish();
     return scene;

@@ -23,6 +23,8 @@ inline Range aboveZero() {
 void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path = "$");
 
 std::vector<Field> readFields(JsonReader& scene);
+// Error: a force for a group that there is not.
+std::vector<Force> readForces(JsonReader& scene, const std::vector<Group>& groups);
 std::vector<Model> readModels(JsonReader& scene);
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
                                     const FieldBaking& baking, std::vector<Warning>& warnings);

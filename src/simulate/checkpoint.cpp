@@ -190,6 +190,7 @@ Parameters parametersNow(const Head& head, const Plan& plan) {
     out.drag = follow(stood.drag, was.drag, is.drag);
     out.stiffness = follow(stood.stiffness, was.stiffness, is.stiffness);
     out.damping = follow(stood.damping, was.damping, is.damping);
+    out.forces = is.forces;
     out.frameTime = follow(stood.frameTime, was.frameTime, is.frameTime);
     out.substeps = follow(stood.substeps, was.substeps, is.substeps);
     // as the sliders do: the step stays stable

@@ -6,6 +6,7 @@
 #include "compile/generate.h"
 #include "gpu/conditions.h"
 #include "gpu/shader_source.h"
+#include "simulate/force_parameters.h"
 #include "simulate/vertex_loops.h"
 #include "simulate/watchdog.h"
 
@@ -68,6 +69,10 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.fields, "FIELDS");
     define(options.births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
     define(!options.births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
+    define(needs.forces, "FORCES");
+    define(needs.thrust, "THRUST");
+    define(needs.wind, "WIND");
+    define(group.forces.any(), "FORCE_PARAMETERS");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.collide, "COLLIDE");
     define(group.rigid && perLane, "RIGID_IMPACT");
@@ -92,6 +97,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, "generated/molecule.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     include(group.needs.fields, "generated/fields.glsl");
+    include(group.forces.any(), "generated/scene_forces.glsl");
     include(true, "fused/step.glsl");
     if (options.births) return out + "#include \"particles/bear.comp\"\n";
     if (solver(group.solver).implicit) {
@@ -125,7 +131,8 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
     const size_t vertices = size_t(group.vertexCount);
     const size_t noiseAt = options.software ? 1 : 8;
     return {group.vertexCount, Form::writeOut,
-            form((plan.longFields && vertices > noiseAt) || vertices * plan.fieldCount > longest),
+            form((plan.longFields && vertices > noiseAt) ||
+                 vertices * (plan.fieldCount + group.forces.pulls.size()) > longest),
             form(vertices * plan.colliderCount > longest), Form::keep};
 }
 
@@ -149,6 +156,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/packing.glsl", group.kernel.packing},
                      {"generated/fields.glsl", plan.fieldSource},
                      {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
+                     {"generated/scene_forces.glsl", group.forces.source},
                      {"generated/colliders.glsl", plan.collideSource}};
     out.label = concat(options.births ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
@@ -185,6 +193,9 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
     program.set("givenStageDecay", stage.drag.decay);
     program.set("givenStagePhi", stage.drag.phi);
     program.set("givenRestarts", int(frame.restarts));
+    if (group.forces.any())
+        program.set("givenForceParameters",
+                    std::span<const glm::vec4>(forceParameters(plan, group, frame)));
     if (group.needs.collide && !plan.movingColliders.empty())
         program.set("givenColliderParameters",
                     std::span<const glm::vec4>(colliderParameters(plan, group, frame)));

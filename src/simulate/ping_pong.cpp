@@ -1,6 +1,7 @@
 #include "simulate/ping_pong.h"
 
 #include "gpu/gl.h"
+#include "simulate/force_parameters.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -11,9 +12,9 @@ using gpu::Texture;
 
 namespace {
 
-constexpr const char* fragmentShaders[] = {
-    "passes/records.frag", "passes/normals.frag", "passes/restore.frag", "passes/advect.frag",
-    "passes/stage.frag",   "passes/collide.frag", "passes/watch.frag"};
+constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag", "passes/thrust.frag",
+                                           "passes/restore.frag", "passes/advect.frag",  "passes/stage.frag",
+                                           "passes/collide.frag", "passes/watch.frag"};
 
 std::vector<std::string> defines(const GroupPlan& group) {
     const Needs& needs = group.needs;
@@ -25,6 +26,8 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(group.solver == SolverKind::verlet, "VERLET");
     define(needs.acceleration && needs.springDamping, "PREDICT");
     define(needs.fields, "FIELDS");
+    define(needs.forces, "FORCES");
+    define(needs.wind, "WIND");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.directionalDrag && group.solver == SolverKind::leapfrog, "AHEAD");
     define(needs.springs, "SPRINGS");
@@ -70,6 +73,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         options.defines = defines(plan.groups[pass.group]);
         if (pass.kind == PassKind::watch) options.defines.push_back(fastestDefine());
         options.generated = {{"generated/fields.glsl", plan.fieldSource},
+                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
                              {"generated/colliders.glsl", plan.collideSource}};
         options.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
         options.cache = cache;
@@ -153,6 +157,8 @@ void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& 
         return records(group, pass.group, step);
     case PassKind::normals:
         return normals(group, pass.group, step, pass.when == PassPlan::When::substep);
+    case PassKind::thrust:
+        return thrust(group, pass.group, step);
     case PassKind::restore:
         return restore(group, pass.group, step, pass.when == PassPlan::When::frameStart);
     case PassKind::advect:
@@ -167,6 +173,25 @@ void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& 
         return;
     }
 }
+
+namespace {
+
+// The scene's forces are part of these.
+bool readsForces(PassKind kind, const Needs& needs) {
+    switch (kind) {
+    case PassKind::thrust:
+        return true;
+    case PassKind::advect:
+    case PassKind::stage:
+        return needs.forces || needs.wind;
+    case PassKind::collide:
+        return needs.forces;
+    default:
+        return false;
+    }
+}
+
+}  // namespace
 
 // Binds what every pass reads: the group's place, its state and the tables.
 const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
@@ -201,6 +226,11 @@ void PingPong::setSprings(const Program& program, const GroupPlan& group, const 
     if (group.solver == SolverKind::verlet) program.set("stepsSquared", float(1 / (step.h * step.h)));
 }
 
+void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
+    if (!step.first || !readsForces(kind, group.needs)) return;
+    program.set("forceParameters", std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
+}
+
 void PingPong::drawState(const GroupPlan& group, const Framebuffer& target) {
     target.bind(0, group.texture.firstRow, std::min(stateWidth, group.count), group.texture.rows);
     noAttributes_.bind();
@@ -233,6 +263,14 @@ void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, b
     drawState(group, state.target(state.normal));
 }
 
+void PingPong::thrust(const GroupPlan& group, size_t index, const Step& step) {
+    const Program& program = prepare(PassKind::thrust, group, index);
+    setForces(program, PassKind::thrust, group, step);
+    program.set("whole", int(shoal::solver(group.solver).order == 1));
+    drawState(group, state.target(state.velocity.write(index)));
+    state.velocity.flip(index);
+}
+
 void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
     const Program& program = prepare(PassKind::restore, group, index);
     if (group.solver != SolverKind::leapfrog) {
@@ -255,6 +293,7 @@ void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, b
 void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::advect, group, index);
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
+    setForces(program, PassKind::advect, group, step);
     program.set("time", float(step.time));
     program.set("substep", float(step.h));
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
@@ -283,6 +322,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     const Program& program = prepare(PassKind::stage, group, index);
     const double time = step.time + at[s] * step.h;
     if (group.needs.springs) setSprings(program, group, step, time, 0);
+    setForces(program, PassKind::stage, group, step);
     program.texture("positions", 0, position);
     program.texture("velocities", 1, velocity);
     program.texture("startPositions", 8, state.position.read(index));
@@ -310,6 +350,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
 
 void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::collide, group, index);
+    setForces(program, PassKind::collide, group, step);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));

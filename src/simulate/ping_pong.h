@@ -50,6 +50,7 @@ class PingPong {
     void runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers);
     void records(const GroupPlan& group, size_t index, const Step& step);
     void normals(const GroupPlan& group, size_t index, const Step& step, bool ahead);
+    void thrust(const GroupPlan& group, size_t index, const Step& step);
     void restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart);
     void advect(const GroupPlan& group, size_t index, const Step& step);
     void stage(const GroupPlan& group, size_t index, const Step& step, int s);
@@ -59,13 +60,14 @@ class PingPong {
     const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step, double time,
                     double predictTime);
+    void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     void drawState(const GroupPlan& group, const gpu::Framebuffer& target);
     void drawRecords(const GroupPlan& group, const gpu::Framebuffer& target);
 
     const Plan* plan_;
     const Tables* tables_;
     bool drawn_;
-    std::vector<std::array<gpu::Program, 7>> programs_;  // per group, by PassKind
+    std::vector<std::array<gpu::Program, 8>> programs_;  // per group, by PassKind
     gpu::VertexArray noAttributes_;
     gpu::Handle<gpu::deleteQuery> query_;  // where watched
     gpu::Traffic* traffic_;                // the context's

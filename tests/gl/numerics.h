@@ -7,6 +7,7 @@
 
 #include "compile/plan.h"
 #include "gl/gl_test.h"
+#include "reference/forces.h"
 #include "reference/solve.h"
 #include "simulate/simulation.h"
 #include "support/shapes.h"
@@ -73,6 +74,7 @@ inline reference::Problem problemOf(const Scene& scene, int molecule) {
     out.gravity = scene.gravity;
     out.drag = group.drag;
     out.fields = scene.fields;
+    out.forces = reference::forcesOn(scene, group);
     return out;
 }
 

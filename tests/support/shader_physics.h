@@ -23,6 +23,7 @@ namespace {
 #include "physics/collide.glsl"
 #include "physics/drag.glsl"
 #include "physics/field.glsl"
+#include "physics/force.glsl"
 #include "physics/normal.glsl"
 #include "physics/pair.glsl"
 #include "physics/random.glsl"

@@ -70,7 +70,15 @@ inline const char* const smallScene = R"({
   ],
   "camera": {"eye": [1, 2, 3], "target": [0, 0, 0], "fieldOfView": 1, "exposure": 2},
   "light": {"direction": [0, -2, 0], "color": [1, 1, 1], "intensity": 1, "shadows": false},
-  "sky": {"zenith": [0, 0, 1], "horizon": [1, 1, 1], "ground": [0, 0, 0], "intensity": 2, "fog": 0.1}
+  "sky": {"zenith": [0, 0, 1], "horizon": [1, 1, 1], "ground": [0, 0, 0], "intensity": 2, "fog": 0.1},
+  "forces": [
+    {"type": "attract", "name": "hive", "position": [0, 1, 0], "strength": 2, "most": 9, "groups": ["on it"],
+     "mouse": true, "path": {"repeats": true, "keyframes": [{"time": 0}, {"time": 2, "offset": [1, 0, 0], "factor": 0.5}]}},
+    {"type": "attract", "falloff": "constant", "strength": -2, "radius": 3},
+    {"type": "vortexLine", "axis": [0, 0, 2], "pull": 2, "turn": 3, "core": 0.5, "radius": 4},
+    {"type": "thrust", "rate": 0.5, "limit": 3}, {"type": "thrust", "rate": -0.25},
+    {"type": "wind", "velocity": [0.5, 0, 1], "path": {"keyframes": [{"time": 1, "factor": 0}, {"time": 3}]}}
+  ]
 }
 )";
 

@@ -1,0 +1,96 @@
+// Adding a force: its struct in scene/force.h, its formula in shaders/physics/force.glsl, one overload of
+// `emit` here, its numbers in simulate/force_parameters.cpp, its reader in scene/scene_forces.cpp, its
+// double-precision twin in reference/forces.cpp, one test.
+#include "compile/generate_forces.h"
+
+#include "compile/generate.h"
+
+namespace shoal {
+
+namespace {
+
+class ForceWriter {
+  public:
+    GroupForces result;
+    std::string pulls, thrusts, anyThrusts;  // statements
+
+    void add(const Force& force, size_t index) {
+        const std::string comment =
+            concat("    // ", kindName(force.shape), " ", inComment(force.name), "\n");
+        const GroupForces::One one{index, result.parameterCount};
+        if (std::holds_alternative<WindForce>(force.shape)) {
+            result.winds.push_back(one);
+        } else if (std::holds_alternative<ThrustForce>(force.shape)) {
+            result.thrusts.push_back(one);
+            const std::string a = slot();
+            thrusts += concat(comment, "    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a,
+                              ".y, ", a, ".z);\n");
+            anyThrusts +=
+                concat("    velocity *= thrustFactor(velocity, exp(", a, ".w * time), ", a, ".z);\n");
+        } else {
+            result.pulls.push_back(one);
+            pulls += concat(comment, "    a += ", call(force.shape), ";\n");
+        }
+    }
+
+    std::string slot() { return concat("forceParameters[", result.parameterCount++, "]"); }
+
+  private:
+    std::string call(const ForceShape& shape) {
+        if (const auto* attract = std::get_if<AttractForce>(&shape)) return emit(*attract);
+        return emit(std::get<VortexLineForce>(shape));
+    }
+
+    static std::string relative(const std::string& position) {
+        return concat("(anchor - ", position, ".xyz) + position");
+    }
+
+    std::string emit(const AttractForce& force) {
+        const std::string at = slot(), size = slot();
+        if (force.falloff == AttractForce::Falloff::constant)
+            return concat("constantPull(", relative(at), ", ", at, ".w, ", size, ".x)");
+        return concat("inverseSquarePull(", relative(at), ", ", at, ".w, ", size, ".x, ", size, ".y)");
+    }
+
+    std::string emit(const VortexLineForce&) {
+        const std::string at = slot(), axis = slot(), size = slot();
+        return concat("vortexLinePull(", relative(at), ", ", axis, ".xyz, ", at, ".w, ", axis, ".w, ", size,
+                      ".x, ", size, ".y)");
+    }
+};
+
+}  // namespace
+
+GroupForces generateForces(const std::vector<Force>& forces, const std::string& group, bool dragged) {
+    ForceWriter writer;
+    for (size_t i = 0; i < forces.size(); ++i) {
+        const bool idle = std::holds_alternative<WindForce>(forces[i].shape) && !dragged;
+        if (actsOn(forces[i], group) && !idle) writer.add(forces[i], i);
+    }
+    writer.result.windSlot = writer.result.parameterCount;
+    std::string wind;
+    if (!writer.result.winds.empty())
+        wind = concat("\nvec3 forceWind()\n{\n    return ", writer.slot(), ".xyz;\n}\n");
+    GroupForces out = std::move(writer.result);
+    if (!out.any()) return out;
+    out.source =
+        concat("#include \"physics/force.glsl\"\n", parameterArray("forceParameters", out.parameterCount));
+    if (!out.pulls.empty())
+        out.source +=
+            concat("vec3 forceAcceleration(vec3 anchor, vec3 position)\n{\n    vec3 a = vec3(0.0);\n",
+                   writer.pulls, "    return a;\n}\n");
+    if (!out.thrusts.empty())
+        out.source += concat("\nvec3 thrustedVelocity(vec3 velocity, bool whole)\n{\n", writer.thrusts,
+                             "    return velocity;\n}\n\n",
+                             "vec3 thrustedOver(vec3 velocity, float time)\n{\n", writer.anyThrusts,
+                             "    return velocity;\n}\n");
+    out.source += wind;
+    return out;
+}
+
+const char* kindName(const ForceShape& shape) {
+    static constexpr const char* names[] = {"attract", "vortexLine", "thrust", "wind"};
+    return names[shape.index()];
+}
+
+}  // namespace shoal

@@ -1,0 +1,35 @@
+// The scene's forces in double precision. Formulas and units: scene/force.h. Those of the mouse do not act.
+#pragma once
+
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "scene/scene.h"
+
+namespace shoal::reference {
+
+// Those that act on the group.
+std::vector<Force> forcesOn(const Scene& scene, const Group& group);
+
+// Sum of attract and vortexLine at x, m/s^2.
+glm::dvec3 forceAcceleration(const std::vector<Force>& forces, const glm::dvec3& x, double time);
+// One of them, without its path; 0 for thrust and wind.
+glm::dvec3 shapeAcceleration(const ForceShape& shape, const glm::dvec3& x);
+
+// Sum of the winds, m/s: part of the fluid's velocity.
+glm::dvec3 forceWind(const std::vector<Force>& forces, double time);
+
+// Of a molecule's mean velocity: what thrust adds to it, m/s^2, and what it is after a while (s), exactly,
+// with the factors of that time.
+glm::dvec3 thrustAcceleration(const std::vector<Force>& forces, const glm::dvec3& velocity, double time);
+glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration);
+
+// By mass; pinned vertices count as at rest.
+struct Problem;
+glm::dvec3 meanVelocity(const Problem& problem, const std::vector<glm::dvec3>& velocity);
+
+// 1/s: nothing of the forces changes faster along a molecule's way.
+double fastestRate(const std::vector<Force>& forces);
+
+}  // namespace shoal::reference
