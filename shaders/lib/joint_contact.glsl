@@ -11,6 +11,11 @@
 
 const float touching = 1e-5;  // m: what is nearer touches
 const float retouching = 1e-6;  // m: rounding brings back so much to a surface that was answered
+#ifdef VERLET
+const float stillSquared = 1e-8;  // m^2/s^2: at rest, but for the rounding of positions over a substep
+#else
+const float stillSquared = 1e-10;
+#endif
 const int mostMarches = 48;   // steps along a way
 const int mostTouches = 6;    // of a substep; a vertex that touches more stops there
 
@@ -192,7 +197,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                 vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
                 vec3 left = r.velocity - t.velocity;
-                if (dot(left, left) < 1e-10 && all(lessThan(abs(backs), vec2(touching)))) {
+                if (dot(left, left) < stillSquared && all(lessThan(abs(backs), vec2(touching)))) {
                     r = Contact(back, t.velocity);
                 }
             } else if (offs.x < -touching) {
