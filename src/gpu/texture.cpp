@@ -1,5 +1,6 @@
 #include "gpu/texture.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include "core/error.h"
@@ -104,13 +105,17 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
     labelObject(context, GL_TEXTURE, id, label);
 }
 
-void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes) {
+void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes,
+                     int layer) {
     assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
-    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layers_ == 0);
+    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layer < std::max(layers_, 1));
     const FormatRow& storage = row(format_);
-    glBindTexture(GL_TEXTURE_2D, id());
+    glBindTexture(target(), id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, w, h, storage.layout, storage.type, data);
+    if (layers_ > 0)
+        glTexSubImage3D(target(), 0, x, y, layer, w, h, 1, storage.layout, storage.type, data);
+    else
+        glTexSubImage2D(target(), 0, x, y, w, h, storage.layout, storage.type, data);
     traffic_->countUpload(kind, bytes);
 }
 
@@ -136,14 +141,14 @@ void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* dat
 }
 
 void Texture::setLinear(bool mipmaps, bool repeat) {
-    glBindTexture(GL_TEXTURE_2D, id());
+    glBindTexture(target(), id());
     const GLint wrap = repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
-    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, mipmaps ? 1000 : 0);
-    if (mipmaps) glGenerateMipmap(GL_TEXTURE_2D);
+    glTexParameteri(target(), GL_TEXTURE_WRAP_S, wrap);
+    glTexParameteri(target(), GL_TEXTURE_WRAP_T, wrap);
+    glTexParameteri(target(), GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    glTexParameteri(target(), GL_TEXTURE_MIN_FILTER, mipmaps ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR);
+    glTexParameteri(target(), GL_TEXTURE_MAX_LEVEL, mipmaps ? 1000 : 0);
+    if (mipmaps) glGenerateMipmap(target());
 }
 
 void Texture::setShadowCompare() {

@@ -26,12 +26,13 @@ class Texture {
     Texture() = default;
     // NEAREST and CLAMP_TO_EDGE, one level, contents undefined. `label` is for errors and debuggers.
     // Error: larger than the context allows, or out of memory; says how much it would take.
-    // `layers`: 0, or as many that one sampler2DArray reads and that are drawn into at once; never uploaded.
+    // `layers`: 0, or as many that one sampler2DArray reads and that are drawn into at once.
     Texture(Context& context, Format format, int width, int height, const char* label, int layers = 0);
 
     // Binds itself to the unit that is active. A rectangle of texels; `bytes` must be w * h *
     // texelBytes(format). Counted in the context's traffic.
-    void upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes);
+    void upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes,
+                int layer = 0);
     void download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes,
                   int layer = 0) const;
 

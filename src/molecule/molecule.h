@@ -46,6 +46,7 @@ enum class Blend { none, alpha, additive, multiplicative };
 // How the molecules of a group with blend alpha come into the order from back to front.
 //   frame   sorted anew in every frame       spread   sorted a little in every frame (Latta, section 3.4.4)
 enum class DrawSort { none, frame, spread };
+constexpr int mostSpreadFrames = 1000;  // of one whole sort
 
 const char* name(Blend blend);
 const char* name(DrawSort sort);

@@ -18,7 +18,6 @@ constexpr double leastMass = 1e-12, mostMass = 1e12;  // kg
 constexpr double mostStiffness = 1e15;                // N/m, and N s/m
 constexpr double mostFrequency = 1e6;                 // Hz
 constexpr double leastLength = 1e-9;                  // m, below which two vertices stand in one place
-constexpr int mostSpreadFrames = 1000;
 constexpr size_t mostBytes = size_t{1} << 28;
 
 struct Defaults {

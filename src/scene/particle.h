@@ -12,6 +12,16 @@
 
 namespace shoal {
 
+// Limits of a type, inclusive. Beyond them products overflow single precision, or half precision in the light
+// that is added up.
+constexpr double leastParticleMass = 1e-12, mostParticleMass = 1e12;  // kg
+constexpr double leastParticleSize = 1e-9, mostParticleSize = 1e6;    // m; growth too: a factor, from 0
+constexpr double mostParticleTurn = 1e6;                              // rad, and rad/s
+constexpr double mostParticleColor = 1000;
+constexpr double mostParticlePixels = 64;
+constexpr int mostTiles = 64;           // of an image along one side
+constexpr double mostFrameRate = 1000;  // 1/s, of a flip-book
+
 // Colour and opacity at a moment of a particle's life; between two they follow a straight line.
 struct ColorKey {
     double age = 0;       // share of its life, in [0, 1]
@@ -27,8 +37,10 @@ struct ParticleImage {
     int firstTile = 0, lastTile = 0;  // those in use
     // Each particle shows one tile by its seed, or all of them one after another.
     bool flipBook = false;
-    double frameRate = 0;  // 1/s, of a flip-book, which starts over; 0: once, over the particle's life
-    bool blend = true;     // neighbouring frames of a flip-book fade into one another
+    // 1/s, of a flip-book, which starts over, each particle somewhere else by its seed; 0: once, over the
+    // particle's life.
+    double frameRate = 0;
+    bool blend = true;  // neighbouring frames of a flip-book fade into one another
 };
 
 enum class ParticleShape {
@@ -39,13 +51,13 @@ enum class ParticleShape {
 enum class ParticleFacing {
     camera,    // turned about the line of sight
     velocity,  // along the velocity, as seen by the camera; longer the faster
-    free,      // turned in space, by a quaternion
+    free,      // turned in space, by a quaternion: about an axis of its own, from a rotation of its own
 };
 const char* name(ParticleShape shape);
 const char* name(ParticleFacing facing);
 
 struct ParticleType {
-    double mass = 1;  // kg, above 0
+    double mass = 1;  // kg
     ParticleShape shape = ParticleShape::quads;
     ParticleFacing facing = ParticleFacing::camera;  // quads only
     double pixels = 2;                               // the diameter of shape points, at least 1
@@ -53,14 +65,14 @@ struct ParticleType {
     glm::dvec2 growth{1, 1};  // factors on the size at birth and at the end of life, at least 0
     glm::dvec2 turn{0, 0};    // rad at birth, random between the two
     glm::dvec2 spin{0, 0};    // rad/s, random between the two
-    double stretch = 0;       // s: facing velocity, the length grows by this times the speed
-    std::vector<ColorKey> colors{ColorKey{}};  // 1 to mostColorKeys; ages rise
+    double stretch = 0;       // s: facing velocity, the length grows by this times the speed across the view
+    std::vector<ColorKey> colors = std::vector<ColorKey>(1);  // 1 to mostColorKeys; ages rise
     std::optional<ParticleImage> image;        // nothing: a round dot with a soft edge
-    double softness = 0;  // m: fades where a surface is nearer than this behind it; 0: does not
-    bool lit = false;     // by sun and sky, as a ball; else it sends its colour
+    double softness = 0;  // m: with a blend, fades where a surface is nearer than this behind it; 0: does not
+    bool lit = false;     // by sun and sky, as a ball, facing free as a sheet; else it sends its colour
     Blend blend = Blend::alpha;
     DrawSort sort = DrawSort::frame;  // with blend alpha
-    int spreadFrames = 20;
+    int spreadFrames = 20;            // with sort spread
 };
 
 // The molecule of one vertex that stands for the type.

@@ -153,10 +153,25 @@ void readContact(JsonReader& r, Group& group) {
     group.contact = out;
 }
 
+// "molecule" or "particle": what the group is made of.
+void readKind(JsonReader& r, Group& group) {
+    if (auto particle = r.object("particle")) {
+        for (const char* key : {"molecule", "color", "secondColor"})
+            if (r.has(key))
+                throw Error(r.at(key),
+                            concat("\"", key, "\" is of molecules, and this group has a particle"));
+        group.particle = readParticleType(*particle);
+        group.molecule = moleculeOf(*group.particle);
+        return;
+    }
+    if (!r.has("molecule")) throw Error(r.here(), "missing key: give a \"molecule\" or a \"particle\"");
+    group.molecule = readMolecule(needFile(r, "molecule"));
+}
+
 Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<Warning>& warnings) {
     Group group;
     group.location = r.here();
-    group.molecule = readMolecule(needFile(r, "molecule"));
+    readKind(r, group);
     group.name = group.molecule.name;
     r.get("name", group.name);
 
@@ -184,6 +199,10 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     r.get("friction", group.friction, Range::atLeast(0));
     getColor(r, "color", group.color);
     getColor(r, "secondColor", group.secondColor);
+    const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
+    if (group.particle && forEver)
+        for (Warning& warning : agelessWarnings(*group.particle, r.at("particle")))
+            warnings.push_back(std::move(warning));
     r.finish();
     return group;
 }

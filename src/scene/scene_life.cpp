@@ -186,21 +186,6 @@ const char* name(Emitter::From from) {
     return names[size_t(from)];
 }
 
-bool getSpan(JsonReader& r, const std::string& key, glm::dvec2& out, Range range) {
-    const JsonValue* value = r.raw(key);
-    if (!value) return false;
-    if (value->kind == JsonValue::Kind::number) {
-        double both = 0;
-        r.get(key, both, range);
-        out = {both, both};
-        return true;
-    }
-    r.get(key, out, range);
-    if (out.x > out.y)
-        throw Error(r.at(key), concat("expected [least, most], found ", out.x, " above ", out.y));
-    return true;
-}
-
 void readLife(JsonReader& r, Group& group, const std::vector<Model>& models) {
     if (!r.has("life") && !r.has("emitters")) return;
     Lifecycle life;

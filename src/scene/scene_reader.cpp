@@ -95,6 +95,20 @@ bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat) {
     return true;
 }
 
+bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range) {
+    const JsonValue* value = reader.raw(key);
+    if (!value) return false;
+    if (value->kind == JsonValue::Kind::number) {
+        reader.get(key, out.x, range);
+        out.y = out.x;
+        return true;
+    }
+    reader.get(key, out, range);
+    if (out.x > out.y)
+        throw Error(reader.at(key), concat("expected [least, most], found ", out.x, " above ", out.y));
+    return true;
+}
+
 bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out) {
     return reader.get(key, out, Range::atLeast(0));
 }

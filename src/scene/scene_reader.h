@@ -46,8 +46,11 @@ void checkDeaths(const std::vector<Group>& groups);
 Selection readSelection(JsonReader& reader, const Model& model);
 std::optional<ColliderPath> readPath(JsonReader& reader);  // "path"
 
-// A number, or [least, most].
-bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range);
+// A group's "particle". Error: keys that have no effect, keyframes out of order, tiles that the image does
+// not have, an image that is missing, not a PNG, or that its tiles do not fill.
+ParticleType readParticleType(JsonReader& reader);
+// What of a type changes with age, and so never shows in a group that lives for ever.
+std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where);
 
 // A key that names a file: its path, relative to the folder of the file that names it.
 // Error at the key: absent, empty, or no such file.
@@ -67,6 +70,9 @@ bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat = fa
 
 // "surface": a name that is not empty.
 bool getSurface(JsonReader& reader, std::string& out);
+
+// A number, or [least, most].
+bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range);
 
 // A colour: three numbers, at least 0.
 bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out);
