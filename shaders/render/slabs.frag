@@ -7,16 +7,28 @@ uniform int moleculeCount, slabCount;
 
 layout(location = 0) out uvec2 bounds;
 
-uint firstKey(int slab)
+// How many are alive: the dead come last.
+int livingCount()
+{
+    int low = 0, high = moleculeCount;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (orderAt(middle).x == 0xffffffffu) high = middle;
+        else low = middle + 1;
+    }
+    return max(low, 1);
+}
+
+uint firstKey(int slab, int count)
 {
     if (slab == 0) return 0u;
     if (slab == slabCount) return 0xffffffffu;
     uint key = 0u;
     for (int s = 1; s <= slab; ++s) {
         float share = slabCount > 2 ? float(s - 1) / float(slabCount - 2) : 0.5;
-        float at = share * float(moleculeCount - 1);
-        int i = min(int(at), moleculeCount - 1);
-        uint here = orderAt(i).x, next = max(orderAt(min(i + 1, moleculeCount - 1)).x, here);
+        float at = share * float(count - 1);
+        int i = min(int(at), count - 1);
+        uint here = orderAt(i).x, next = max(orderAt(min(i + 1, count - 1)).x, here);
         key = max(key, here + uint(float(next - here) * (at - float(i))));
     }
     return key;
@@ -25,5 +37,6 @@ uint firstKey(int slab)
 void main()
 {
     int s = int(gl_FragCoord.x);
-    bounds = uvec2(firstKey(s), firstKey(s + 1));
+    int count = livingCount();
+    bounds = uvec2(firstKey(s, count), firstKey(s + 1, count));
 }

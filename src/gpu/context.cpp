@@ -129,6 +129,10 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.maxSamples = getInteger(GL_MAX_SAMPLES);
     info.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
     info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);
+    info.maxTextureLayers = getInteger(GL_MAX_ARRAY_TEXTURE_LAYERS);
+    GLfloat pointSizes[2] = {1, 1};
+    glGetFloatv(GL_POINT_SIZE_RANGE, pointSizes);
+    info.maxPointSize = pointSizes[1];
     info.maxBufferTexels = getInteger(GL_MAX_TEXTURE_BUFFER_SIZE);
     info.computeShaders = info.atLeast(4, 3);
     if (info.computeShaders) readComputeLimits(info);

@@ -39,7 +39,8 @@ struct ContextInfo {
     bool software = false;  // a CPU rasteriser
 
     int maxTextureSize = 0, maxColorAttachments = 0, maxSamples = 0, maxVertexTextureUnits = 0;
-    int max3DTextureSize = 0;
+    int max3DTextureSize = 0, maxTextureLayers = 0;
+    float maxPointSize = 1;  // pixels, of GL_POINTS
     int64_t maxBufferTexels = 0;
     bool computeShaders = false;  // 4.3+: by version, never by extension
     // Of compute shaders and what they read; all 0 below 4.3.

@@ -152,6 +152,14 @@ void Framebuffer::blitTo(const Framebuffer& other) const {
     glBindFramebuffer(GL_FRAMEBUFFER, other.id());
 }
 
+void Framebuffer::blitDepthTo(const Framebuffer& other) const {
+    assert(width_ == other.width_ && height_ == other.height_);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, other.id());
+}
+
 void Framebuffer::blitToDefault(int width, int height) const {
     const bool same = width == width_ && height == height_;
     assert(same || samples_ == 1);

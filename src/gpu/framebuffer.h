@@ -28,6 +28,8 @@ class Framebuffer {
 
     // Copies the first colour, resolving samples. Sizes must be equal.
     void blitTo(const Framebuffer& other) const;
+    // Copies the depth, one sample of each pixel. Sizes and formats must be equal.
+    void blitDepthTo(const Framebuffer& other) const;
     void blitToDefault(int width, int height) const;  // LINEAR where the sizes differ and there is 1 sample
 
     GLuint id() const { return handle_.id(); }

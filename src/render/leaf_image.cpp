@@ -15,7 +15,7 @@ static std::vector<size_t> neighbours(const Image& image, size_t pixel) {
     return out;
 }
 
-Image bledImage(const Image& image) {
+Image bledImage(const Image& image, int inside) {
     Image out = image;
     const size_t row = size_t(image.width) * 4;
     for (int y = 0; y < image.height; ++y) {
@@ -26,7 +26,7 @@ Image bledImage(const Image& image) {
     std::vector<bool> known(out.pixels.size() / 4);
     std::vector<size_t> front;
     for (size_t i = 0; i < known.size(); ++i) {
-        known[i] = out.pixels[4 * i + 3] >= 128;
+        known[i] = out.pixels[4 * i + 3] >= inside;
         if (known[i]) front.push_back(i);
     }
     for (size_t next = 0; next < front.size(); ++next) {

@@ -15,7 +15,7 @@ namespace shoal {
 // Texture units, one for each sampler of the room.
 namespace unit {
 constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
-              order = 7, slabs = 8, slabDraws = 9, velocities = 10;
+              order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11;
 }
 
 class Lighting {
@@ -28,6 +28,7 @@ class Lighting {
     std::vector<std::string> toneDefines() const;  // those with no light on surfaces: sky, picture
     void applySky(const gpu::Program& program) const;
     void apply(const gpu::Program& program, const Eye& eye) const;
+    bool hazy() const { return fog_ > 0; }
 
   private:
     glm::vec3 towardsSun_{0}, sun_{0}, zenith_{0}, horizon_{0}, ground_{0};

@@ -1,6 +1,7 @@
 #include "render/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "gpu/debug_group.h"
 
@@ -17,14 +18,21 @@ static Sphere crownOf(const Scene& scene, const Plan& plan, const RenderOptions&
     return options.crownShade ? boundsOf(scene, plan).crown : Sphere{};
 }
 
+// Of a picture of so many rows, at the distance of what the camera looks at.
+static double pixelsPerMeterAt(const Camera& camera, int height) {
+    const double distance = std::max(glm::distance(camera.eye, camera.target), 1e-3);
+    return height / (2 * std::tan(camera.fieldOfView / 2) * distance);
+}
+
 Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
                    const RenderOptions& options)
     : context_(&context),
       options_(options),
       shadow_(makeShadowMap(context, scene, plan, options)),
-      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), MoleculeDrawer::blends(scene, plan)),
+      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), DrawnGroups::blends(scene, plan)),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
-      molecules_(context, shaderRoot, scene, plan, lighting_, options.slabs),
+      groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
+              pixelsPerMeterAt(scene.camera, options.height)),
       sky_(context, shaderRoot,
            {"render/screen.vert", "render/sky.frag", lighting_.toneDefines(), {}, "sky"}),
       tone_(context, shaderRoot,
@@ -43,10 +51,14 @@ void Renderer::resize(int width, int height) {
     picture_ = gpu::Texture(*context_, Format::rgba8, width, height, "picture");
     lightTarget_ = gpu::Framebuffer(*context_, {&light_}, nullptr, "light");
     pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
+    if (!groups_.readsDepth()) return;
+    sceneDepth_ = gpu::Texture(*context_, Format::depth24, width, height, "scene depth");
+    sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
 
 void Renderer::draw(const StateView& state, const View& view) {
     const Eye eye(view, width(), height());
+    const DrawInputs inputs{eye, lighting_, sceneDepth_ ? &sceneDepth_ : nullptr, samples_.samples() > 1};
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDisable(GL_SCISSOR_TEST);
@@ -54,9 +66,9 @@ void Renderer::draw(const StateView& state, const View& view) {
     glDepthFunc(GL_LEQUAL);
 
     timers_.beginFrame();
-    if (molecules_.blends()) {
+    if (groups_.blends()) {
         const auto timer = timers_.time("order");
-        molecules_.order(state, eye);
+        groups_.order(state, eye);
     }
     if (shadow_) drawShadows(state, view.time);
     samples_.bind();
@@ -69,10 +81,11 @@ void Renderer::draw(const StateView& state, const View& view) {
     }
     {
         const auto timer = timers_.time("molecules");
-        molecules_.draw(state, eye, lighting_, samples_.samples() > 1);
+        groups_.draw(state, inputs);
     }
     drawSky(eye);
-    if (molecules_.blends()) drawBlended(state, eye);
+    if (sceneDepth_) copyDepth();
+    if (groups_.blends()) drawBlended(state, inputs);
     samples_.blitTo(lightTarget_);
     drawPicture(view.exposure);
     timers_.endFrame();
@@ -82,7 +95,7 @@ void Renderer::drawShadows(const StateView& state, double time) {
     const auto timer = timers_.time("shadows");
     shadow_->begin();
     surfaces_.drawShadows(*shadow_, time);
-    molecules_.drawShadows(state, *shadow_);
+    groups_.drawShadows(state, *shadow_, time);
     shadow_->end();
 }
 
@@ -100,11 +113,17 @@ void Renderer::drawSky(const Eye& eye) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawBlended(const StateView& state, const Eye& eye) {
+void Renderer::copyDepth() {
+    const auto timer = timers_.time("depth");
+    samples_.blitDepthTo(sceneDepthTarget_);
+    samples_.bind();
+}
+
+void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     const auto timer = timers_.time("blended");
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    molecules_.drawBlended(state, eye, lighting_);
+    groups_.drawBlended(state, inputs);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
 }

@@ -1,7 +1,8 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
 // gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
-// What is blended comes last, over the sky; where nothing is, nothing is done for it.
+// What is blended comes last, over the sky; where nothing is, nothing is done for it. Particles that fade in
+// front of surfaces read the depth that is there by then, a copy of it.
 //
 //   shadow map (depth)  ->  light (RGBA16F, several samples)  ->  resolved light  ->  picture (RGBA8, sRGB)
 #pragma once
@@ -14,8 +15,8 @@
 #include "gpu/context.h"
 #include "gpu/framebuffer.h"
 #include "gpu/pass_timers.h"
+#include "render/drawn_groups.h"
 #include "render/lighting.h"
-#include "render/molecule_drawer.h"
 #include "render/surface_drawer.h"
 #include "render/view.h"
 #include "simulate/state_view.h"
@@ -53,13 +54,14 @@ class Renderer {
 
     gpu::PassTimers& timers() { return timers_; }
     // In which a blended group of the plan was last drawn; null: it has none. For tests.
-    const DrawOrder* orderOf(size_t group) const { return molecules_.orderOf(group); }
+    const DrawOrder* orderOf(size_t group) const { return groups_.orderOf(group); }
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
-    void drawBlended(const StateView& state, const Eye& eye);
+    void copyDepth();
+    void drawBlended(const StateView& state, const DrawInputs& inputs);
     void drawPicture(double exposure);
 
     gpu::Context* context_;
@@ -67,13 +69,16 @@ class Renderer {
     std::unique_ptr<ShadowMap> shadow_;  // null: the sun casts none
     Lighting lighting_;
     SurfaceDrawer surfaces_;
-    MoleculeDrawer molecules_;
+    DrawnGroups groups_;
     gpu::Program sky_, tone_;
     gpu::VertexArray empty_;
     gpu::PassTimers timers_;
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;
+    // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces.
+    gpu::Texture sceneDepth_;
+    gpu::Framebuffer sceneDepthTarget_;
 };
 
 }  // namespace shoal

@@ -15,7 +15,8 @@ ShadowMap::ShadowMap(gpu::Context& context, int size, const Box& casters, const 
     const glm::dvec3 side = std::abs(towardsSun.y) < 0.99 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
     const glm::dvec3 right = glm::normalize(glm::cross(side, towardsSun));
     const glm::dvec3 above = glm::cross(towardsSun, right);
-    const glm::dmat3 toLight = glm::transpose(glm::dmat3(right, above, towardsSun));
+    const glm::dmat3 toScene(right, above, towardsSun), toLight = glm::transpose(toScene);
+    toScene_ = glm::mat3(toScene);
 
     // The box seen from the sun, and some air around it for what the wind carries off.
     glm::dvec3 half(0);

@@ -19,6 +19,7 @@ class ShadowMap {
 
     const Origin& origin() const { return origin_; }  // what `toClip` is relative to
     const glm::mat4& toClip() const { return toClip_; }
+    const glm::mat3& toScene() const { return toScene_; }  // columns: right, up, towards the sun
     float pixelsPerMeter() const { return pixelsPerMeter_; }
     const gpu::Texture& depth() const { return depth_; }
 
@@ -32,6 +33,7 @@ class ShadowMap {
     gpu::Framebuffer framebuffer_;
     Origin origin_;
     glm::mat4 toClip_{1};
+    glm::mat3 toScene_{1};
     float pixelsPerMeter_ = 1;
 };
 

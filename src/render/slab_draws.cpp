@@ -19,10 +19,9 @@ static gpu::ProgramOptions findingDraws(const DrawOrder& order) {
 }
 
 SlabDraws::SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
-                     int corners, bool indexed)
+                     const DrawStream& stream)
     : slabs_(slabs),
-      corners_(corners),
-      indexed_(indexed),
+      stream_(stream),
       program_(context, shaderRoot, findingDraws(order)),
       draws_(context, gpu::Buffer::Use::storage, nullptr, size_t(slabs) * drawBytes, "slab draws"),
       drawTexels_(context, draws_, gpu::Texel::uint1, "slab draws") {}
@@ -34,7 +33,8 @@ void SlabDraws::update(const DrawOrder& order, const DepthSlabs& slabs) {
     slabs.bind(program_);
     program_.set("slabCount", slabs_);
     program_.set("moleculeCount", order.count());
-    program_.set("corners", corners_);
+    program_.set("corners", stream_.corners);
+    program_.set("batch", stream_.batch);
     program_.storage("Draws", 0, draws_, 0, draws_.bytes());
     program_.dispatch((slabs_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::draw});
@@ -48,7 +48,7 @@ void SlabDraws::bind(const gpu::Program& program) const {
 void SlabDraws::draw(int slab) const {
     const auto* at =
         reinterpret_cast<const void*>(size_t(slab) * drawBytes);  // OpenGL's way to say an offset
-    if (indexed_)
+    if (stream_.indexed)
         glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, at);
     else
         glDrawArraysIndirect(GL_POINTS, at);

@@ -11,19 +11,25 @@
 
 namespace shoal {
 
+// What an instance of a draw call is.
+struct DrawStream {
+    int corners = 1;       // indices, or vertices where there are none
+    bool indexed = false;  // triangles; else points
+    int batch = 1;         // molecules
+};
+
 class SlabDraws {
   public:
-    // `corners` of a molecule: its indices, or its vertices where it has no triangles (`indexed` false).
     SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
-              int corners, bool indexed);
+              const DrawStream& stream);
 
     void update(const DrawOrder& order, const DepthSlabs& slabs);
     void bind(const gpu::Program& program) const;  // shaders/render/drawn.glsl, SLAB_DRAWS
     void draw(int slab) const;                     // the vertex array is bound
 
   private:
-    int slabs_, corners_;
-    bool indexed_;
+    int slabs_;
+    DrawStream stream_;
     gpu::Program program_;
     gpu::Buffer draws_;  // shaders/render/slab_draws.comp
     gpu::BufferTexture drawTexels_;

@@ -55,14 +55,16 @@ Eye::Eye(const View& view, int width, int height) : origin(view.eye) {
     const double distance = glm::length(view.eye - view.target);
     const double tangent = std::tan(view.fieldOfView / 2), aspect = double(width) / double(height);
     // Near enough to walk up to what is looked at, far enough for a 24-bit depth buffer to tell leaves apart.
-    const double nearest = std::clamp(0.02 * distance, 0.002, 0.5);
+    const double near = std::clamp(0.02 * distance, 0.002, 0.5);
 
     const glm::dmat3 toScene = directionsOf(view);
     viewToScene = glm::mat3(toScene);
-    toClip = glm::mat4(glm::infinitePerspective(view.fieldOfView, aspect, nearest) *
+    toClip = glm::mat4(glm::infinitePerspective(view.fieldOfView, aspect, near) *
                        glm::dmat4(glm::transpose(toScene)));
     tangents = glm::vec2(tangent * aspect, tangent);
     pixelsPerMeter = float(height / (2 * tangent));
+    nearest = float(near);
+    time = float(view.time);
 }
 
 }  // namespace shoal

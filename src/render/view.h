@@ -39,6 +39,8 @@ struct Eye {
     glm::mat3 viewToScene{1};  // columns: right, up, towards the eye
     glm::vec2 tangents{1};     // of half the field of view
     float pixelsPerMeter = 1;  // at a distance of one metre
+    float nearest = 0;         // m: of the depth buffer, which holds 1 - nearest / depth
+    float time = 0;            // s
 
     Eye(const View& view, int width, int height);
 };

@@ -1,0 +1,182 @@
+// A particle, or a corner of it, straight from the state; everything that depends on its age and its seed is worked out
+// here. The middle of a picture's square is (0, 0), its corners are at +-1.
+//
+//   POINTS   a dot of `pixels`
+//   SPRITES  a point as wide as the turned square, which the fragment stage cuts out of it (Latta 2004, section 3.4.6)
+//   else     gl_VertexID: 4 corners of a quad, that of many (Kapoulkine 2008); FACING_VELOCITY, FACING_FREE, else camera
+//
+// Variants, each only where the type needs it: SIZES (random), GROWS, TURNS (about the line of sight, or free quads
+// about their axis), COLORS (keyframes), IMAGE with TILES (random), FLIP_ONCE or FLIP_AGAIN, FADES (between
+// frames); LIT; and those of lib/molecule.glsl and render/drawn.glsl.
+
+#include "lib/molecule.glsl"
+#include "render/drawn.glsl"
+#include "particles/attributes.glsl"
+
+uniform mat4 toClip;
+uniform mat3 viewToScene;      // columns: right, up, towards the eye
+uniform vec4 eyeAt;            // w 1: xyz the eye, m; w 0: xyz the direction towards it
+uniform float pixelsPerMeter;  // at a distance of one metre, or everywhere in the shadow map
+uniform float time;            // s
+
+#ifdef POINTS
+uniform float pixels;
+#else
+uniform vec2 sizeSpan;  // m
+#endif
+#ifdef GROWS
+uniform vec2 growth;
+#endif
+#ifdef TURNS
+uniform vec2 turnSpan, spinSpan;  // rad, rad/s
+#endif
+#ifdef FACING_VELOCITY
+uniform float stretch;  // s
+#endif
+uniform vec4 firstColor;  // linear RGB and opacity
+#ifdef COLORS
+uniform vec4 colorChanges[3];
+uniform vec3 colorBegins, colorPerAge;
+#endif
+#ifdef IMAGE
+uniform float tileCount;
+uniform float frameRate;
+#endif
+
+flat out vec4 color;
+out vec3 place;  // m, relative to the origin of drawing
+#ifndef POINTS
+#ifdef SPRITES
+flat out vec4 toSquare;  // matrix by columns: from the point's own square to the particle's
+#else
+out vec2 at;
+#endif
+#endif
+#ifdef IMAGE
+flat out vec3 tiles;  // x one, y the next one, z its share
+#endif
+#if defined(LIT) && !defined(POINTS) && !defined(SPRITES)
+flat out mat3 frame;  // columns: right, up, towards the eye
+#endif
+
+// Smaller ones would come and go between the samples of a pixel.
+const float leastPixels = 1.5;
+
+vec3 unitOr(vec3 v, vec3 otherwise)
+{
+    float lengthSquared = dot(v, v);
+    return lengthSquared > 1e-20 ? v * inversesqrt(lengthSquared) : otherwise;
+}
+
+void main()
+{
+    int molecule;
+    bool drawn = findDrawn(molecule);
+    vec3 middle = vertexPlace(molecule, 0);
+    uint seed = moleculeSeed(molecule);
+    vec2 life = moleculeLife(molecule);
+    float age = ageShare(life);
+    // What never dies has no birth to count from.
+#ifdef LIFE
+    float seconds = life.x;
+#else
+    float seconds = time;
+#endif
+
+    color = firstColor;
+#ifdef COLORS
+    color = colorAt(age, firstColor, colorChanges[0], colorChanges[1], colorChanges[2], colorBegins, colorPerAge);
+#endif
+    place = middle;
+
+#ifdef IMAGE
+    tiles = vec3(0.0);
+#ifdef TILES
+    tiles.x = randomTile(seed, tileCount);
+#endif
+#ifdef FADES
+    const bool fades = true;
+#else
+    const bool fades = false;
+#endif
+#ifdef FLIP_ONCE
+    tiles = framesOnce(age, tileCount, fades);
+#endif
+#ifdef FLIP_AGAIN
+#ifdef LIFE
+    tiles = framesAgain(seconds, frameRate, 0.0, tileCount, fades);
+#else
+    tiles = framesAgain(seconds, frameRate, uniformFrom(hashSeed(seed, tileCounter)), tileCount, fades);
+#endif
+#endif
+#endif
+
+    float angle = 0.0;
+#ifdef TURNS
+    angle = randomBetween(turnSpan, seed, turnCounter) + randomBetween(spinSpan, seed, spinCounter) * seconds;
+    angle -= fullTurn * floor(angle / fullTurn);
+#endif
+    float c = cos(angle), s = sin(angle);
+
+#ifdef POINTS
+    gl_Position = toClip * vec4(middle, 1.0);
+    gl_PointSize = pixels + 1.0;  // and half a pixel of soft edge all around
+#else
+    float size = sizeSpan.x;
+#ifdef SIZES
+    size = randomBetween(sizeSpan, seed, sizeCounter);
+#endif
+#ifdef GROWS
+    size *= mix(growth.x, growth.y, age);
+#endif
+    drawn = drawn && size > 0.0;
+    // What is less than a few samples wide is drawn wider, and in return lets more through.
+    vec4 clip = toClip * vec4(middle, 1.0);
+    float shown = size * pixelsPerMeter / max(clip.w, 1e-6);
+    float wider = max(leastPixels / max(shown, 1e-6), 1.0);
+    size *= wider;
+#ifdef BLENDED
+    color.a /= wider * wider;
+#endif
+
+#ifdef SPRITES
+    gl_Position = clip;
+    float square = abs(c) + abs(s);  // what encloses the turned one
+    gl_PointSize = square * max(shown, leastPixels);
+    toSquare = square * vec4(c, -s, s, c);
+#else
+    int number = gl_VertexID & 3;
+    at = vec2((number & 1) != 0 ? 1.0 : -1.0, (number & 2) != 0 ? 1.0 : -1.0);
+    vec3 right = viewToScene[0], up = viewToScene[1], front = viewToScene[2];
+    vec2 reach = vec2(0.5 * size);
+#ifdef FACING_VELOCITY
+    // Along the velocity as the eye sees it: seen along its way a particle is round, not gone.
+    front = unitOr(eyeAt.xyz - eyeAt.w * middle, viewToScene[2]);
+    vec3 velocity = vertexVelocity(molecule, 0);
+    velocity -= front * dot(front, velocity);
+    vec3 upright = unitOr(up - front * dot(front, up), cross(front, right));
+    up = unitOr(velocity, upright);
+    right = cross(up, front);
+    reach.y += 0.5 * stretch * length(velocity);
+#elif defined(FACING_FREE)
+    vec4 rotation = randomRotation(seed);
+#ifdef TURNS
+    rotation = composed(aboutAxis(randomAxis(seed), angle), rotation);
+#endif
+    right = rotated(rotation, vec3(1.0, 0.0, 0.0));
+    up = rotated(rotation, vec3(0.0, 1.0, 0.0));
+    front = cross(right, up);
+#else
+    vec3 level = right;
+    right = c * level + s * up;
+    up = c * up - s * level;
+#endif
+#ifdef LIT
+    frame = mat3(right, up, front);
+#endif
+    place = middle + right * (at.x * reach.x) + up * (at.y * reach.y);
+    gl_Position = toClip * vec4(place, 1.0);
+#endif
+#endif
+    if (!drawn || color.a <= 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
+}

@@ -1,0 +1,57 @@
+// Draws every group of a scene, of molecules (render/molecule_drawer.h) and of particles
+// (render/particle_drawer.h).
+//
+// Groups with a blend are drawn after everything else, from back to front (render/draw_order.h). Several of
+// them take turns in slabs of depth (render/depth_slabs.h).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/depth_slabs.h"
+#include "render/draw_order.h"
+#include "render/group_drawer.h"
+
+namespace shoal {
+
+class DrawnGroups {
+  public:
+    // `slabs` of depth at most; `pixelsPerMeter`: about where the camera looks.
+    DrawnGroups(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
+                const Lighting& lighting, int slabs, double pixelsPerMeter);
+
+    static bool blends(const Scene& scene, const Plan& plan);  // whether a group of the plan does
+    bool blends() const { return blends_; }
+    bool readsDepth() const;  // whether a blended group asks for DrawInputs::sceneDepth
+
+    void drawShadows(const StateView& state, const ShadowMap& shadow, double time);
+    // What is not blended. With several samples a pixel, edges of cut-out shapes are spread over them (alpha
+    // to coverage).
+    void draw(const StateView& state, const DrawInputs& inputs);
+    // Before the framebuffer of the picture is bound: the orders of what is blended.
+    void order(const StateView& state, const Eye& eye);
+    void drawBlended(const StateView& state, const DrawInputs& inputs);
+
+    const DrawOrder* orderOf(size_t group) const;  // of the plan; null: it has none. For tests
+
+  private:
+    struct Drawn {
+        std::unique_ptr<GroupDrawer> drawer;
+        Blend blend = Blend::none;
+        DrawSort sort = DrawSort::none;  // of the blend alpha
+        int spreadFrames = 0;
+        std::unique_ptr<DrawOrder> order;      // none: as they are numbered
+        std::unique_ptr<SlabDraws> slabDraws;  // where there are slabs and the order is exact
+    };
+
+    void makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, int slabs);
+    void drawSlab(const Drawn& group, const gpu::Program& program, const StateView& state, int slab) const;
+
+    std::vector<Drawn> groups_;
+    bool blends_ = false;
+    std::unique_ptr<DepthSlabs> slabs_;  // where several groups are blended
+    size_t slabsOf_ = 0;                 // whose order the slabs are cut by
+};
+
+}  // namespace shoal

@@ -1,0 +1,189 @@
+#include "render/particle_drawer.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "render/particle_image.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr int batch = 64;  // particles an instance
+
+bool spreads(const glm::dvec2& span) {
+    return span.x != span.y;
+}
+
+bool turns(const ParticleType& type) {
+    const bool any = type.turn != glm::dvec2(0) || type.spin != glm::dvec2(0);
+    // A dot looks the same however it is turned about the line of sight.
+    return any && (type.facing == ParticleFacing::free || type.image);
+}
+
+// What is there but has no effect on the type's shape is left at its default. Sprites that the context cannot
+// draw twice as large as they are where the camera looks become quads, which look the same.
+ParticleType effective(ParticleType type, double pixelsPerMeter, float maxPointSize) {
+    const ParticleType usual;
+    const double largest = type.size.y * std::max(type.growth.x, type.growth.y) * std::numbers::sqrt2;
+    if (type.shape == ParticleShape::sprites && 2 * largest * pixelsPerMeter > double(maxPointSize))
+        type.shape = ParticleShape::quads;
+    if (type.shape == ParticleShape::points) {
+        type.image.reset();
+        type.growth = usual.growth;
+        type.turn = usual.turn;
+        type.spin = usual.spin;
+    }
+    if (type.shape != ParticleShape::quads) type.facing = usual.facing;
+    if (type.facing == ParticleFacing::velocity) {
+        type.turn = usual.turn;
+        type.spin = usual.spin;
+    }
+    return type;
+}
+
+}  // namespace
+
+ParticleDrawer::ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, const ParticleType& type,
+                               const GroupPlan& plan, size_t index, const Lighting& lighting,
+                               double pixelsPerMeter)
+    : GroupDrawer(context, shaderRoot, plan, index),
+      type_(effective(type, pixelsPerMeter, context.info().maxPointSize)),
+      ages_(plan.needs.life) {
+    if (type_.image) image_ = loadParticleImage(context, *type_.image);
+    makeStream();
+    chooseShaders(lighting);
+}
+
+void ParticleDrawer::makeStream() {
+    if (type_.shape != ParticleShape::quads) {
+        stream_ = {batch, false, batch};
+        return;
+    }
+    std::vector<uint32_t> indices;
+    for (uint32_t quad = 0; quad < uint32_t(batch); ++quad)
+        for (const uint32_t corner : {0U, 1U, 2U, 2U, 1U, 3U})
+            indices.push_back(4 * quad + corner);
+    indices_ = gpu::Buffer(*context_, gpu::Buffer::Use::index, std::span<const uint32_t>(indices),
+                           "corners of particles");
+    corners_.indices(indices_);
+    stream_ = {int(indices.size()), true, batch};
+}
+
+std::vector<std::string> ParticleDrawer::defines() const {
+    const bool quads = type_.shape == ParticleShape::quads;
+    std::vector<std::string> out = {concat("BATCH ", batch), concat("CORNERS ", quads ? 4 : 1)};
+    const auto add = [&out](bool wanted, const char* define) {
+        if (wanted) out.emplace_back(define);
+    };
+    add(type_.shape == ParticleShape::points, "POINTS");
+    add(type_.shape == ParticleShape::sprites, "SPRITES");
+    add(type_.facing == ParticleFacing::velocity, "FACING_VELOCITY");
+    add(type_.facing == ParticleFacing::free, "FACING_FREE");
+    add(spreads(type_.size), "SIZES");
+    add(ages_ && type_.growth != glm::dvec2(1), "GROWS");
+    add(turns(type_), "TURNS");
+    add(ages_ && type_.colors.size() > 1, "COLORS");
+    if (!type_.image) return out;
+    const bool several = type_.image->firstTile != type_.image->lastTile;
+    const bool flips = several && type_.image->flipBook, again = type_.image->frameRate > 0;
+    add(true, "IMAGE");
+    add(several && !flips, "TILES");
+    add(flips && again, "FLIP_AGAIN");
+    add(flips && !again, "FLIP_ONCE");
+    add(flips && type_.image->blend, "FADES");
+    return out;
+}
+
+void ParticleDrawer::chooseShaders(const Lighting& lighting) {
+    depthOptions_.vertex = "particles/particle.vert";
+    depthOptions_.fragment = "particles/particle.frag";
+    depthOptions_.defines = defines();
+    litOptions_ = depthOptions_;
+    depthOptions_.defines.push_back("DEPTH_ONLY");
+    depthOptions_.label = name_ + " (shadow)";
+
+    std::vector<std::string>& lit = litOptions_.defines;
+    for (const std::string& define : lighting.defines())
+        lit.push_back(define);
+    if (type_.blend != Blend::none) lit.push_back("BLENDED");
+    if (type_.blend == Blend::additive) lit.push_back("ADDS");
+    if (type_.blend == Blend::multiplicative) lit.push_back("FILTERS");
+    if (type_.lit && type_.blend != Blend::multiplicative) lit.push_back("LIT");
+    if (readsDepth()) lit.push_back("SOFT");
+    if (lighting.hazy()) lit.push_back("HAZE");
+    litOptions_.label = name_ + " (picture)";
+}
+
+// The keyframes as pieces that are added up: shaders/particles/attributes.glsl.
+void ParticleDrawer::setColors(const gpu::Program& program) const {
+    const auto valueOf = [](const ColorKey& key) { return glm::vec4(key.color, key.opacity); };
+    const std::vector<ColorKey>& keys = type_.colors;
+    program.set("firstColor", valueOf(keys.front()));
+    if (!ages_ || keys.size() < 2) return;
+    std::array<glm::vec4, mostColorKeys - 1> changes{};
+    glm::vec3 begins(0), perAge(0);
+    for (size_t i = 0; i + 1 < keys.size(); ++i) {
+        const auto at = glm::length_t(i);
+        changes[i] = valueOf(keys[i + 1]) - valueOf(keys[i]);
+        begins[at] = float(keys[i].age);
+        perAge[at] = float(1 / (keys[i + 1].age - keys[i].age));
+    }
+    program.set("colorChanges", std::span<const glm::vec4>(changes));
+    program.set("colorBegins", begins);
+    program.set("colorPerAge", perAge);
+}
+
+void ParticleDrawer::setType(const gpu::Program& program) const {
+    setColors(program);
+    if (type_.shape == ParticleShape::points)
+        program.set("pixels", float(type_.pixels));
+    else
+        program.set("sizeSpan", glm::vec2(type_.size));
+    if (ages_ && type_.growth != glm::dvec2(1)) program.set("growth", glm::vec2(type_.growth));
+    if (turns(type_)) {
+        program.set("turnSpan", glm::vec2(type_.turn));
+        program.set("spinSpan", glm::vec2(type_.spin));
+    }
+    if (type_.facing == ParticleFacing::velocity) program.set("stretch", float(type_.stretch));
+    if (!type_.image) return;
+    program.texture("image", unit::image, image_);
+    program.set("tileCount", float(image_.layers()));
+    program.set("frameRate", float(type_.image->frameRate));
+}
+
+const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double time) {
+    const gpu::Program& program = this->program(depth_, depthOptions_, state);
+    program.use();
+    shadow.origin().apply(program);
+    program.set("toClip", shadow.toClip());
+    program.set("viewToScene", shadow.toScene());
+    program.set("eyeAt", glm::vec4(shadow.toScene()[2], 0));
+    program.set("pixelsPerMeter", shadow.pixelsPerMeter());
+    program.set("time", float(time));
+    program.set("leastCover", 0.5f);
+    setType(program);
+    return program;
+}
+
+const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
+    const gpu::Program& program = this->program(lit_, litOptions_, state);
+    const Eye& eye = inputs.eye;
+    program.use();
+    eye.origin.apply(program);
+    inputs.lighting.apply(program, eye);
+    program.set("toClip", eye.toClip);
+    program.set("viewToScene", eye.viewToScene);
+    program.set("eyeAt", glm::vec4(0, 0, 0, 1));
+    program.set("pixelsPerMeter", eye.pixelsPerMeter);
+    program.set("time", eye.time);
+    setType(program);
+    if (type_.blend == Blend::none) program.set("leastCover", inputs.multisampled ? 0.02f : 0.5f);
+    if (!readsDepth()) return program;
+    program.texture("sceneDepth", unit::sceneDepth, *inputs.sceneDepth);
+    program.set("nearest", eye.nearest);
+    program.set("perSoftness", float(1 / type_.softness));
+    return program;
+}
+
+}  // namespace shoal
