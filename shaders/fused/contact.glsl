@@ -35,6 +35,11 @@ float margin(vec3 position, vec3 velocity)
 }
 #endif
 
+#ifdef KEEP_SURFACE
+// What findContacts saw: a height field costs more to look up than to keep.
+vec4 seen[VERTICES];
+#endif
+
 // Whether a vertex that is not held lies inside a collider.
 bool findContacts()
 {
@@ -52,7 +57,12 @@ bool findContacts()
         touchPosition[i] = x[i];
     }
     for (int k = 0; k < VERTICES; ++k) {
+#ifdef KEEP_SURFACE
+        seen[k] = surfaceAt(anchor, touchPosition[k]);
+        if (!isHeld(pinned[k])) least = min(least, seen[k].w);
+#else
         if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k]));
+#endif
     }
 #endif
 #ifdef LIFE
@@ -97,8 +107,13 @@ void resolveContacts()
 #else
     for (int k = 0; k < VERTICES; ++k) {
         if (!isHeld(pinned[k])) {
-            Contact c = collideAll(anchor, touchPosition[k], touchVelocity[k], fallAt(touchPosition[k]),
-                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
+#ifdef KEEP_SURFACE
+            vec4 surface = seen[k];
+#else
+            vec4 surface = surfaceAt(anchor, touchPosition[k]);
+#endif
+            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(touchPosition[k]),
+                                 Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;
 #ifdef RIGID_IMPACT

@@ -1,10 +1,19 @@
 // Sampled fields: grids and height fields share one table of 4-vectors, read by index.
+#ifdef SAMPLES_IN_BUFFER
+uniform samplerBuffer samples;
+
+vec4 sampleAt(int index)
+{
+    return texelFetch(samples, index);
+}
+#else
 uniform sampler2D samples;
 
 vec4 sampleAt(int index)
 {
     return texelFetch(samples, ivec2(index & 1023, index >> 10), 0);
 }
+#endif
 
 bool insideBox(vec3 anchor, vec3 position, vec3 low, vec3 high)
 {

@@ -153,18 +153,20 @@ class ColliderWriter {
 
 std::string sourceOfOne(const Text& text) {
     return concat(
-        "Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, Drift drift)\n{\n",
-        "    Contact c = Contact(position, velocity);\n    vec4 surface;\n", text.comment,
-        "    surface = ", text.surface, ";\n    c = answer(c.position, c.velocity, surface.w - ",
-        text.material, ".z, surface.xyz, gravity, ", text.material, ".x, ", text.material,
-        ".y, drift);\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, surface.w < ", text.material,
-        ".z ? ", text.material,
-        ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return c;\n}\n\n// m: from the nearest "
-        "surface, less its thickness; negative ",
-        "inside.\nfloat clearance(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, ",
-        "vec3(0.0));\n    vec4 surface;\n    float least = 1e30;\n", text.comment,
-        "    surface = ", text.surface, ";\n    least = min(least, surface.w - ", text.material,
-        ".z);\n    return least;\n}\n");
+        "// xyz unit normal, w m from the surface, less its thickness; negative inside.\n",
+        "vec4 surfaceAt(vec3 anchor, vec3 position)\n{\n    Contact c = Contact(position, vec3(0.0));\n",
+        "    vec4 surface;\n", text.comment, "    surface = ", text.surface,
+        ";\n    return vec4(surface.xyz, surface.w - ", text.material,
+        ".z);\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 position, vec3 ",
+        "velocity, vec3 gravity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
+        "surface.w < 0.0 ? ", text.material,
+        ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return ",
+        "answer(position, velocity, surface.w, surface.xyz, gravity, ", text.material, ".x, ", text.material,
+        ".y, drift);\n}\n\nContact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, "
+        "Drift ",
+        "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, gravity, "
+        "drift);\n}\n\n",
+        "float clearance(vec3 anchor, vec3 position)\n{\n    return surfaceAt(anchor, position).w;\n}\n");
 }
 
 class Joint {
@@ -278,7 +280,9 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
     writer.result.materials.resize(colliders.size());
     const std::string body = colliders.empty() ? "" : sourceOfOne(writer.text(colliders[0], 0));
     GeneratedColliders out = std::move(writer.result);
-    out.source = concat("#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
+    const bool dear = !colliders.empty() && std::holds_alternative<HeightFieldCollider>(colliders[0].shape);
+    out.source = concat(dear ? "#define KEEP_SURFACE\n" : "", "#include \"physics/collide.glsl\"\n",
+                        "#include \"lib/surfaces.glsl\"\n",
                         parameterArray("colliderParameters", out.parameters.size()), body);
     return out;
 }

@@ -131,8 +131,8 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
     program.texture("oldState", unit::oldState, buffers.oldState(part));
     program.texture("oldRecords", unit::oldRecords, part.record);
     if (buffers.hasConstants()) program.texture("constants", unit::constants, part.constant);
-    if (group.needs.fields || group.needs.collide)
-        program.texture("samples", unit::samples, tables_->samples);
+    if ((group.needs.fields || group.needs.collide) && tables_->sampleTexels)
+        program.texture("samples", unit::samples, tables_->sampleTexels);
     if (kernels_[index].options.lanes == Lanes::vertex) {
         program.texture("topology", unit::topology, tables_->topology);
         program.set("topologyBase", group.topologyBase);

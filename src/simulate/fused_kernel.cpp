@@ -7,6 +7,7 @@
 #include "gpu/conditions.h"
 #include "gpu/shader_source.h"
 #include "simulate/force_parameters.h"
+#include "simulate/tables.h"
 #include "simulate/vertex_loops.h"
 #include "simulate/watchdog.h"
 
@@ -49,6 +50,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     };
     const bool perLane = options.lanes == Lanes::molecule;
     define(true, "FUSED");
+    define(needs.fields || needs.collide, samplesInBuffer);
     define(!perLane, "SHARED_MOLECULE");
     define(options.software && perLane, "PAIRED_STORES");
     define(options.software && perLane, "UNIFORMS_IN_REGISTERS");

@@ -164,7 +164,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
         return Program(*context_, shaderRoot, options);
     };
     GroupPrograms& out = groups_.emplace_back();
-    out.spheres = plan.needs.collide ? make("spheres", {"WALLS"}) : make("spheres");
+    out.spheres = plan.needs.collide ? make("spheres", {"WALLS", samplesInBuffer}) : make("spheres");
     if (staggered_.buffer) out.staggeredKeys = make("spheres", {"ONLY_KEYS"});
     out.apply = make("apply");
     if (triangles_) {
@@ -236,7 +236,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
         textures.add("shapes", groups_[g].shapes.texture);
         if (buffers.hasConstants()) textures.add("constants", part.constant);
         if (!staggered && plan_->groups[group.group].needs.collide) {
-            textures.add("samples", tables_->samples);
+            if (tables_->sampleTexels) textures.add("samples", tables_->sampleTexels);
             setWalls(program, group, frame);
         }
         const int spheres = part.count * group.spheresOf;

@@ -4,12 +4,16 @@
 
 namespace shoal {
 
+static Tables::Form sampleFormOf(Path path) {
+    return path == Path::fused ? Tables::Form::buffer : Tables::Form::texture;
+}
+
 Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
                        const SimulationOptions& options)
     : context_(&context),
       plan_(std::move(plan)),
       choice_(choosePath(plan_, options.path, limitsOf(context.info()))),
-      tables_(context, plan_),
+      tables_(context, plan_, sampleFormOf(choice_.path)),
       drawn_(options.drawn),
       inPlace_(options.inPlace),
       timers_(context, options.timing),
@@ -45,6 +49,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
             if (solver(group.solver).implicit) throw;
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
         choice_.why = "the fused path failed";
+        tables_ = Tables(*context_, plan_, sampleFormOf(choice_.path));
         warnings_.push_back(
             {error.location(), concat(error.message(), "; going on with the ping-pong path")});
         return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,

@@ -1,6 +1,7 @@
 #include "simulate/tables.h"
 
 #include <cmath>
+#include <span>
 
 namespace shoal {
 
@@ -24,8 +25,17 @@ static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
     return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
-Tables::Tables(gpu::Context& context, const Plan& plan)
-    : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")),
-      samples(makeSamples(context, plan)) {}
+Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
+    : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
+    if (sampleForm == Form::texture) {
+        samples = makeSamples(context, plan);
+        return;
+    }
+    if (plan.samples.empty()) return;
+    gpu::BufferTexture::checkTexels(context.info(), plan.samples.size(), "samples");
+    const std::span<const glm::vec4> table(plan.samples);
+    sampleBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, table, "samples");
+    sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
+}
 
 }  // namespace shoal

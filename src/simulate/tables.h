@@ -1,16 +1,28 @@
 // What every group of a plan shares and no frame changes: the topology of the molecules, and the samples of
-// grids and height fields. Layout: compile/plan.h.
+// grids, height fields and distance fields. Layout: compile/plan.h.
 #pragma once
 
 #include "compile/plan.h"
+#include "gpu/buffer_texture.h"
 #include "gpu/texture.h"
 
 namespace shoal {
 
 struct Tables {
-    gpu::Texture topology, samples;
+    // The fused path reads samples from a buffer, which needs no second coordinate: on a CPU rasteriser a
+    // fetch then costs half as much.
+    enum class Form { texture, buffer };
 
-    Tables(gpu::Context& context, const Plan& plan);
+    gpu::Texture topology;
+    gpu::Texture samples;  // as a texture
+    gpu::Buffer sampleBuffer;
+    gpu::BufferTexture sampleTexels;  // as a buffer; null: there are none
+
+    // Error: more samples than the context holds.
+    Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
 };
+
+// For shaders that read the buffer (shaders/lib/samples.glsl).
+constexpr const char* samplesInBuffer = "SAMPLES_IN_BUFFER";
 
 }  // namespace shoal

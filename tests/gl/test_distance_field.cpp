@@ -165,7 +165,7 @@ TEST_CASE("distance field: more samples than the context holds", "[contact][dist
     scene.colliders = {fieldOf(box({-1, -1, -1}, {1, 0, 1}), 8, 0, 1)};
     Plan plan = compile(scene);
     plan.sampleRows = 8 * testContext().info().maxTextureSize;  // refused before they are read
-    const std::string message = messageOf([&] { Tables(testContext(), plan); });
+    const std::string message = messageOf([&] { Tables(testContext(), plan, Tables::Form::texture); });
     CHECK(message.find("would fit at 47 % of their resolutions") != std::string::npos);
 }
 

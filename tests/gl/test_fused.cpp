@@ -119,7 +119,7 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
                              {.path = Path::fused, .inPlace = inPlace, .lanes = lanes});
             REQUIRE(whole.state().buffers->front().parts().size() == 1);
 
-            const Tables tables(context, plan);
+            const Tables tables(context, plan, Tables::Form::buffer);
             Fused split(context, shaders, plan, tables, {.drawn = true, .inPlace = inPlace, .lanes = lanes});
             split.state[0] = GroupBuffers(context, plan.groups[0], true, inPlace, 300);
             const std::vector<GroupBuffers::Part>& parts = split.state[0].parts();

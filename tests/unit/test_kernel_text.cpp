@@ -251,6 +251,22 @@ TEST_CASE("no slider changes a kernel's text", "[kernel]") {
     }
 }
 
+TEST_CASE("a height field is looked up once a vertex and substep, a plane where it is needed", "[kernel]") {
+    Scene scene = sceneOf(test::point(1));
+    scene.colliders.resize(1);
+    scene.colliders[0].shape = PlaneCollider{};
+    const auto lookUps = [&] {
+        return matches(kernelOf(scene), std::regex(R"(surfaceAt\(anchor, touchPosition)")).size() +
+               matches(kernelOf(scene), std::regex(R"(clearance\(anchor, touchPosition)")).size();
+    };
+    CHECK(lookUps() == 2);
+    HeightFieldCollider field;
+    field.columns = field.rows = 2;
+    field.heights = {0, 0, 0, 0};
+    scene.colliders[0].shape = field;
+    CHECK(lookUps() == 1);
+}
+
 TEST_CASE("a kernel holds the branches that the group needs, and no other", "[kernel]") {
     using Set = std::set<std::string>;
     const Set always{"LANES",          "BLOCK", "VERTICES",       "POSITION_ELEMENTS",
@@ -262,7 +278,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
     CHECK(definesOf(sceneOf(test::point(1))) == with({"RECORDS"}));
     CHECK(definesOf(sceneOf(test::leaf(100, 1))) == with({"RECORDS", "SPRINGS"}));
     const Set all = with({"RECORDS", "RELEASE", "PINS", "SPRINGS", "ACTUATION", "CONSTANTS", "FIELDS",
-                          "DIRECTIONAL_DRAG", "COLLIDE", "COMING_KICK"});
+                          "DIRECTIONAL_DRAG", "COLLIDE", "COMING_KICK", "SAMPLES_IN_BUFFER"});
     CHECK(definesOf(fullScene()) == all);
 
     struct Case {
