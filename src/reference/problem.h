@@ -29,6 +29,11 @@ struct Problem {
     std::vector<Force> forces{};        // those that act on it (reference/forces.h)
     std::vector<Collider> colliders{};  // pinned vertices pass through them
 
+    // m, what errors are shares of: of the molecule, or 1 where it is a point.
+    double size() const {
+        const double own = scale * molecule->size();
+        return own > 0 ? own : 1;
+    }
     bool pinned(size_t vertex) const { return held && molecule->vertices[vertex].pinned; }
 };
 

@@ -181,7 +181,7 @@ class Halving {
 
   private:
     Ended halve(double tolerance, int halvings) {
-        const double size = problem_.scale * problem_.molecule->size();
+        const double size = problem_.size();
         int64_t steps = firstSteps(problem_, duration_);
         bool settledBefore = next(steps).settled;
         std::vector<double> changes;

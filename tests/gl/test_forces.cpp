@@ -302,3 +302,71 @@ TEST_CASE("what a force presses on a collider rests there", "[forces]") {
         CHECK(glm::length(end.velocity[0]) < 1e-5);
     }
 }
+
+TEST_CASE("what is born within a frame has flown under the forces since its birth",
+          "[forces][fused][birth]") {
+    if (!test::canFuse()) return;
+    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, {});
+    scene.groups[0].count = 0;
+    Lifecycle& life = scene.groups[0].life.emplace();
+    life.capacity = 256;
+    Emitter& emitter = life.emitters.emplace_back();
+    emitter.rate = 517;
+    emitter.direction = {1, 0, 0};
+    emitter.speed = {1, 1};
+    setSteps(scene, 1 / 60.0, 2);
+    AttractForce even{.position = {1e4, 0, 0}, .strength = 3, .radius = 1e5};
+    even.falloff = AttractForce::Falloff::constant;
+    const auto speedsOff = [&](const ForceShape& shape, auto expected) {
+        scene.forces = {forceOf(shape)};
+        Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                              {.drawn = false, .path = Path::fused});
+        run(simulation, 20);
+        const GroupState state = simulation.save().groups[0];
+        double worst = 0;
+        int living = 0;
+        for (size_t i = 0; i < state.lives.size(); ++i) {
+            if (state.lives[i].y <= 0) continue;
+            ++living;
+            worst = std::max(worst, std::abs(double(state.velocities[i].x) - expected(state.lives[i].x)));
+        }
+        CHECK(living > 150);
+        return worst;
+    };
+    CHECK(speedsOff(even, [](double age) { return 1 + 3 * age; }) < 1e-5);
+    CHECK(speedsOff(ThrustForce{2, 1.5}, [](double age) { return std::min(std::exp(2 * age), 1.5); }) < 1e-5);
+}
+
+TEST_CASE("sliders of forces moved at random lose nothing", "[forces][fuzz]") {
+    std::vector<test::Item> items;
+    for (int i = 0; i < 40; ++i)
+        items.push_back(at({i % 7 - 3.5, i / 7 * 0.8, i % 3 - 1.2}, test::turned(), 0.75));
+    Scene scene = storm(SolverKind::leapfrog, items);
+    std::get<AttractForce>(scene.forces[0].shape).most = 50;
+    Collider ground;
+    ground.shape = PlaneCollider{{0, -5, 0}};
+    scene.colliders.push_back(ground);
+    Simulation simulation = test::simulationOf(scene);
+    uint32_t random = 7;
+    const auto next = [&] { return (random = random * 1664525u + 1013904223u) >> 8; };
+    for (int i = 0; i < 300; ++i) {
+        ForceControl& control = simulation.parameters.forces[next() % scene.forces.size()];
+        control.factor = double(next() % 801) / 100 - 4;  // the panel's limits
+        control.on = next() % 4 != 0;
+        control.position.reset();
+        if (next() % 3 == 0) control.position = glm::dvec3(next() % 9, next() % 9, next() % 9) - 4.0;
+        simulation.frame();
+    }
+    simulation.check();
+    // thrust of 0.8/s times 4 against drag, pulls of some 200 m/s^2: nothing is out of reach
+    for (ForceControl& control : simulation.parameters.forces)
+        control = {};
+    run(simulation, 120);
+    simulation.check();
+    const Snapshot now = simulation.snapshot(0);
+    CHECK(test::finite(now));
+    double furthest = 0;
+    for (const glm::dvec3& x : now.positions)
+        furthest = std::max(furthest, glm::length(x));
+    CHECK(furthest < 1e4);
+}
