@@ -116,7 +116,7 @@ ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Sna
             one.group = g;
             one.index = m;
             one.problem = problemOf(scene, plan.groups[g], m);
-            one.size = one.problem.scale * one.problem.molecule->size();
+            one.size = one.problem.size();
             one.start = one.end = stateOf(starts[g], m);
             molecules_.push_back(std::move(one));
         }
