@@ -49,7 +49,7 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Force& force = scene.forces[i];
         const std::string name = force.name.empty() ? concat(kindName(force.shape), " ", i + 1) : force.name;
-        forceNames_.push_back(force.mouse ? name + " (Shift, left)" : name);
+        forceNames_.push_back(force.mouse ? name + " (Shift)" : name);
     }
 }
 

@@ -2,6 +2,8 @@
 // group pays for what, and the shader's formulas, compiled as C++, against the double reference.
 #include <cmath>
 
+#include "compile/path.h"
+#include "core/json.h"
 #include "reference/forces.h"
 #include "scene/scene_file.h"
 #include "simulate/force_parameters.h"
@@ -228,6 +230,17 @@ TEST_CASE("a group pays for the forces that act on it", "[forces][kernel]") {
         .position = {7, 8, 9}, .strength = -3, .radius = 1, .most = 5};
     std::get<ThrustForce>(moved.forces[1].shape) = {-5, 11};
     CHECK(compile(moved).groups[1].forces.source == plan.groups[1].forces.source);
+}
+
+TEST_CASE("explain names the forces on each group", "[forces][plan]") {
+    const Plan plan = compile(Scenes().read(R"(
+      {"type": "attract", "name": "hive", "strength": 4, "most": 20, "groups": ["b"]},
+      {"type": "thrust", "rate": 2, "limit": 3}, {"type": "wind", "velocity": [1, 0, 0]})"));
+    const PathChoice fused{Path::fused, "of the test"}, pingPong{Path::pingPong, "of the test"};
+    CHECK_THAT(explain(plan, fused, false),
+               Contains("attract \"hive\", thrust\n") && Contains("thrust, wind\n"));
+    CHECK_THAT(explain(plan, pingPong, false), Contains("the other half of the thrust"));
+    CHECK(explainJson(plan, fused, false).find("groups")->items[1].find("forces")->items.size() == 2);
 }
 
 TEST_CASE("more forces than uniforms is one located error", "[forces][badInput]") {
