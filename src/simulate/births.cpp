@@ -341,7 +341,8 @@ void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
     if (!living.onGpu()) store(program, "FreeBits", 4, living.free);
     if (!living.deathRuns.empty()) store(program, "Died", 5, died_);
     store(program, "Control", 6, control_);
-    if (program.uses("samples")) program.texture("samples", 3, tables_->samples);
+    if (program.uses("samples") && tables_->sampleTexels)
+        program.texture("samples", 3, tables_->sampleTexels);
     int unit = 4;
     for (const Living::DeathRun& run : living.deathRuns) {
         const GroupBuffers& source = state[run.source];

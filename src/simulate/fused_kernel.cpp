@@ -50,7 +50,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     };
     const bool perLane = options.lanes == Lanes::molecule;
     define(true, "FUSED");
-    define(needs.fields || needs.collide, samplesInBuffer);
+    define(needs.fields || needs.collide || options.births, samplesInBuffer);
     define(!perLane, "SHARED_MOLECULE");
     define(options.software && perLane, "PAIRED_STORES");
     define(options.software && perLane, "UNIFORMS_IN_REGISTERS");

@@ -8,6 +8,7 @@
 
 #include "compile/birth_schedule.h"
 #include "gl/births.h"
+#include "scene/load_model.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 
@@ -115,7 +116,7 @@ TEST_CASE("places of emitters are uniform in their shapes", "[emission]") {
         model.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {1, 0, 1},      {0, 0, 1},
                                 {0, 1, 0}, {1, 1, 0}, {0, 1, 2.0 / 3}};
         model.mesh.triangles = {{0, 2, 1}, {0, 3, 2}, {4, 6, 5}};
-        finishMesh(model.mesh);
+        completeMesh(model.mesh);
         scene.models.push_back(model);
         emitter.from = Emitter::From::surface;
         emitter.model = 0;
