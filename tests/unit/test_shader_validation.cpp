@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "compile/generate.h"
+#include "compile/generate_forces.h"
 #include "gpu/shader_source.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/watchdog.h"
@@ -156,6 +157,20 @@ std::vector<Collider> everyCollider() {
     return out;
 }
 
+std::vector<Force> everyForce() {
+    std::vector<Force> out(5);
+    AttractForce even;
+    even.falloff = AttractForce::Falloff::constant;
+    out[0].shape = AttractForce{};
+    out[1].shape = even;
+    out[2].shape = VortexLineForce{};
+    out[3].shape = ThrustForce{};
+    out[4].shape = WindForce{};
+    for (Force& force : out)
+        force.name = "force\n}}} #error \\";  // must not leave its comment
+    return out;
+}
+
 // Every combination of the words given.
 std::vector<Defines> combinations(const Defines& words) {
     std::vector<Defines> out;
@@ -172,6 +187,7 @@ std::map<std::string, std::string> generate(const std::vector<Field>& fields,
                                             const std::vector<Collider>& colliders) {
     std::vector<glm::vec4> samples;
     return {{"generated/fields.glsl", generateFields(fields, samples).source},
+            {"generated/scene_forces.glsl", generateForces(everyForce(), "", true).source},
             {"generated/colliders.glsl", generateColliders(colliders, samples).source}};
 }
 
@@ -195,6 +211,7 @@ Scene leafScene(const Defines& words, SolverKind solver, FieldSampling sampling)
     if (has("release")) group.release = Release{1.0, 1.0, 0};
     if (has("fields")) scene.fields = everyField();
     if (has("colliders")) scene.colliders = everyCollider();
+    if (has("forces")) scene.forces = everyForce();
     scene.groups.push_back(std::move(group));
     return scene;
 }
@@ -211,6 +228,17 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     validator.addBoth("passes/fullscreen.vert", {});
     for (const Defines& set : combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "RECORDS"}))
         validator.addBoth("passes/advect.frag", set);
+    for (const Defines& set : combinations({"LEAPFROG", "FIELDS", "FORCES", "WIND"})) {
+        validator.addBoth("passes/advect.frag", set);
+        validator.addBoth("passes/stage.frag", set);
+    }
+    for (const Defines& set : combinations({"VERLET", "PINS"})) {
+        validator.addBoth("passes/thrust.frag", set);
+        Defines forced = set;
+        forced.emplace_back("FORCES");
+        validator.addBoth("passes/collide.frag", set);
+        validator.addBoth("passes/collide.frag", forced);
+    }
     for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
         validator.addBoth("passes/collide.frag", pins);
         for (Defines set : combinations({"LEAPFROG", "ACTUATION"})) {
@@ -310,6 +338,15 @@ TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
                     validator.addKernel(plan, options);
                 }
             }
+        }
+    }
+    for (const Solver& solver : solvers()) {
+        for (const char* more : {"colliders", "fields"}) {
+            const Plan plan = compile(leafScene({"springs", "triangles", "forces", "pins", more}, solver.kind,
+                                                FieldSampling::vertexSubstep));
+            for (const Lanes lanes : bothLanes)
+                if (lanes == Lanes::molecule || !solver.implicit)
+                    validator.addKernel(plan, {.lanes = lanes, .normals = true});
         }
     }
     Scene large = leafScene(all, SolverKind::leapfrog, FieldSampling::vertexSubstep);
