@@ -7,12 +7,14 @@
 
 flat in vec4 color;
 in vec3 place;
-#ifndef POINTS
+#if defined(POINTS) || defined(SPRITES)
+flat in vec2 pointMiddle;
+#endif
 #ifdef SPRITES
 flat in vec4 toSquare;
-#else
-in vec2 at;
 #endif
+#if !defined(POINTS) && !defined(SPRITES)
+in vec2 at;
 #endif
 #ifdef IMAGE
 flat in vec3 tiles;
@@ -50,14 +52,14 @@ void main()
 {
     vec4 shown = vec4(color.rgb, 1.0);  // a: what of the particle covers this pixel
 #if defined(POINTS) || defined(SPRITES)
-    vec2 onPoint = vec2(gl_PointCoord.x, 1.0 - gl_PointCoord.y) * 2.0 - 1.0;
+    vec2 off = gl_FragCoord.xy - pointMiddle;
 #endif
 #ifdef POINTS
-    vec2 at = onPoint * ((pixels + 1.0) / pixels);
+    vec2 at = off * (2.0 / pixels);
     shown.a = clamp((1.0 - length(at)) * 0.5 * pixels + 0.5, 0.0, 1.0);
 #else
 #ifdef SPRITES
-    vec2 at = mat2(toSquare.xy, toSquare.zw) * onPoint;
+    vec2 at = mat2(toSquare.xy, toSquare.zw) * off;
 #endif
 #ifdef IMAGE
     vec2 uv = at * 0.5 + 0.5;
@@ -112,7 +114,7 @@ void main()
     vec3 ball = vec3(at, sqrt(max(1.0 - dot(at, at), 0.0)));
 #if defined(POINTS) || defined(SPRITES)
 #ifdef SPRITES
-    ball.xy = onPoint * length(toSquare.xy);  // not turned with the picture
+    ball.xy = off * length(toSquare.xy);  // not turned with the picture
 #endif
     vec3 n = normalize(viewToScene * ball);
 #else

@@ -16,6 +16,7 @@
 uniform mat4 toClip;
 uniform mat3 viewToScene;      // columns: right, up, towards the eye
 uniform vec4 eyeAt;            // w 1: xyz the eye, m; w 0: xyz the direction towards it
+uniform vec2 pictureSize;      // pixels
 uniform float pixelsPerMeter;  // at a distance of one metre, or everywhere in the shadow map
 uniform float time;            // s
 
@@ -45,12 +46,15 @@ uniform float frameRate;
 
 flat out vec4 color;
 out vec3 place;  // m, relative to the origin of drawing
-#ifndef POINTS
-#ifdef SPRITES
-flat out vec4 toSquare;  // matrix by columns: from the point's own square to the particle's
-#else
-out vec2 at;
+#if defined(POINTS) || defined(SPRITES)
+// Not gl_PointCoord: rasterisers are free to be half a pixel off.
+flat out vec2 pointMiddle;  // pixels
 #endif
+#ifdef SPRITES
+flat out vec4 toSquare;  // matrix by columns: from pixels off the middle to the particle's square
+#endif
+#if !defined(POINTS) && !defined(SPRITES)
+out vec2 at;
 #endif
 #ifdef IMAGE
 flat out vec3 tiles;  // x one, y the next one, z its share
@@ -120,7 +124,7 @@ void main()
 
 #ifdef POINTS
     gl_Position = toClip * vec4(middle, 1.0);
-    gl_PointSize = pixels + 1.0;  // and half a pixel of soft edge all around
+    gl_PointSize = pixels + 2.0;  // and a pixel of edge all around
 #else
     float size = sizeSpan.x;
 #ifdef SIZES
@@ -141,9 +145,10 @@ void main()
 
 #ifdef SPRITES
     gl_Position = clip;
-    float square = abs(c) + abs(s);  // what encloses the turned one
-    gl_PointSize = square * max(shown, leastPixels);
-    toSquare = square * vec4(c, -s, s, c);
+    // What encloses the turned one, and a pixel of edge all around.
+    shown = max(shown, leastPixels);
+    gl_PointSize = (abs(c) + abs(s)) * shown + 2.0;
+    toSquare = 2.0 / shown * vec4(c, -s, s, c);
 #else
     int number = gl_VertexID & 3;
     at = vec2((number & 1) != 0 ? 1.0 : -1.0, (number & 2) != 0 ? 1.0 : -1.0);
@@ -177,6 +182,9 @@ void main()
     place = middle + right * (at.x * reach.x) + up * (at.y * reach.y);
     gl_Position = toClip * vec4(place, 1.0);
 #endif
+#endif
+#if defined(POINTS) || defined(SPRITES)
+    pointMiddle = (gl_Position.xy / gl_Position.w * 0.5 + 0.5) * pictureSize;
 #endif
     if (!drawn || color.a <= 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
 }

@@ -159,6 +159,7 @@ const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const Shado
     program.set("toClip", shadow.toClip());
     program.set("viewToScene", shadow.toScene());
     program.set("eyeAt", glm::vec4(shadow.toScene()[2], 0));
+    program.set("pictureSize", glm::vec2(float(shadow.depth().width())));
     program.set("pixelsPerMeter", shadow.pixelsPerMeter());
     program.set("time", float(time));
     program.set("leastCover", 0.5f);
@@ -175,6 +176,7 @@ const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInp
     program.set("toClip", eye.toClip);
     program.set("viewToScene", eye.viewToScene);
     program.set("eyeAt", glm::vec4(0, 0, 0, 1));
+    program.set("pictureSize", eye.size);
     program.set("pixelsPerMeter", eye.pixelsPerMeter);
     program.set("time", eye.time);
     setType(program);

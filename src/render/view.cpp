@@ -63,6 +63,7 @@ Eye::Eye(const View& view, int width, int height) : origin(view.eye) {
                        glm::dmat4(glm::transpose(toScene)));
     tangents = glm::vec2(tangent * aspect, tangent);
     pixelsPerMeter = float(height / (2 * tangent));
+    size = glm::vec2(width, height);
     nearest = float(near);
     time = float(view.time);
 }

@@ -39,6 +39,7 @@ struct Eye {
     glm::mat3 viewToScene{1};  // columns: right, up, towards the eye
     glm::vec2 tangents{1};     // of half the field of view
     float pixelsPerMeter = 1;  // at a distance of one metre
+    glm::vec2 size{1};         // pixels
     float nearest = 0;         // m: of the depth buffer, which holds 1 - nearest / depth
     float time = 0;            // s
 
