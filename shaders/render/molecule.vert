@@ -1,8 +1,9 @@
 // A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
-// Variants: TEXTURED, DEPTH_ONLY, and those of render/drawn.glsl.
+// Variants: TEXTURED, DEPTH_ONLY, and those of render/drawn.glsl and render/grown.glsl.
 
 #include "lib/molecule.glsl"
 #include "render/drawn.glsl"
+#include "render/grown.glsl"
 #include "render/instance_color.glsl"
 
 layout(location = 0) in vec2 cornerUv;
@@ -20,7 +21,7 @@ void main()
 {
     int molecule;
     bool drawn = findDrawn(molecule);
-    vec3 at = vertexPlace(molecule, gl_VertexID);
+    vec3 at = drawnPlace(molecule, gl_VertexID);
     uv = cornerUv;
 #ifndef DEPTH_ONLY
     place = at;

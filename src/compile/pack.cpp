@@ -12,12 +12,14 @@ glm::dvec3 latticePoint(const glm::dvec3& position) {
     return glm::floor(position * 16.0 + 0.5) / 16.0;
 }
 
-// Those at the start have their length of life from their seeds, as newborns do; the other places are free.
+// Those at the start have their length of life from their seeds, as newborns do, and are fully grown; the
+// other places are free.
 static void packLives(const Group& source, GroupPlan& group) {
     GroupState& start = group.start;
     const size_t places = size_t(group.count);
+    const double grown = source.life->grow;
     for (const uint32_t seed : group.constants.seeds)
-        start.lives.emplace_back(0.0f, float(lifeOf(source.life->life, seed)));
+        start.lives.emplace_back(float(grown), float(grown + lifeOf(source.life->life, seed)));
     start.positions.resize(places * size_t(group.vertexCount));
     start.velocities.resize(start.positions.size());
     start.anchors.resize(places);

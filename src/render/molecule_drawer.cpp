@@ -16,6 +16,10 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
         stream_ = {plan.vertexCount, false};
     else
         makeCorners(group.molecule);
+    if (group.life && !points_) {
+        grow_ = group.life->grow;
+        shrink_ = group.life->shrink;
+    }
     if (!points_ && !material_.texture.empty()) image_ = loadLeafImage(context, group.molecule);
     chooseShaders(lighting);
 }
@@ -40,6 +44,7 @@ void MoleculeDrawer::makeCorners(const Molecule& molecule) {
 void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     gpu::ProgramOptions& depth = depthOptions_;
     if (image_) depth.defines.push_back("TEXTURED");
+    if (grows()) depth.defines.push_back("GROWS");
     depth.vertex = points_ ? "render/points.vert" : "render/molecule.vert";
     depth.fragment = points_ ? "render/points.frag" : "render/molecule.frag";
     litOptions_ = depth;
@@ -53,6 +58,11 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     depth.label = name_ + " (shadow)";
 }
 
+void MoleculeDrawer::setGrowth(const gpu::Program& program) const {
+    constexpr float atOnce = 1e-6f;  // s
+    if (grows()) program.set("growTimes", glm::max(glm::vec2(grow_, shrink_), glm::vec2(atOnce)));
+}
+
 const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double) {
     const gpu::Program& program = this->program(depth_, depthOptions_, state);
     program.use();
@@ -62,6 +72,7 @@ const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const Shado
         program.texture("image", unit::image, image_);
         program.set("alphaCut", float(material_.alphaCut));
     }
+    setGrowth(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));
         program.set("pixelsPerMeter", shadow.pixelsPerMeter());
@@ -84,6 +95,7 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
         program.texture("image", unit::image, image_);
         program.set("alphaCut", float(material_.alphaCut));
     }
+    setGrowth(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));
         program.set("pixelsPerMeter", eye.pixelsPerMeter);

@@ -18,12 +18,15 @@ class MoleculeDrawer : public GroupDrawer {
   private:
     void makeCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);
+    bool grows() const { return grow_ > 0 || shrink_ > 0; }
+    void setGrowth(const gpu::Program& program) const;
 
     Material material_;
     glm::vec3 color_{0}, secondColor_{0};
     bool points_;
-    gpu::Buffer uvs_, indices_;  // none: points
-    gpu::Texture image_;         // none: plain colour
+    double grow_ = 0, shrink_ = 0;  // s (scene/emitter.h)
+    gpu::Buffer uvs_, indices_;     // none: points
+    gpu::Texture image_;            // none: plain colour
 };
 
 }  // namespace shoal

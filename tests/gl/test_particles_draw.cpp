@@ -163,7 +163,7 @@ TEST_CASE("particles grow with age, and the dead are not drawn", "[render][parti
 TEST_CASE("a particle shows the tile that it is to show", "[render][particles]") {
     const Scratch scratch;
     ParticleType type = disc();
-    type.image = ParticleImage{.columns = 3, .rows = 2};
+    type.image = ParticleImage{.file = {}, .columns = 3, .rows = 2};
     type.image->file =
         writeTiles(scratch, 3, 2, 8, [](int tile, int, int) { return plainColors[size_t(tile)]; });
     for (int tile = 0; tile < 6; ++tile) {
@@ -198,7 +198,7 @@ TEST_CASE("a particle shows the tile that it is to show", "[render][particles]")
 TEST_CASE("neighbouring tiles do not bleed, near or far", "[render][particles]") {
     const Scratch scratch;
     ParticleType type = disc();
-    type.image = ParticleImage{.columns = 3, .rows = 3, .firstTile = 4, .lastTile = 4};
+    type.image = ParticleImage{.file = {}, .columns = 3, .rows = 3, .firstTile = 4, .lastTile = 4};
     type.image->file =
         writeTiles(scratch, 3, 3, 15, [](int tile, int, int) { return plainColors[tile == 4 ? 1 : 0]; });
     for (const double size : {0.9, 0.2, 0.03}) {
@@ -216,7 +216,7 @@ TEST_CASE("a flip-book's frames fade into one another", "[render][particles]") {
     if (!canAge()) return;
     const Scratch scratch;
     ParticleType type = disc();
-    type.image = ParticleImage{.columns = 3, .rows = 1, .lastTile = 2, .flipBook = true};
+    type.image = ParticleImage{.file = {}, .columns = 3, .rows = 1, .lastTile = 2, .flipBook = true};
     type.image->file =
         writeTiles(scratch, 3, 1, 8, [](int tile, int, int) { return plainColors[size_t(tile)]; });
     const auto shown = [&](int frames) {
