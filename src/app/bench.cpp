@@ -172,6 +172,7 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
 int benchCommand(const Options& options) {
     if (options.benchOf == "sort") return benchSortCommand(options);
     if (options.benchOf == "collide") return benchCollideCommand(options);
+    if (options.benchOf == "particles") return benchParticlesCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
     gpu::ContextOptions contextOptions;

@@ -10,9 +10,10 @@ int runCommand(const Options& options);
 int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);
-int benchCommand(const Options& options);         // with a word after it: one of those below
-int benchSortCommand(const Options& options);     // shoal bench sort
-int benchCollideCommand(const Options& options);  // shoal bench collide
+int benchCommand(const Options& options);           // with a word after it: one of those below
+int benchSortCommand(const Options& options);       // shoal bench sort
+int benchCollideCommand(const Options& options);    // shoal bench collide
+int benchParticlesCommand(const Options& options);  // shoal bench particles
 int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
 

@@ -121,11 +121,11 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
 }
 
 // What `shoal bench` measures beside the simulation's frames, each in a file bench_<word>.cpp.
-const std::vector<std::string> benchWords = {"sort", "collide"};
+const std::vector<std::string> benchWords = {"sort", "collide", "particles"};
 
 void addBench(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("of", options.benchOf,
-                       "sort: the sorts; collide: contact; nothing: the simulation's frames");
+                       "sort: the sorts; collide: contact; particles: points; nothing: frames of molecules");
     addContext(command, options, texts);
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
     command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")
@@ -253,7 +253,7 @@ void checkBench(const Options& options) {
     const std::string& word = options.benchOf;
     if (std::find(benchWords.begin(), benchWords.end(), word) == benchWords.end())
         throw Error(concat("bench: unknown \"", word, "\"", suggestion(word, benchWords),
-                           "; expected sort, collide or nothing"));
+                           "; expected sort, collide, particles or nothing"));
     if (!options.plot.empty())
         throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")

@@ -49,7 +49,7 @@ struct Options {
     std::string screenshot;       // window: a picture of it after `frames`, then close
 
     // bench
-    std::string benchOf;  // "sort", "collide", or empty: the simulation's frames
+    std::string benchOf;  // "sort", "collide", "particles", or empty: the simulation's frames
     bool quick = false;
     std::optional<double> seconds;  // of measuring, each group of cases
     std::string only;               // cases with this in their name

@@ -43,6 +43,9 @@ struct V256 {
     SHOAL_INLINE static bool any(Mask a) { return _mm256_movemask_ps(a.m) != 0; }
     SHOAL_INLINE static V256 select(Mask m, V256 a, V256 b) { return {_mm256_blendv_ps(b.v, a.v, m.m)}; }
 
+    SHOAL_INLINE static V256 gather(const float* p, V256 at) {
+        return {_mm256_i32gather_ps(p, _mm256_cvtps_epi32(at.v), 4)};
+    }
     SHOAL_INLINE static void leave() { _mm256_zeroupper(); }
 };
 

@@ -50,6 +50,9 @@ struct V512 {
     SHOAL_INLINE static bool any(Mask a) { return a != 0; }
     SHOAL_INLINE static V512 select(Mask m, V512 a, V512 b) { return {_mm512_mask_blend_ps(m, b.v, a.v)}; }
 
+    SHOAL_INLINE static V512 gather(const float* p, V512 at) {
+        return {_mm512_i32gather_ps(_mm512_cvtps_epi32(at.v), p, 4)};
+    }
     SHOAL_INLINE static void leave() { _mm256_zeroupper(); }
 };
 

@@ -29,9 +29,26 @@ struct KernelStep {
 // `any`. Everything is aligned to 64 bytes.
 using Kernel = void (*)(float* blocks, int count, const KernelStep& step, float* scratch);
 
+// Particles: an array for each component, aligned to 64 bytes, with room for whole vectors.
+struct ParticleArrays {
+    float *x, *y, *z, *vx, *vy, *vz, *age;
+};
+
+// A step of all of them (measure/particle_yardstick.h).
+struct ParticleKernelStep {
+    float h, halfStep;
+    float decay, push[3];                         // as above
+    const float* heights;                         // null: nothing to fall on
+    float columns, low[2], perMetre[2], last[2];  // last: of the samples' indices
+    float highest;                                // m
+    float restitution, kept;                      // kept: share of the velocity along the surface
+};
+using ParticleKernel = void (*)(const ParticleArrays& particles, int count, const ParticleKernelStep& step);
+
 struct KernelSet {
     int lanes;
     Kernel quad, cross, fish, any;
+    ParticleKernel particles;
 };
 
 // Null where the compiler does not have the instructions. Data, so that asking runs none of them.

@@ -7,6 +7,7 @@
 //   fma(a, b, c) = a b + c, fnma = c - a b, fms = a b - c
 //   minimum, maximum, absolute, floored (nearest lower integer), inverse, inverseRoot
 //   less(a, b) -> Mask, both, either, no(Mask), any(Mask), select(Mask, ifSo, ifNot)
+//   gather(const float*, V): at whole numbers
 //   leave(): what the processor wants before narrower code goes on
 #pragma once
 
@@ -15,6 +16,8 @@
 
 #define SHOAL_BODY __attribute__((always_inline))  // of a lambda
 #define SHOAL_INLINE SHOAL_BODY inline
+
+#include "measure/particle_kernel.h"
 
 namespace shoal::measure {
 
@@ -323,7 +326,8 @@ void runAny(float* blocks, int count, const KernelStep& step, float* next) {
 
 template <class V>
 constexpr KernelSet kernelsOf() {
-    return {V::lanes, runInRegisters<V, Quad>, runInRegisters<V, Cross>, runInCache<V, Fish>, runAny<V>};
+    return {V::lanes,  runInRegisters<V, Quad>, runInRegisters<V, Cross>, runInCache<V, Fish>,
+            runAny<V>, moveParticles<V>};
 }
 
 }  // namespace shoal::measure

@@ -1,0 +1,237 @@
+#include "app/bench_particles_report.h"
+
+#include <algorithm>
+#include <cstdarg>
+#include <cstdio>
+#include <optional>
+
+namespace shoal::app {
+
+using namespace measure;
+
+namespace {
+
+using What = ParticleCase::What;
+
+__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...) {
+    char text[256];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    return text;
+}
+
+using Times = std::vector<ParticleTimes>;
+
+template <typename Which>
+const ParticleTimes* find(const Times& times, Which which) {
+    const auto found = std::find_if(times.begin(), times.end(), [&](const ParticleTimes& t) {
+        return t.leftOut.empty() && which(t.one);
+    });
+    return found == times.end() ? nullptr : &*found;
+}
+
+// Ratios and rates of the shortest times.
+struct Verdict {
+    std::string what;
+    double limit = 0;
+    bool atLeast = false;
+    std::optional<double> measured;
+};
+
+int largestSide(const Times& times) {
+    int out = 0;
+    for (const ParticleTimes& t : times)
+        out = std::max(out, t.one.side);
+    return out;
+}
+
+void addShares(const Times& times, std::vector<Verdict>& out) {
+    for (const ParticleTimes& quads : times) {
+        if (!quads.one.quads || !quads.leftOut.empty()) continue;
+        const ParticleTimes* points =
+            find(times, [&](const ParticleCase& one) { return one.group == quads.one.group && !one.quads; });
+        if (points)
+            out.push_back(
+                {"a point over its " + quads.one.group, 1.5, false, points->frame.min / quads.frame.min});
+    }
+}
+
+void addBirths(const Times& times, std::vector<Verdict>& out) {
+    for (const ParticleTimes& t : times) {
+        if (!t.one.allocator || !t.leftOut.empty()) continue;
+        if (*t.one.allocator == Allocator::heap)
+            out.push_back({"heap: places up to the last taken, over the living; " + t.one.group, 1.05, false,
+                           t.packing});
+        if (*t.one.allocator == Allocator::gpu)
+            out.push_back({"gpu: bytes over the bus a frame; " + t.one.group, 0, false, t.busBytes});
+    }
+}
+
+std::vector<Verdict> verdicts(const ParticleReport& report) {
+    std::vector<Verdict> out;
+    addShares(report.times, out);
+    const int side = largestSide(report.times);
+    const auto step = find(report.times, [&](const ParticleCase& one) {
+        return one.heights && one.side == side && one.what == What::step && !one.quads &&
+               one.frameRate == 60 && one.solver == SolverKind::leapfrog && !one.inPlace;
+    });
+    const std::string what = concat("steps a second of ", grouped(side * side), " over a height field");
+    out.push_back({what, 100, true, step ? std::optional(1 / step->frame.min) : std::nullopt});
+    const auto copy = find(report.times, [&](const ParticleCase& one) {
+        return one.heights && one.side == side && one.what == What::copy;
+    });
+    if (!report.context.software && step && copy)
+        out.push_back({"a step over a height field, over a copy of the state", 2, false,
+                       step->frame.min / copy->frame.min});
+    addBirths(report.times, out);
+    return out;
+}
+
+// ns: what births and deaths add, by the slope between two turnovers of one size.
+struct BirthCost {
+    std::string how;
+    int side = 0;
+    double nanoseconds = 0;
+};
+
+std::vector<BirthCost> birthCosts(const Times& times) {
+    std::vector<BirthCost> out;
+    for (const ParticleTimes& many : times) {
+        if (many.one.turnover < 0.1 || !many.leftOut.empty()) continue;
+        const ParticleTimes* few = find(times, [&](const ParticleCase& one) {
+            return one.side == many.one.side && one.label == many.one.label && one.turnover > 0 &&
+                   one.turnover < many.one.turnover;
+        });
+        if (!few) continue;
+        const double more = (many.one.turnover - few->one.turnover) * many.one.count();
+        out.push_back({many.one.label, many.one.side, (many.frame.min - few->frame.min) * 1e9 / more});
+    }
+    return out;
+}
+
+std::string timesText(const Times& all) {
+    std::string out, group;
+    for (const ParticleTimes& t : all) {
+        if (t.one.group != group) {
+            group = t.one.group;
+            out += print("\n%s; ms a frame, shortest (median)\n  %-40s%18s%10s%9s%8s%12s%11s\n",
+                         group.c_str(), "", "", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
+        }
+        out += print("  %-40s", t.one.label.c_str());
+        if (!t.leftOut.empty()) {
+            out += " left out: " + t.leftOut + "\n";
+            continue;
+        }
+        out += print("%9.3f (%6.4g)%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3, 1 / t.frame.min,
+                     t.perParticle() * 1e9);
+        out +=
+            t.movedBytes > 0 ? print("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min) : print("%8s", "");
+        out += t.error ? print("%12.1e", *t.error) : print("%12s", "");
+        if (t.one.published > 0) out += print("%11g", t.one.published);
+        out += "\n";
+    }
+    return out;
+}
+
+std::string birthsText(const Times& all) {
+    std::string out;
+    for (const ParticleTimes& t : all) {
+        if (!t.one.allocator || !t.leftOut.empty()) continue;
+        if (out.empty())
+            out = print("\n%-56s%10s%10s%9s%9s%12s\n", "births", "living", "born", "lost", "packing",
+                        "bus bytes");
+        out += print("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.one.name().c_str(), t.live, t.born, t.lost,
+                     t.packing, t.busBytes);
+    }
+    if (!out.empty())
+        out += "  a frame; packing: places up to the last that is taken, over the living; at most\n";
+    for (const BirthCost& cost : birthCosts(all))
+        out += print("  a birth and a death, %-32s %4d x %-4d %6.1f ns\n", cost.how.c_str(), cost.side,
+                     cost.side, cost.nanoseconds);
+    return out;
+}
+
+JsonValue number(double value) {
+    return JsonValue::makeNumber(value);
+}
+
+JsonValue asJson(const ParticleTimes& t) {
+    JsonValue out = JsonValue::makeObject();
+    out.add("group", JsonValue::makeString(t.one.group))
+        .add("case", JsonValue::makeString(t.one.label))
+        .add("side", number(t.one.side));
+    if (!t.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(t.leftOut));
+    out.add("solver", JsonValue::makeString(name(t.one.solver)))
+        .add("substeps", number(t.one.substeps))
+        .add("minSeconds", number(t.frame.min))
+        .add("medianSeconds", number(t.frame.median))
+        .add("samples", number(t.frame.samples))
+        .add("nanosecondsPerParticle", number(t.perParticle() * 1e9))
+        .add("movedBytesPerFrame", t.movedBytes > 0 ? number(double(t.movedBytes)) : JsonValue())
+        .add("busBytesPerFrame", number(t.busBytes))
+        .add("positionError", t.error ? number(*t.error) : JsonValue())
+        .add("publishedFramesPerSecond", t.one.published > 0 ? number(t.one.published) : JsonValue());
+    if (!t.one.allocator) return out;
+    return out.add("allocator", JsonValue::makeString(name(*t.one.allocator)))
+        .add("turnover", number(t.one.turnover))
+        .add("living", number(t.live))
+        .add("bornPerFrame", number(t.born))
+        .add("lostPerFrame", number(t.lost))
+        .add("packing", number(t.packing));
+}
+
+constexpr const char* papers =
+    "UberFlow: frames a second with drawing, table 2 (Kipfer, Segal, Westermann 2004; ATI Radeon 9800 Pro,\n"
+    "  Pentium 4 of 2 GHz; its loop on the CPU stands beside std::sort).\n"
+    "Latta 2004, section 4, states no times: 1024 x 1024 particles \"in real-time only with few effects and\n"
+    "  without sorting\", 512 x 512 with all of them, on the first graphics cards with floating point.\n";
+
+}  // namespace
+
+std::string asText(const ParticleReport& report) {
+    std::string out =
+        print("%s, %d %s; ", report.processor.c_str(), report.cores, report.cores == 1 ? "core" : "cores");
+    out += report.context.renderer + ", OpenGL " + report.context.version;
+    if (report.pinned > 0) out += print("; %d rasteriser threads pinned", report.pinned);
+    out += "\n" + timesText(report.times) + birthsText(report.times) + "\n" + papers + "\n";
+    for (const Verdict& verdict : verdicts(report))
+        out += verdict.what + ": " +
+               (verdict.measured ? print("%.4g (wanted: at %s %g)\n", *verdict.measured,
+                                         verdict.atLeast ? "least" : "most", verdict.limit)
+                                 : std::string("not measured\n"));
+    return out;
+}
+
+JsonValue asJson(const ParticleReport& report) {
+    JsonValue cases = JsonValue::makeArray(), costs = JsonValue::makeArray(),
+              targets = JsonValue::makeArray();
+    for (const ParticleTimes& times : report.times)
+        cases.items.push_back(asJson(times));
+    for (const BirthCost& cost : birthCosts(report.times))
+        costs.items.push_back(JsonValue::makeObject()
+                                  .add("case", JsonValue::makeString(cost.how))
+                                  .add("side", number(cost.side))
+                                  .add("nanoseconds", number(cost.nanoseconds)));
+    for (const Verdict& verdict : verdicts(report)) {
+        JsonValue one = JsonValue::makeObject();
+        one.add("target", JsonValue::makeString(verdict.what))
+            .add(verdict.atLeast ? "atLeast" : "atMost", number(verdict.limit))
+            .add("measured", verdict.measured ? number(*verdict.measured) : JsonValue());
+        targets.items.push_back(std::move(one));
+    }
+    JsonValue out = JsonValue::makeObject();
+    return out.add("version", JsonValue::makeString(SHOAL_VERSION))
+        .add("processor", JsonValue::makeString(report.processor))
+        .add("cores", number(report.cores))
+        .add("pinnedRasteriserThreads", number(report.pinned))
+        .add("renderer", JsonValue::makeString(report.context.renderer))
+        .add("openGL", JsonValue::makeString(report.context.version))
+        .add("secondsAGroup", number(report.secondsAGroup))
+        .add("cases", std::move(cases))
+        .add("birthCosts", std::move(costs))
+        .add("targets", std::move(targets));
+}
+
+}  // namespace shoal::app
