@@ -394,11 +394,11 @@ TEST_CASE("light is added and filters multiply, above 1 too", "[render][particle
     const glm::dvec3 sky = radianceOf(middleOf(emptied(scene)));
     checkShows(draw(scene), sky + glm::dvec3(3, 0.5, 0));
     type.blend = Blend::multiplicative;
-    type.colors[0] = {0, {0.5, 1, 0}, 1};
+    type.colors[0] = {0, {0.5, 1, 0}, 0.5};
     scene = sceneOfParticles(type, {{0, 0, 0}, {0, 0, 0.01}});
     scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::dvec3(0.5);
     const glm::dvec3 bright = radianceOf(middleOf(emptied(scene)));
-    checkShows(draw(scene), bright * glm::dvec3(0.25, 1, 0));
+    checkShows(draw(scene), bright * glm::dvec3(0.5625, 1, 0.25));
 }
 
 TEST_CASE("opaque particles cast shadows, blended ones do not", "[render][particles]") {
