@@ -15,7 +15,7 @@ int covered(const Scene& scene, int frames) {
     for (int y = 0; y < image.height; ++y) {
         for (int x = 0; x < image.width; ++x) {
             const glm::ivec3 p = pixel(image, x, y);
-            out += p.r > p.b + 20;
+            out += p.r > p.g + 30;
         }
     }
     return out;
@@ -49,6 +49,7 @@ TEST_CASE("those at the start are grown", "[births][picture]") {
     if (!canBear()) return;
     Scene scene = sceneOfSquares({{0, 0, 0}}, 1.2);
     const int plain = covered(scene, 1);
+    REQUIRE(plain > 1000);
     Lifecycle& life = scene.groups[0].life.emplace();
     life.capacity = 1;
     life.life = {1, 1};
