@@ -420,6 +420,33 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
     validator.check();
 }
 
+TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    const std::vector<Defines> shapes = {
+        {"POINTS"},
+        {"SPRITES", "SIZES", "TURNS", "IMAGE", "TILES"},
+        {"SIZES", "GROWS", "TURNS", "COLORS", "IMAGE", "FLIP_AGAIN", "FADES", "LIFE"},
+        {"FACING_VELOCITY", "COLORS", "LIFE"},
+        {"FACING_FREE", "TURNS", "IMAGE", "FLIP_ONCE", "LIFE"}};
+    const std::vector<Defines> looks = {{"DEPTH_ONLY"},
+                                        {"LIT"},
+                                        {"BLENDED", "LIT", "SHADOWS", "SOFT", "HAZE", "ORDERED", "SLABS"},
+                                        {"BLENDED", "ADDS", "SOFT", "HAZE", "ORDERED", "SLAB_DRAWS"},
+                                        {"BLENDED", "FILTERS", "HAZE", "LINEAR_LIGHT"}};
+    for (const Defines& shape : shapes) {
+        for (Defines set : looks) {
+            const bool quads = shape[0] != "POINTS" && shape[0] != "SPRITES";
+            set.insert(set.end(), shape.begin(), shape.end());
+            set.insert(set.end(), {"STATE_WIDTH 1024", "BATCH 64", quads ? "CORNERS 4" : "CORNERS 1"});
+            validator.add("particles/particle.vert", set, gpu::header330());
+            validator.add("particles/particle.frag", set, gpu::header330());
+        }
+    }
+    CHECK(validator.count() == 50);
+    validator.check();
+}
+
 TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
