@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "core/random.h"
@@ -10,6 +11,17 @@ namespace shoal {
 
 glm::dvec3 latticePoint(const glm::dvec3& position) {
     return glm::floor(position * 16.0 + 0.5) / 16.0;
+}
+
+// What the allocators on the CPU begin with: the first places first.
+static void packBooks(const Lifecycle& life, GroupState& start) {
+    const bool stack = life.allocator == Allocator::stack;
+    if (life.emitters.empty() || (!stack && life.allocator != Allocator::heap)) return;
+    for (const glm::vec2& one : start.lives)
+        start.ends.push_back(one.y > 0 ? double(one.y - one.x) : -std::numeric_limits<double>::infinity());
+    for (size_t place = start.lives.size(); stack && place-- > 0;)
+        if (start.lives[place].y <= 0) start.freed.push_back(uint32_t(place));
+    if (stack) start.freed.resize(start.lives.size());
 }
 
 // Those at the start have their length of life from their seeds, as newborns do, and are fully grown; the
@@ -30,6 +42,7 @@ static void packLives(const Group& source, GroupPlan& group) {
     start.seeds = group.constants.seeds;
     for (size_t i = 0; i < places; ++i)
         start.looks.emplace_back(group.constants.scales[i], group.constants.phases[i]);
+    packBooks(*source.life, start);
     start.clocks.resize(source.life->emitters.size());
     start.totals.resize(2);
 }

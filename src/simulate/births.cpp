@@ -423,11 +423,7 @@ void Births::write(size_t group, const GroupState& state, double time) {
     living.lost = living.listed() ? state.totals[1] : 0;
     if (!living.bear || living.onGpu() || !living.listed()) return;
     living.book = Places(living.allocator(), size_t(living.plan->count));
-    std::vector<double> ends = state.ends;
-    for (size_t m = ends.size(); m < state.lives.size(); ++m)
-        ends.push_back(state.lives[m].y > 0 ? time + double(state.lives[m].y - state.lives[m].x)
-                                            : -std::numeric_limits<double>::infinity());
-    living.book.restore(ends, state.freed, time);
+    living.book.restore(state.ends, state.freed, time);
 }
 
 uint64_t Births::bornOf(const Living& living, const uint32_t* words) {

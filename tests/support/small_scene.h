@@ -66,7 +66,20 @@ inline const char* const smallScene = R"({
      "turn": "any"}, "stiffness": 2, "damping": 3, "color": [1, 0, 0], "secondColor": [0, 1, 0]},
     {"molecule": "blade.json", "place": {"on": "grid", "spacing": [1, 1, 1], "cells": [2, 3, 4], "scale": 3}},
     {"molecule": "blade.json", "place": {"on": "list", "items": [
-      {"position": [1, 2, 3], "rotation": [0, 0, 2, 2], "scale": 2}, {}]}}
+      {"position": [1, 2, 3], "rotation": [0, 0, 2, 2], "scale": 2}, {}]}},
+    {"name": "born", "molecule": "blade.json", "held": false,
+     "life": {"span": [0.5, 1], "capacity": 40, "allocator": "stack", "scale": [0.5, 1], "turn": "yaw",
+              "spin": [1, 0, 1], "grow": 0.1, "shrink": 0.2,
+              "dies": {"outside": {"low": [-9, -9, -9], "high": [9, 9, 9]}, "afterContact": 0.25}},
+     "emitters": [
+       {"from": "surface", "model": "hill", "select": {"object": "ground"}, "rate": 20, "begin": 0.1, "until": 2},
+       {"from": "disc", "position": [0, 1, 0], "radius": 1, "hollow": 0.5, "rate": 3, "random": true,
+        "direction": [1, 1, 0], "spread": 0.5, "speed": [1, 2], "inherit": 0.5,
+        "path": {"keyframes": [{"time": 0}, {"time": 1, "position": [0, 1, 0]}]}},
+       {"from": "box", "box": {"low": [0, 0, 0], "high": [1, 0, 1]}, "bursts": [{"time": 0.1, "count": 3, "every": 0.5}]}]},
+    {"name": "sparks", "particle": {"mass": 0.001, "size": [0.01, 0.02], "blend": "additive",
+     "colors": [{"color": [3, 2, 1]}, {"age": 1, "opacity": 0}]},
+     "life": {"span": 0.3, "capacity": 20}, "emitters": [{"from": "death", "of": "born", "count": 2, "speed": 1}]}
   ],
   "camera": {"eye": [1, 2, 3], "target": [0, 0, 0], "fieldOfView": 1, "exposure": 2},
   "light": {"direction": [0, -2, 0], "color": [1, 1, 1], "intensity": 1, "shadows": false},

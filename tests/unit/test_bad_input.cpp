@@ -83,7 +83,7 @@ TEST_CASE("bad input: scenes that are not scenes", "[badInput]") {
     CHECK_THAT(whole("{\"format\": \"shoal-scene-1\"}"), Contains("\"groups\""));
     CHECK_THAT(whole("{\"format\": \"shoal-scene-1\",\n\"groups\": []}"),
                Contains("s.json:2:11: expected at least one group"));
-    CHECK_THAT(wrong.scene("\"camera\"", "\"camera\" 5"), Contains("s.json:42:"));
+    CHECK_THAT(wrong.scene("\"camera\"", "\"camera\" 5"), Contains("s.json:55:"));
     CHECK_THAT(wrong.scene("\"gravity\"", "\"gravty\""),
                Contains("gravty") && Contains("did you mean \"gravity\"?"));
     CHECK_THAT(wrong.scene("\"substeps\"", "\"subSteps\""),
@@ -145,7 +145,7 @@ TEST_CASE("bad input: values of a scene", "[badInput]") {
         {"\"tangent\": 1}", "\"tangnt\": 1}", "\"tangent\"", "$.groups[0].drag"},
         {"[0, 0, 2, 2]", "[0, 0, 0, 0]", "expected a quaternion", "found zero"},
         {"[0, 0, 2, 2]", "[0, 0, 2]", "expected a quaternion [x, y, z, w], found 3 numbers", ""},
-        {"\"target\": [0, 0, 0]", "\"target\": [1, 2, 3]", "s.json:42:", "eye and target apart"},
+        {"\"target\": [0, 0, 0]", "\"target\": [1, 2, 3]", "s.json:55:", "eye and target apart"},
         {"{\"type\": \"abc\"", "{\"name\": \"wind\", \"type\": \"abc\"", "the name \"wind\" is already taken",
          ""},
     };

@@ -116,7 +116,7 @@ TEST_CASE("a checkpoint of another scene names what differs", "[checkpoint]") {
         std::function<void(Scene&)> change;
     };
     const Case cases[] = {
-        {"it had 5 groups, this one has 4", [](Scene& s) { s.groups.pop_back(); }},
+        {"it had 7 groups, this one has 6", [](Scene& s) { s.groups.pop_back(); }},
         {"its group 1 was \"on it\", here it is \"twigs\"", [](Scene& s) { s.groups[0].name = "twigs"; }},
         {"its group \"on it\" had 3 molecules, here it has 2", [](Scene& s) { s.groups[0].count = 2; }},
         {"its group \"on it\" had molecules of 3 vertices, here they have 4",

@@ -97,7 +97,7 @@ TEST_CASE("a scene's models and colliders", "[scene]") {
 TEST_CASE("a scene's groups", "[scene]") {
     const Scratch scratch;
     const Scene scene = readScene(writeSmallScene(scratch));
-    REQUIRE(scene.groups.size() == 5);
+    REQUIRE(scene.groups.size() == 7);
     const Group& first = scene.groups[0];
     CHECK(first.name == "on it");
     CHECK(first.molecule.vertices.size() == 3);
