@@ -28,6 +28,8 @@ class JsonValue {
     Kind kind = Kind::null;
     int line = 0, column = 0;        // where the value begins, from 1; columns count bytes
     int keyLine = 0, keyColumn = 0;  // where its key begins, for an object's members
+    size_t begin = 0, end = 0;       // its bytes in the text; 0, 0: it was not read
+    size_t keyBegin = 0;             // of its key
     bool boolean = false;
     double number = 0;
     std::string text;                 // a string's characters, or a number as it was written
@@ -70,6 +72,7 @@ JsonValue readJson(const std::string& file);
 // ends with a newline. Numbers are written in the shortest form that reads back as the same double; what is
 // not finite, which JSON cannot say, becomes null.
 std::string writeJson(const JsonValue& value);
+std::string writeJsonLine(const JsonValue& value);  // on one line, without a newline
 // `fresh` with its keys in the order of `original` and with the comments that only `original` has, so that
 // saving a file again changes what changed and no more. Elements of arrays are matched by index.
 JsonValue inOrderOf(const JsonValue& original, JsonValue fresh);

@@ -23,6 +23,7 @@ constexpr size_t maxFileBytes = size_t{1} << 28;
 
 struct Position {
     int line = 1, column = 1;
+    size_t offset = 0;
 };
 
 // Turns growing offsets into lines and columns in one sweep.
@@ -36,7 +37,7 @@ class LineCounter {
             ++line_;
             lineStart_ = offset_ + 1;
         }
-        return {line_, static_cast<int>(offset_ - lineStart_) + 1};
+        return {line_, static_cast<int>(offset_ - lineStart_) + 1, offset_};
     }
 
   private:
@@ -51,7 +52,9 @@ Position positionOf(std::string_view text, size_t offset) {
 
 class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
   public:
-    TreeBuilder(std::string_view text, const std::string& file) : text_(text), file_(file), lines_(text) {}
+    // `skipped` bytes of the file come before the text.
+    TreeBuilder(std::string_view text, const std::string& file, size_t skipped)
+        : text_(text), file_(file), skipped_(skipped), lines_(text) {}
 
     JsonValue takeRoot() { return std::move(root_); }
 
@@ -86,6 +89,7 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
   private:
     struct Open {
         JsonValue value;
+        Position start;
         std::string key;  // of the member being read
         Position keyAt;
         std::unordered_set<std::string> seen;
@@ -130,23 +134,23 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
         const Position start = nextToken();
         if (open_.size() >= maxDepth) fail(start, concat("is nested deeper than ", maxDepth, " levels"));
         ++last_;
-        value.line = start.line;
-        value.column = start.column;
-        open_.push_back({std::move(value), {}, {}, {}});
+        open_.push_back({std::move(value), start, {}, {}, {}});
         return true;
     }
     bool leave() {
         nextToken();
         ++last_;
         JsonValue value = std::move(open_.back().value);
+        const Position start = open_.back().start;
         open_.pop_back();
-        const Position start{value.line, value.column};
         place(std::move(value), start);
         return true;
     }
     void place(JsonValue value, Position start) {
         value.line = start.line;
         value.column = start.column;
+        value.begin = skipped_ + start.offset;
+        value.end = skipped_ + last_;
         if (open_.empty()) {
             root_ = std::move(value);
             return;
@@ -158,11 +162,13 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
         }
         value.keyLine = parent.keyAt.line;
         value.keyColumn = parent.keyAt.column;
+        value.keyBegin = skipped_ + parent.keyAt.offset;
         parent.value.members.push_back({parent.key, std::move(value)});
     }
 
     std::string_view text_;
     const std::string& file_;
+    size_t skipped_;
     LineCounter lines_;
     size_t last_ = 0;  // just behind the previous token
     std::vector<Open> open_;
@@ -230,7 +236,7 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
         throw Error({file, position.line, position.column, {}}, "expected JSON, found a zero byte");
     }
     rapidjson::StringStream stream(text.data());
-    TreeBuilder builder(text, file);
+    TreeBuilder builder(text, file, source.size() - text.size());
     rapidjson::Reader reader;
     constexpr unsigned flags = rapidjson::kParseIterativeFlag | rapidjson::kParseNumbersAsStringsFlag |
                                rapidjson::kParseValidateEncodingFlag;

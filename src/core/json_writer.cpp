@@ -177,6 +177,12 @@ std::string writeJson(const JsonValue& value) {
     return out + "\n";
 }
 
+std::string writeJsonLine(const JsonValue& value) {
+    std::string out;
+    writeLine(value, out);
+    return out;
+}
+
 JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
     if (original.kind != fresh.kind) return fresh;
     for (size_t i = 0; i < fresh.items.size() && i < original.items.size(); ++i)

@@ -92,4 +92,8 @@ struct Lifecycle {
     Location location;
 };
 
+// The capacity of a file that gives none: as many as can be alive at once, and a twentieth more, with `count`
+// at the start. Nothing where nobody can say, or where they are more than a group may have.
+std::optional<int> usualCapacity(int count, const Lifecycle& life);
+
 }  // namespace shoal

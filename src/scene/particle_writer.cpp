@@ -2,35 +2,13 @@
 
 #include <filesystem>
 
+#include "scene/key_writer.h"
+
 namespace shoal {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// Writes keys into an object.
-class Keys {
-  public:
-    JsonValue object = JsonValue::makeObject();
-
-    void number(const char* key, double value, double unless) {
-        if (value != unless) object.add(key, JsonValue::makeNumber(value));
-    }
-    void flag(const char* key, bool value, bool unless) {
-        if (value != unless) object.add(key, JsonValue::makeBoolean(value));
-    }
-    void word(const char* key, const char* value, bool unless) {
-        if (!unless) object.add(key, JsonValue::makeString(value));
-    }
-    void vector(const char* key, const glm::dvec3& value, const glm::dvec3& unless) {
-        if (value != unless) object.add(key, JsonValue::makeVector(value));
-    }
-    // As getSpan reads it.
-    void span(const char* key, const glm::dvec2& value, const glm::dvec2& unless) {
-        if (value == unless) return;
-        object.add(key, value.x == value.y ? JsonValue::makeNumber(value.x) : JsonValue::makeVector(value));
-    }
-};
 
 std::string relativeTo(const std::string& sceneFile, const std::string& file) {
     const fs::path folder = fs::path(sceneFile).parent_path();
@@ -42,7 +20,7 @@ std::string relativeTo(const std::string& sceneFile, const std::string& file) {
 JsonValue write(const std::vector<ColorKey>& colors) {
     JsonValue out = JsonValue::makeArray();
     for (const ColorKey& color : colors) {
-        Keys keys;
+        KeyWriter keys;
         if (!out.items.empty() || color.age != 0) keys.object.add("age", JsonValue::makeNumber(color.age));
         keys.vector("color", color.color, ColorKey().color);
         keys.number("opacity", color.opacity, ColorKey().opacity);
@@ -52,7 +30,7 @@ JsonValue write(const std::vector<ColorKey>& colors) {
 }
 
 JsonValue write(const ParticleImage& image, const std::string& sceneFile) {
-    Keys keys;
+    KeyWriter keys;
     keys.object.add("file", JsonValue::makeString(relativeTo(sceneFile, image.file)));
     keys.number("columns", image.columns, 1);
     keys.number("rows", image.rows, 1);
@@ -72,9 +50,9 @@ bool isWhite(const std::vector<ColorKey>& colors) {
            colors[0].opacity == 1;
 }
 
-void writeShape(Keys& keys, const ParticleType& type) {
+void writeShape(KeyWriter& keys, const ParticleType& type) {
     const ParticleType usual;
-    keys.word("shape", name(type.shape), type.shape == usual.shape);
+    if (type.shape != usual.shape) keys.word("shape", name(type.shape));
     if (type.shape == ParticleShape::points) return keys.number("pixels", type.pixels, usual.pixels);
     keys.span("size", type.size, usual.size);
     if (type.growth.x == 1)
@@ -82,7 +60,8 @@ void writeShape(Keys& keys, const ParticleType& type) {
     else
         keys.object.add("growth", JsonValue::makeVector(type.growth));
     const bool quads = type.shape == ParticleShape::quads;
-    if (quads) keys.word("facing", name(type.facing), type.facing == usual.facing);
+    if (quads)
+        if (type.facing != usual.facing) keys.word("facing", name(type.facing));
     if (quads && type.facing == ParticleFacing::velocity)
         return keys.number("stretch", type.stretch, usual.stretch);
     keys.span("turn", type.turn, usual.turn);
@@ -93,15 +72,15 @@ void writeShape(Keys& keys, const ParticleType& type) {
 
 JsonValue writeParticle(const ParticleType& type, const std::string& sceneFile) {
     const ParticleType usual;
-    Keys keys;
+    KeyWriter keys;
     keys.number("mass", type.mass, usual.mass);
     writeShape(keys, type);
     if (!isWhite(type.colors)) keys.object.add("colors", write(type.colors));
     if (type.image && type.shape != ParticleShape::points)
         keys.object.add("image", write(*type.image, sceneFile));
-    keys.word("blend", name(type.blend), type.blend == usual.blend);
+    if (type.blend != usual.blend) keys.word("blend", name(type.blend));
     if (type.blend == Blend::alpha) {
-        keys.word("sort", name(type.sort), type.sort == usual.sort);
+        if (type.sort != usual.sort) keys.word("sort", name(type.sort));
         if (type.sort == DrawSort::spread) keys.number("spreadFrames", type.spreadFrames, usual.spreadFrames);
     }
     if (type.blend != Blend::none) keys.number("softness", type.softness, usual.softness);

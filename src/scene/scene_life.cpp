@@ -138,9 +138,13 @@ void readNewborn(JsonReader& r, const Group& group, Lifecycle& life) {
     r.get("shrink", life.shrink, Range::atLeast(0));
 }
 
-// As many as can be alive at once, and a twentieth more.
-double mostAlive(const Group& group, const Lifecycle& life) {
-    double most = group.count;
+bool bearsFromDeaths(const Lifecycle& life) {
+    return std::any_of(life.emitters.begin(), life.emitters.end(),
+                       [](const Emitter& emitter) { return emitter.from == Emitter::From::death; });
+}
+
+double mostAlive(int count, const Lifecycle& life) {
+    double most = count;
     for (const Emitter& emitter : life.emitters) {
         most += emitter.rate * std::min(life.life.y, emitter.end - emitter.begin);
         for (const Burst& burst : emitter.bursts)
@@ -156,22 +160,17 @@ void readCapacity(JsonReader& group, std::optional<JsonReader>& r, const Group& 
                                                   of.count, ", found ", life.capacity));
         return;
     }
-    const bool fromDeaths =
-        std::any_of(life.emitters.begin(), life.emitters.end(),
-                    [](const Emitter& emitter) { return emitter.from == Emitter::From::death; });
-    const double most = mostAlive(of, life);
-    if (life.emitters.empty()) {
-        life.capacity = of.count;
-    } else if (fromDeaths || life.life.y >= longestLife || most > maxGroupCount) {
-        throw Error(group.here(), concat("expected a \"capacity\" in \"life\": ",
-                                         fromDeaths ? "what dies elsewhere sets how many are born"
-                                         : most > maxGroupCount && life.life.y < longestLife
-                                             ? concat("rate times span is ", most, ", more than the ",
-                                                      maxGroupCount, " that a group may have")
-                                             : "without a \"span\" nothing says how many may be alive"));
-    } else {
-        life.capacity = std::max(1, int(most));
+    if (const std::optional<int> usual = usualCapacity(of.count, life)) {
+        life.capacity = *usual;
+        return;
     }
+    const bool fromDeaths = bearsFromDeaths(life), tooMany = life.life.y < longestLife;
+    throw Error(group.here(),
+                concat("expected a \"capacity\" in \"life\": ",
+                       fromDeaths ? "what dies elsewhere sets how many are born"
+                       : tooMany  ? concat("rate times span is ", mostAlive(of.count, life),
+                                           ", more than the ", maxGroupCount, " that a group may have")
+                                  : "without a \"span\" nothing says how many may be alive"));
 }
 
 }  // namespace
@@ -179,6 +178,13 @@ void readCapacity(JsonReader& group, std::optional<JsonReader>& r, const Group& 
 const char* name(Allocator allocator) {
     static constexpr const char* names[] = {"gpu", "ring", "stack", "heap"};
     return names[size_t(allocator)];
+}
+
+std::optional<int> usualCapacity(int count, const Lifecycle& life) {
+    if (life.emitters.empty()) return count;
+    const double most = mostAlive(count, life);
+    if (bearsFromDeaths(life) || life.life.y >= longestLife || !(most <= maxGroupCount)) return {};
+    return std::max(1, int(most));
 }
 
 const char* name(Emitter::From from) {

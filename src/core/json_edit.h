@@ -1,0 +1,31 @@
+// Changes a JSON file where something changed and nowhere else: its layout, comments, key order and the way
+// in which numbers are written stay.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+
+namespace shoal {
+
+// Bytes [begin, end) of a text become `with`.
+struct TextChange {
+    size_t begin = 0, end = 0;
+    std::string with;
+};
+
+// Carries what differs between `before` and `after` over to `original`, which was read from `text` and says
+// what `before` says, perhaps in other words: defaults that are spelt out, another order, comments. All three
+// of one kind. Elements of arrays go by their index, but for those that are left out or put in between equal
+// ones; an array of numbers is one value.
+void addChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
+                const JsonValue& after, std::vector<TextChange>& changes);
+
+// The changes must not overlap; those at one place keep their order.
+std::string withChanges(const std::string& text, std::vector<TextChange> changes);
+
+// The same words in the same order, wherever they stand. Of numbers, the value counts.
+bool sameJson(const JsonValue& a, const JsonValue& b);
+
+}  // namespace shoal
