@@ -54,6 +54,15 @@ void DrawnGroups::draw(const StateView& state, const DrawInputs& inputs) {
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
+bool DrawnGroups::changeParticle(size_t group, const ParticleType& type, const Lighting& lighting) {
+    for (Drawn& drawn : groups_) {
+        if (drawn.drawer->index() != group) continue;
+        auto* particles = dynamic_cast<ParticleDrawer*>(drawn.drawer.get());
+        return particles && particles->change(type, lighting);
+    }
+    return true;
+}
+
 const DrawOrder* DrawnGroups::orderOf(size_t group) const {
     for (const Drawn& drawn : groups_)
         if (drawn.drawer->index() == group) return drawn.order.get();

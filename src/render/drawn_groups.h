@@ -33,6 +33,9 @@ class DrawnGroups {
     void order(const StateView& state, const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
 
+    // Of a group of particles of the plan: ParticleDrawer::change. True where the group is not drawn.
+    bool changeParticle(size_t group, const ParticleType& type, const Lighting& lighting);
+
     const DrawOrder* orderOf(size_t group) const;  // of the plan; null: it has none. For tests
 
   private:

@@ -42,6 +42,12 @@ ParticleType effective(ParticleType type, double pixelsPerMeter, float maxPointS
     return type;
 }
 
+bool sameTiles(const std::optional<ParticleImage>& a, const std::optional<ParticleImage>& b) {
+    if (!a || !b) return a.has_value() == b.has_value();
+    return a->file == b->file && a->columns == b->columns && a->rows == b->rows &&
+           a->firstTile == b->firstTile && a->lastTile == b->lastTile;
+}
+
 }  // namespace
 
 ParticleDrawer::ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, const ParticleType& type,
@@ -49,10 +55,27 @@ ParticleDrawer::ParticleDrawer(gpu::Context& context, const std::string& shaderR
                                double pixelsPerMeter)
     : GroupDrawer(context, shaderRoot, plan, index),
       type_(effective(type, pixelsPerMeter, context.info().maxPointSize)),
+      pixelsPerMeter_(pixelsPerMeter),
       ages_(plan.needs.life) {
     if (type_.image) image_ = loadParticleImage(context, *type_.image);
     makeStream();
     chooseShaders(lighting);
+}
+
+bool ParticleDrawer::change(const ParticleType& type, const Lighting& lighting) {
+    ParticleType wanted = effective(type, pixelsPerMeter_, context_->info().maxPointSize);
+    const bool depth = wanted.softness > 0 && wanted.blend != Blend::none;
+    if (wanted.shape != type_.shape || wanted.blend != type_.blend || wanted.sort != type_.sort ||
+        wanted.spreadFrames != type_.spreadFrames || depth != readsDepth() ||
+        !sameTiles(wanted.image, type_.image))
+        return false;
+    const std::vector<std::string> before = litOptions_.defines;
+    type_ = std::move(wanted);
+    chooseShaders(lighting);
+    if (litOptions_.defines == before) return true;
+    lit_ = Variants();  // made anew when they are drawn next
+    depth_ = Variants();
+    return true;
 }
 
 void ParticleDrawer::makeStream() {

@@ -19,6 +19,10 @@ class ParticleDrawer : public GroupDrawer {
     ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, const ParticleType& type,
                    const GroupPlan& plan, size_t index, const Lighting& lighting, double pixelsPerMeter);
 
+    // Other looks, from the next picture on. False, and nothing changes: they need another image, order or
+    // stream of corners.
+    bool change(const ParticleType& type, const Lighting& lighting);
+
     bool readsDepth() const override { return type_.softness > 0 && type_.blend != Blend::none; }
     const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
     const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
@@ -31,6 +35,7 @@ class ParticleDrawer : public GroupDrawer {
     void setColors(const gpu::Program& program) const;
 
     ParticleType type_;
+    double pixelsPerMeter_;
     bool ages_;  // some are born or die
     gpu::Buffer indices_;
     gpu::Texture image_;  // none: a dot

@@ -52,6 +52,12 @@ class Renderer {
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
     Image capture() const;
 
+    // Other looks for a group of particles of the plan, from the next picture on. False, and nothing changes:
+    // they need another renderer.
+    bool changeParticle(size_t group, const ParticleType& type) {
+        return groups_.changeParticle(group, type, lighting_);
+    }
+
     gpu::PassTimers& timers() { return timers_; }
     // In which a blended group of the plan was last drawn; null: it has none. For tests.
     const DrawOrder* orderOf(size_t group) const { return groups_.orderOf(group); }

@@ -1,0 +1,55 @@
+#include "simulate/carry_over.h"
+
+#include <algorithm>
+
+namespace shoal {
+
+namespace {
+
+bool sameKind(const GroupPlan& a, const GroupPlan& b) {
+    return a.index == b.index && a.vertexCount == b.vertexCount && a.springCount == b.springCount &&
+           a.solver == b.solver && a.life.has_value() == b.life.has_value() && (a.life || a.count == b.count);
+}
+
+template <typename T>
+void overwrite(std::vector<T>& values, const std::vector<T>& with) {
+    std::copy_n(with.begin(), std::min(values.size(), with.size()), values.begin());
+}
+
+// `start`: of the other plan, with the places that are new.
+GroupState carried(const GroupState& saved, const GroupPlan& from, const GroupPlan& to) {
+    if (from.count == to.count && !to.life) return saved;
+    GroupState out = to.start;
+    overwrite(out.positions, saved.positions);
+    overwrite(out.velocities, saved.velocities);
+    overwrite(out.anchors, saved.anchors);
+    overwrite(out.released, saved.released);
+    overwrite(out.displacements, saved.displacements);
+    overwrite(out.velocityChanges, saved.velocityChanges);
+    std::fill(out.lives.begin(), out.lives.end(), glm::vec2(0));
+    overwrite(out.lives, saved.lives);
+    overwrite(out.seeds, saved.seeds);
+    overwrite(out.looks, saved.looks);
+    out.clocks = saved.clocks;
+    out.clocks.resize(to.life->cycle.emitters.size());
+    out.totals = saved.totals;
+    out.totals.resize(2);
+    // which places are free follows from who lives
+    out.ends.clear();
+    out.freed.clear();
+    return out;
+}
+
+}  // namespace
+
+std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to) {
+    if (from.groups.size() != to.groups.size() || saved.groups.size() != to.groups.size()) return {};
+    SavedState out = saved;
+    for (size_t g = 0; g < to.groups.size(); ++g) {
+        if (!sameKind(from.groups[g], to.groups[g])) return {};
+        out.groups[g] = carried(saved.groups[g], from.groups[g], to.groups[g]);
+    }
+    return out;
+}
+
+}  // namespace shoal
