@@ -42,7 +42,8 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
     for (const Group& group : scene.groups) {
         groupNames_.push_back(group.name.empty() ? group.molecule.name : group.name);
         groupCounts_.push_back(group.count);
-        fixedCount_.push_back(group.place.kind == Placement::Kind::grid ||
+        particles_.push_back(group.particle.has_value());
+        fixedCount_.push_back(group.count == 0 || group.place.kind == Placement::Kind::grid ||
                               group.place.kind == Placement::Kind::list);
     }
     choice.count = groupCounts_.front();
@@ -141,7 +142,7 @@ Panel::Action Panel::drawGroups(const Simulation& simulation) {
         return index < 0 ? std::string("as in the scene")
                          : std::filesystem::path(molecules[size_t(index)]).stem().string();
     };
-    if (ImGui::BeginCombo("Kind", name(choice.molecule).c_str())) {
+    if (!particles_[size_t(choice.group)] && ImGui::BeginCombo("Kind", name(choice.molecule).c_str())) {
         for (int i = -1; i < int(molecules.size()); ++i) {
             if (!ImGui::Selectable(name(i).c_str(), i == choice.molecule)) continue;
             choice.molecule = i;

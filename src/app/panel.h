@@ -54,7 +54,8 @@ class Panel {
 
     std::vector<std::string> groupNames_;
     std::vector<int> groupCounts_;
-    std::vector<bool> fixedCount_;  // placed one by one: the number cannot be changed
+    std::vector<bool> fixedCount_;  // placed one by one, or none at the start: the number cannot be changed
+    std::vector<bool> particles_;   // which are of no other kind
     std::vector<std::string> forceNames_;
     std::string sceneName_;
 };

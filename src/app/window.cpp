@@ -1,8 +1,6 @@
 // The window: a scene that runs, a camera to move, and the panel.
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
-#include <backends/imgui_impl_glfw.h>
-#include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
 #include <algorithm>
@@ -15,78 +13,23 @@
 
 #include "app/checkpoints.h"
 #include "app/data_paths.h"
+#include "app/interface.h"
 #include "app/orbit_camera.h"
 #include "app/panel.h"
 #include "app/run.h"
+#include "app/scene_panel.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
 #include "gpu/gl.h"
 #include "molecule/molecule_file.h"
 #include "render/renderer.h"
+#include "scene/scene_saver.h"
+#include "simulate/carry_over.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
 
 namespace {
-
-// ImGui's context and backends, for as long as the window lives.
-class Interface {
-  public:
-    explicit Interface(GLFWwindow* window) {
-        ImGui::CreateContext();
-        ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
-        style();
-        ImGui_ImplGlfw_InitForOpenGL(window, true);
-        ImGui_ImplOpenGL3_Init("#version 330");
-    }
-    ~Interface() {
-        ImGui_ImplOpenGL3_Shutdown();
-        ImGui_ImplGlfw_Shutdown();
-        ImGui::DestroyContext();
-    }
-    Interface(const Interface&) = delete;
-    Interface& operator=(const Interface&) = delete;
-
-    void begin() {
-        ImGui_ImplOpenGL3_NewFrame();
-        ImGui_ImplGlfw_NewFrame();
-        ImGui::NewFrame();
-    }
-    void end() {
-        ImGui::Render();
-        ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
-    }
-
-  private:
-    static void style() {
-        ImGui::StyleColorsDark();
-        ImGuiStyle& style = ImGui::GetStyle();
-        style.WindowRounding = 6;
-        style.FrameRounding = style.GrabRounding = 4;
-        style.WindowPadding = ImVec2(12, 10);
-        style.ItemSpacing = ImVec2(8, 5);
-        style.WindowBorderSize = 0;
-        const auto color = [&](ImGuiCol which, float r, float g, float b, float a) {
-            style.Colors[which] = ImVec4(r, g, b, a);
-        };
-        color(ImGuiCol_WindowBg, 0.07f, 0.085f, 0.08f, 0.88f);
-        color(ImGuiCol_TitleBg, 0.11f, 0.16f, 0.11f, 0.95f);
-        color(ImGuiCol_TitleBgActive, 0.16f, 0.25f, 0.14f, 1);
-        color(ImGuiCol_FrameBg, 0.17f, 0.2f, 0.18f, 1);
-        color(ImGuiCol_FrameBgHovered, 0.22f, 0.28f, 0.22f, 1);
-        color(ImGuiCol_FrameBgActive, 0.26f, 0.34f, 0.25f, 1);
-        color(ImGuiCol_CheckMark, 0.5f, 0.68f, 0.33f, 1);
-        color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 1);
-        color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 1);
-        color(ImGuiCol_Button, 0.22f, 0.32f, 0.19f, 1);
-        color(ImGuiCol_ButtonHovered, 0.3f, 0.44f, 0.25f, 1);
-        color(ImGuiCol_ButtonActive, 0.38f, 0.55f, 0.3f, 1);
-        color(ImGuiCol_Header, 0.22f, 0.32f, 0.19f, 1);
-        color(ImGuiCol_HeaderHovered, 0.3f, 0.44f, 0.25f, 1);
-        color(ImGuiCol_HeaderActive, 0.38f, 0.55f, 0.3f, 1);
-        color(ImGuiCol_TableHeaderBg, 0.13f, 0.17f, 0.13f, 1);
-    }
-};
 
 std::vector<std::string> shippedMolecules() {
     const std::filesystem::path folder = std::filesystem::path(shaderRoot()).parent_path() / "molecules";
@@ -111,6 +54,8 @@ class WindowRun {
           scene_(std::move(loaded.scene)),
           controls_(loaded.plan),
           panel_(scene_, shippedMolecules()),
+          scenePanel_(scene_),
+          running_(scene_.groups),
           camera_(View::of(scene_.camera)),
           interface_(window_),
           cache_(context, cacheFolder()),
@@ -126,7 +71,7 @@ class WindowRun {
 
     void go() {
         auto last = std::chrono::steady_clock::now();
-        while (!glfwWindowShouldClose(window_)) {
+        while (!closes()) {
             glfwPollEvents();
             const auto now = std::chrono::steady_clock::now();
             const double seconds = std::chrono::duration<double>(now - last).count();
@@ -136,9 +81,20 @@ class WindowRun {
             if (!showFrame()) break;
         }
         saveIfAsked(true);
+        if (unsaved())
+            std::cerr << "shoal: warning: what was changed in the window was not saved in " << scene_.file
+                      << "\n";
     }
 
   private:
+    // Not before the user has said what becomes of what is not saved.
+    bool closes() {
+        if (!glfwWindowShouldClose(window_)) return false;
+        asksToClose_ = unsaved() && !discards_;
+        if (asksToClose_) glfwSetWindowShouldClose(window_, GLFW_FALSE);
+        return !asksToClose_;
+    }
+
     void build(Plan plan) {
         simulation_.reset();
         renderer_.reset();
@@ -198,6 +154,7 @@ class WindowRun {
 
         interface_.begin();
         action_ = panel_.draw(controls_, *simulation_, *renderer_, frameSeconds_, lastFrame_);
+        drawScenePanel();
         moveCamera();
         pressKeys();
         if (!message_.empty()) showMessage();
@@ -241,6 +198,85 @@ class WindowRun {
         if (action_ == Panel::Action::resetCamera) camera_.reset();
         if (action_ == Panel::Action::rebuild) rebuild();
         if (action_ == Panel::Action::switchPath) switchPath();
+        if (sceneAction_ == ScenePanel::Action::save) saveScene();
+        if (sceneAction_ == ScenePanel::Action::revert) revert();
+        if (sceneAction_ == ScenePanel::Action::rebuild) rebuildEdited();
+    }
+
+    // ---- What is edited: scene_ runs, original_ is as the file, running_ was accepted last
+
+    bool unsaved() const { return differ(original_, scene_); }
+
+    void drawScenePanel() {
+        sceneAction_ = ScenePanel::Action::none;
+        if (scenePanel_.empty()) return;
+        const bool changed = unsaved();
+        sceneAction_ = scenePanel_.draw(scene_, *simulation_, *renderer_, changed, width_, height_);
+        if (scenePanel_.changed() && !scenePanel_.pending()) running_ = scene_.groups;
+        if (std::exchange(shownUnsaved_, changed) != changed)
+            glfwSetWindowTitle(window_, (title() + (changed ? " *" : "")).c_str());
+        if (!asksToClose_) return;
+        const ScenePanel::Answer answer = scenePanel_.askBeforeClosing(scene_.file);
+        if (answer == ScenePanel::Answer::none) return;
+        asksToClose_ = false;
+        discards_ = answer == ScenePanel::Answer::discard;
+        const bool saved = answer == ScenePanel::Answer::save && saveScene();
+        if (discards_ || saved) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+    }
+
+    std::string title() const { return "Shoal - " + std::filesystem::path(scene_.file).filename().string(); }
+
+    bool saveScene() {
+        try {
+            saveEdits(original_, scene_);
+        } catch (const Error& error) {
+            message_ = concat("Not saved: ", error.what());
+            std::cerr << "shoal: warning: not saved: " << error.what() << "\n";
+            return false;
+        }
+        copyEdits(scene_.groups, original_.groups);
+        scenePanel_.say(", saved");
+        return true;
+    }
+
+    void revert() {
+        copyEdits(original_.groups, scene_.groups);
+        rebuildEdited();
+    }
+
+    // What the scene panel edits.
+    static void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
+        for (size_t g = 0; g < from.size(); ++g) {
+            to[g].life = from[g].life;
+            to[g].particle = from[g].particle;
+        }
+    }
+
+    Plan compileEdited() {
+        for (Group& group : scene_.groups)
+            if (group.particle) group.molecule = moleculeOf(*group.particle);
+        scene_.solver.substeps = original_.solver.substeps;
+        return compileStably();
+    }
+
+    // Goes on from where it is, where that is possible. What cannot be had is said, and what ran runs on.
+    void rebuildEdited() {
+        const SavedState saved = simulation_->save();
+        const Plan old = simulation_->plan();
+        const Parameters parameters = simulation_->parameters;
+        try {
+            build(compileEdited());
+            message_.clear();
+        } catch (const Error& error) {
+            message_ = error.what();
+            copyEdits(running_, scene_.groups);
+            build(compileEdited());
+        }
+        if (const std::optional<SavedState> carried = carryOver(saved, old, simulation_->plan()))
+            simulation_->load(*carried);
+        simulation_->parameters = parameters;
+        running_ = scene_.groups;
+        scenePanel_.follow(scene_);
     }
 
     // Another number or kind of molecules; what cannot be had is said and the old scene runs on.
@@ -250,12 +286,15 @@ class WindowRun {
         try {
             Group& group = scene_.groups[size_t(panel_.choice.group)];
             group.count = panel_.choice.count;
+            if (group.life) group.life->capacity = std::max(group.life->capacity, group.count);
             group.molecule = panel_.choice.molecule < 0
                                  ? original_.groups[size_t(panel_.choice.group)].molecule
                                  : readMolecule(panel_.molecules[size_t(panel_.choice.molecule)]);
             build(compileStably());
             message_.clear();
             shownMolecule_ = panel_.choice.molecule;
+            running_ = scene_.groups;
+            scenePanel_.follow(scene_);
         } catch (const Error& error) {
             message_ = error.what();
             scene_ = old;
@@ -328,6 +367,9 @@ class WindowRun {
             return down && !std::exchange(keysDown_[key], down) ? true : (keysDown_[key] = down, false);
         };
         if (pressed(GLFW_KEY_SPACE)) controls_.paused = !controls_.paused;
+        const bool control = glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
+                             glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
+        if (pressed(GLFW_KEY_S) && control && !scenePanel_.empty()) sceneAction_ = ScenePanel::Action::save;
         if (pressed(GLFW_KEY_R)) action_ = Panel::Action::restart;
         if (pressed(GLFW_KEY_C)) action_ = Panel::Action::resetCamera;
         if (pressed(GLFW_KEY_ESCAPE)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
@@ -360,6 +402,8 @@ class WindowRun {
     Scene original_, scene_;
     Controls controls_;
     Panel panel_;
+    ScenePanel scenePanel_;
+    std::vector<Group> running_;  // of scene_, as they run
     OrbitCamera camera_;
     Interface interface_;
     gpu::ProgramCache cache_;
@@ -367,6 +411,8 @@ class WindowRun {
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     Panel::Action action_ = Panel::Action::none;
+    ScenePanel::Action sceneAction_ = ScenePanel::Action::none;
+    bool asksToClose_ = false, discards_ = false, shownUnsaved_ = false;
     gpu::Traffic lastFrame_;
     std::string message_;
     std::map<int, bool> keysDown_;  // as seen last, by GLFW's key

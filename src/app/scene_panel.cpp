@@ -1,0 +1,157 @@
+#include "app/scene_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+namespace shoal::app {
+
+namespace {
+
+constexpr float panelWidth = 368;
+constexpr double countEvery = 0.25;  // s: each reading waits for the GPU
+
+// 12345678 as 12,345,678.
+std::string grouped(uint64_t number) {
+    std::string out = std::to_string(number);
+    for (int at = int(out.size()) - 3; at > 0; at -= 3)
+        out.insert(size_t(at), ",");
+    return out;
+}
+
+// Of the plan that runs; groups without molecules are not in it.
+std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        if (plan.groups[g].index == group) return g;
+    return {};
+}
+
+}  // namespace
+
+std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
+    const Group& source = scene.groups[group];
+    if (!source.life && !source.particle) return {};
+    Edited out{group, {}, {}};
+    if (source.life) out.life.emplace(scene, group);
+    if (source.particle) out.looks.emplace(*source.particle);
+    return out;
+}
+
+ScenePanel::ScenePanel(const Scene& scene) {
+    follow(scene);
+}
+
+void ScenePanel::follow(const Scene& scene) {
+    pending_ = false;
+    groups_.clear();
+    for (size_t g = 0; g < scene.groups.size(); ++g)
+        if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
+}
+
+ScenePanel::Action ScenePanel::draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved,
+                                    int width, int height) {
+    const auto right = float(width) - panelWidth - 12;
+    ImGui::SetNextWindowPos(ImVec2(std::max(right, 12.0f), 12), ImGuiCond_Always);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(panelWidth, 0), ImVec2(panelWidth, float(height) - 24));
+    ImGui::Begin("Particles", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    changed_ = false;
+    const Action action = drawHead(scene, unsaved);
+    for (Edited& group : groups_) {
+        ImGui::PushID(int(group.group));
+        drawGroup(group, scene, simulation, renderer);
+        ImGui::PopID();
+    }
+    ImGui::End();
+    if (action != Action::none) return action;
+    if (!pending_ || ImGui::IsAnyItemActive()) return Action::none;
+    return Action::rebuild;
+}
+
+ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
+    Action action = Action::none;
+    if (ImGui::Button("Save")) action = Action::save;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Into the scene's file (Ctrl+S).");
+    ImGui::SameLine();
+    if (!unsaved) ImGui::BeginDisabled();
+    if (ImGui::Button("Revert")) action = Action::revert;
+    if (!unsaved) ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to what was saved last.");
+    ImGui::SameLine();
+    const std::string file = std::filesystem::path(scene.file).filename().string();
+    if (unsaved)
+        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *", file.c_str());
+    else
+        ImGui::TextDisabled("%s%s", file.c_str(), said_.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%s", scene.file.c_str(), unsaved ? "Not saved yet." : "As in the file.");
+    return action;
+}
+
+void ScenePanel::drawGroup(Edited& edited, Scene& scene, Simulation& simulation, Renderer& renderer) {
+    Group& group = scene.groups[edited.group];
+    const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+    if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
+    const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
+    bool life = false, looks = false, mass = false;
+    if (edited.life) {
+        if (planGroup) drawCounts(edited, simulation, *planGroup);
+        life = edited.life->drawEmitters(scene);
+        if (ImGui::TreeNodeEx("Life and death", open)) {
+            life |= edited.life->drawLife(scene);
+            ImGui::TreePop();
+        }
+    }
+    if (edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+        const double before = group.particle->mass;
+        looks = edited.looks->draw(*group.particle, group.life.has_value());
+        mass = group.particle->mass != before;  // the plan has it
+        ImGui::TreePop();
+    }
+    changed_ |= life || looks;
+    if (life || looks) said_.clear();
+    if (life) pending_ |= !planGroup || !simulation.changeLife(*planGroup, *group.life);
+    if (looks) pending_ |= mass || !planGroup || !renderer.changeParticle(*planGroup, *group.particle);
+}
+
+void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planGroup) {
+    const double now = ImGui::GetTime();
+    if (edited.countedAt < 0 || now - edited.countedAt > countEvery) {
+        edited.counts = simulation.lifeCounts(planGroup);
+        edited.countedAt = now;
+    }
+    const LifeCounts& counts = edited.counts;
+    const std::string live =
+        concat(grouped(uint64_t(counts.live)), " of ", grouped(uint64_t(counts.capacity)), " alive");
+    ImGui::ProgressBar(float(counts.live) / float(std::max(1, counts.capacity)), ImVec2(-1, 0), live.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Those that live now, and the capacity.");
+    if (counts.lost == 0)
+        ImGui::TextDisabled("born %s", grouped(counts.born).c_str());
+    else
+        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "born %s, lost %s", grouped(counts.born).c_str(),
+                           grouped(counts.lost).c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("So far; lost are those that found no place, or whose place was taken.");
+}
+
+ScenePanel::Answer ScenePanel::askBeforeClosing(const std::string& file) {
+    Answer answer = Answer::none;
+    if (!ImGui::IsPopupOpen("Close")) ImGui::OpenPopup("Close");
+    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
+    ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+    if (!ImGui::BeginPopupModal("Close", nullptr,
+                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar))
+        return answer;
+    ImGui::Text("What you changed is not saved in %s.",
+                std::filesystem::path(file).filename().string().c_str());
+    if (ImGui::Button("Save and close")) answer = Answer::save;
+    ImGui::SameLine();
+    if (ImGui::Button("Close without saving")) answer = Answer::discard;
+    ImGui::SameLine();
+    if (ImGui::Button("Stay")) answer = Answer::stay;
+    if (answer != Answer::none) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    return answer;
+}
+
+}  // namespace shoal::app

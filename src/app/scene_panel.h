@@ -1,0 +1,57 @@
+// The second panel, of scenes of point particles or in which something is born or dies: each such group's
+// numbers, edited while it runs, and saved into the scene file.
+//
+// What can change at once does; for what needs another plan the panel asks for a rebuild when the user lets
+// go.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "app/life_editor.h"
+#include "app/particle_editor.h"
+#include "render/renderer.h"
+#include "simulate/simulation.h"
+
+namespace shoal::app {
+
+class ScenePanel {
+  public:
+    enum class Action { none, save, revert, rebuild };
+
+    explicit ScenePanel(const Scene& scene);
+
+    bool empty() const { return groups_.empty(); }
+    bool changed() const { return changed_; }  // in the last draw
+    bool pending() const { return pending_; }  // something was edited that does not run yet
+    // Edits `scene`, which the simulation runs. `unsaved`: it is not as its file.
+    Action draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved, int width,
+                int height);
+    // Of the question whether to save, before the window closes.
+    enum class Answer { none, save, discard, stay };
+    Answer askBeforeClosing(const std::string& file);
+
+    // The scene's groups are others than those that were edited: after a rebuild or one that failed.
+    void follow(const Scene& scene);
+    void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
+
+  private:
+    struct Edited {
+        size_t group;  // of the scene
+        std::optional<LifeEditor> life;
+        std::optional<ParticleEditor> looks;
+        LifeCounts counts = {};
+        double countedAt = -1;  // s, of the wall clock
+    };
+    Action drawHead(const Scene& scene, bool unsaved);
+    static std::optional<Edited> edited(const Scene& scene, size_t group);
+    void drawGroup(Edited& edited, Scene& scene, Simulation& simulation, Renderer& renderer);
+    void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
+
+    std::vector<Edited> groups_;
+    std::string said_;
+    bool changed_ = false;
+    bool pending_ = false;  // a rebuild, when the user lets go
+};
+
+}  // namespace shoal::app

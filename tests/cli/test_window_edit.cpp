@@ -1,0 +1,150 @@
+// Editing in the window: a slider is dragged, the scene is saved, and the file says so. Needs a display and
+// xdotool, which moves the pointer.
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+
+#include "cli/shoal_command.h"
+#include "core/file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+constexpr const char* fountain = R"({
+  "format": "shoal-scene-1",
+  "name": "fountain",
+  "seed": 18446744073709551615,
+  "gravity": [0, -9.810, 0],
+  "groups": [
+    {"name": "water", "comment": "kept",
+      "particle": {"size": [0.010, 0.02], "colors": [{"color": [0.4, 0.6, 1]}, {"age": 1, "opacity": 0}]},
+      "emitters": [
+        {"from": "point", "rate": 100, "direction": [0, 7, 0], "spread": 0.20, "speed": [4, 5]}
+      ],
+      "life": {"span": [1, 2]}}
+  ]
+}
+)";
+
+bool hasXdotool() {
+    static const bool has = std::system("command -v xdotool > /dev/null 2>&1") == 0;
+    if (!has) std::cerr << "xdotool is not installed: what the user does in the window is not tested\n";
+    return has;
+}
+
+// What a user does once the window is there, told by its title; places are in pixels of the window.
+class User {
+  public:
+    explicit User(const std::string& title, const std::string& steps)
+        : script_(
+              "set -e\n"
+              "for i in $(seq 300); do\n"
+              "  w=$(xdotool search --onlyvisible --name '" +
+              title +
+              "' 2> /dev/null | head -n 1) && [ -n \"$w\" ] && break\n"
+              "  sleep 0.1\ndone\n"
+              "xdotool windowfocus $w; sleep 0.7\n"
+              "at() { xdotool mousemove --window $w $1 $2; sleep 0.3; }\n"
+              "press() { at $1 $2; xdotool mousedown 1; sleep 0.3; xdotool mouseup 1; sleep 0.25; }\n"
+              "drag() { at $1 $2; xdotool mousedown 1; sleep 0.3; at $3 $2; at $3 $2; xdotool mouseup 1; "
+              "sleep 0.25; }\n"
+              "key() { xdotool keydown $1; sleep 0.3; xdotool keyup $1; sleep 0.3; }\n" +
+              steps) {
+        thread_ = std::thread([this] { code_ = std::system(("sh -c '" + quoted() + "'").c_str()); });
+    }
+    ~User() {
+        if (thread_.joinable()) thread_.join();
+    }
+    int finish() {
+        thread_.join();
+        return WIFEXITED(code_) ? WEXITSTATUS(code_) : -1;
+    }
+
+  private:
+    std::string quoted() const {
+        std::string out;
+        for (const char c : script_)
+            out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        return out;
+    }
+
+    std::string script_;
+    int code_ = -1;
+    std::thread thread_;
+};
+
+struct Edited {
+    Outcome outcome;
+    std::string between, after;  // the file, at "keep" and at the end
+};
+
+Edited edit(const std::string& name, const std::string& steps) {
+    const Scratch scratch;
+    const std::string file = scratch.write(name + ".scene.json", fountain);
+    User user("Shoal - " + name, "keep() { sleep 0.3; cp " + file + " " + file + ".kept; }\n" + steps);
+    Edited out;
+    out.outcome = runShoal({"run", file, "--context", "window", "--size", "900x640"}, {.seconds = 90});
+    CHECK(user.finish() == 0);
+    CHECK(out.outcome.code == 0);
+    out.after = readFile(file);
+    out.between = readFile(file + ".kept");
+    const Outcome checked = runShoal({"check", file});
+    INFO(checked.err);
+    CHECK(checked.code == 0);
+    return out;
+}
+
+const JsonValue& emittersIn(const JsonValue& root) {
+    return member(member(root, "groups").items[0], "emitters");
+}
+
+// In the right panel, with one group and one emitter, whose rate is the first slider.
+constexpr const char* places =
+    "rate() { drag 700 159 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
+    "addEmitter() { press 580 437; }\nabandon() { press 460 329; }\n";
+
+}  // namespace
+
+TEST_CASE("what is dragged and added in the window is saved, and no other byte changes", "[.window]") {
+    if (!hasXdotool()) return;
+    const Edited edited =
+        edit("dragged", std::string(places) +
+                            "rate 850; xdotool keydown ctrl; key s; xdotool keyup ctrl; keep\n"
+                            "addEmitter; sleep 0.7; save; sleep 0.3; key Escape\n");
+    CHECK(edited.outcome.err.empty());
+    const JsonValue between = parseJson(edited.between, "between"), after = parseJson(edited.after, "after");
+    const double rate = member(emittersIn(between).items[0], "rate").number;
+    CHECK(rate > 200);
+    std::string expected = fountain;
+    const auto replace = [&](const std::string& part, const std::string& with) {
+        const size_t at = expected.find(part);
+        REQUIRE(at != std::string::npos);
+        expected.replace(at, part.size(), with);
+    };
+    replace("\"rate\": 100", "\"rate\": " + writeJsonLine(JsonValue::makeNumber(rate)));
+    // the capacity that followed the rate stays what it was
+    replace("\"span\": [1, 2]", "\"span\": [1, 2], \"capacity\": 210");
+    CHECK(edited.between == expected);
+
+    REQUIRE(emittersIn(after).items.size() == 2);
+    CHECK(member(emittersIn(after).items[1], "rate").number == rate);
+}
+
+TEST_CASE("what is reverted or abandoned in the window is not saved", "[.window]") {
+    if (!hasXdotool()) return;
+    const Edited edited =
+        edit("abandoned", std::string(places) +
+                              "rate 850; revert; sleep 0.5; save; keep; rate 680; key Escape; "
+                              "sleep 0.5; abandon\n");
+    CHECK(edited.between == fountain);
+    CHECK(edited.after == fountain);
+    CHECK_THAT(edited.outcome.err,
+               Catch::Contains("shoal: warning: what was changed in the window was not saved"));
+    CHECK(edited.outcome.messages().size() == 1);
+}
