@@ -62,7 +62,7 @@ void addOverrides(CLI::App& command, Options& options, Texts& texts) {
         ->check(wholeNumber());
     command.add_option("--field-sampling", options.fieldSampling,
                        "vertexSubstep, vertexFrame or moleculeFrame, instead of the scene's");
-    command.add_option("--count", options.count, "Molecules in each group that is placed at random")
+    command.add_option("--count", options.count, "Molecules in each group that is placed at random; places where they are born")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
@@ -154,7 +154,7 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
                        "Measures the report's own scenes into this folder, and goes on where it was ended");
     command.add_option("--only", options.only,
                        "With --report: scenes with this in their name, such as leaf-fall");
-    command.add_option("--count", options.count, "Molecules in each group that is placed at random")
+    command.add_option("--count", options.count, "Molecules in each group that is placed at random; places where they are born")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
@@ -452,7 +452,9 @@ void apply(const Options& options, Scene& scene) {
     for (Group& group : scene.groups) {
         const bool counted =
             group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
-        if (!counted) group.count = *options.count;
+        const bool startsEmpty = group.life && group.count == 0;
+        if (!counted && !startsEmpty) group.count = *options.count;
+        if (group.life) group.life->capacity = std::max(*options.count, group.count);
     }
 }
 

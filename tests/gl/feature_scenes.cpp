@@ -307,7 +307,8 @@ std::vector<FeatureScene> shippedScenes(int mostMolecules) {
     std::vector<FeatureScene> out;
     for (const std::string& file : files) {
         Scene scene = readScene(file);
-        if (std::any_of(scene.groups.begin(), scene.groups.end(), [](const Group& g) { return g.contact; }))
+        if (std::any_of(scene.groups.begin(), scene.groups.end(),
+                        [](const Group& g) { return g.contact || g.life; }))
             continue;
         for (Group& group : scene.groups)
             group.count = std::min(group.count, mostMolecules);
