@@ -199,3 +199,16 @@ TEST_CASE("explain takes the same overrides as run", "[cli]") {
     CHECK(member(group, "solver").text == "euler");
     CHECK(member(group, "molecules").number == 2000);
 }
+
+TEST_CASE("a count also says how many places there are where molecules are born", "[cli]") {
+    // The fountain starts empty, the snowfall with all its flakes in the air.
+    for (const char* file : {"models/fountain/fountain.scene.json", "models/winter/snowfall.scene.json"}) {
+        INFO(file);
+        const Outcome outcome = runShoal({"explain", sourceFile(file), "--json", "--count", "50"});
+        REQUIRE(outcome.code == 0);
+        const std::vector<JsonValue> groups = member(outcome.json(), "groups").items;
+        REQUIRE(groups.size() == 2);
+        for (const JsonValue& group : groups)
+            CHECK(member(group, "molecules").number == 50);
+    }
+}

@@ -113,7 +113,7 @@ TEST_CASE("every shipped scene runs", "[cli]") {
         REQUIRE(outcome.code == 0);
         CHECK(member(outcome.json(), "frames").number == 2);
     }
-    CHECK(scenes >= 4);
+    CHECK(scenes >= 11);
 }
 
 TEST_CASE("every second frame, and one picture alone", "[cli]") {
