@@ -127,6 +127,11 @@ bool LifeEditor::drawEmitter(Scene& scene, size_t index) {
     changed |= drawPlace(scene, emitter);
     changed |= drawVelocity(emitter, angles_[index]);
     if (emitter.from != From::death) changed |= drawBursts(emitter);
+    // a group of which none is there and none is born would be nothing
+    if (life.emitters.size() == 1 && scene.groups[group_].count == 0) {
+        ImGui::NewLine();
+        return changed;
+    }
     if (ImGui::SmallButton("Remove")) {
         life.emitters.erase(life.emitters.begin() + std::ptrdiff_t(index));
         angles_.erase(angles_.begin() + std::ptrdiff_t(index));

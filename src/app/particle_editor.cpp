@@ -13,9 +13,7 @@ namespace shoal::app {
 
 namespace {
 
-constexpr double degrees = 57.29577951308232, turn = 6.283185307179586;
-// Nothing gets smaller than can be found again.
-constexpr double leastShownSize = 0.0005;  // m
+constexpr double degrees = 57.29577951308232;
 
 ImU32 shown(const glm::dvec4& color, const glm::dvec3& behind) {
     std::array<float, 3> out{};
@@ -74,23 +72,15 @@ bool pickColor(const char* tip, ColorKey& key) {
 
 }  // namespace
 
-ParticleEditor::ParticleEditor(const ParticleType& type)
-    : mostSize_(std::max(1.0, 4 * type.size.y)),
-      mostMass_(std::max(10.0, 4 * type.mass)),
-      mostSpin_(std::max({2 * turn, 2 * std::abs(type.spin.x), 2 * std::abs(type.spin.y)})) {
-    mostSize_ = std::min(mostSize_, mostParticleSize);
-    mostMass_ = std::min(mostMass_, mostParticleMass);
-    mostSpin_ = std::min(mostSpin_, mostParticleTurn);
-}
-
 bool ParticleEditor::draw(ParticleType& type, bool ages) {
     bool changed = drawShape(type, ages);
     changed |= drawColors(type);
     if (type.image && type.shape != ParticleShape::points) changed |= drawImage(*type.image);
     changed |= drawBlending(type);
-    const Limit mass{std::min(1e-6, type.mass), mostMass_};
-    return slide({"mass", "What contact and forces on pins feel.", "%.4g kg", true}, mass, type.mass) ||
-           changed;
+    changed |=
+        slide({"mass", "What contact and forces on pins feel.", "%.4g kg", true}, limits_.mass, type.mass);
+    if (changed) settle(type);
+    return changed;
 }
 
 bool ParticleEditor::drawShape(ParticleType& type, bool ages) const {
@@ -102,15 +92,11 @@ bool ParticleEditor::drawShape(ParticleType& type, bool ages) const {
         changed = true;
     }
     if (type.shape == ParticleShape::points)
-        return slide({"pixels", "The dot's diameter.", "%.1f px"}, {1, mostParticlePixels}, type.pixels) ||
-               changed;
-    const Limit size{std::min(leastShownSize, type.size.x), mostSize_};
-    changed |= slideSpan({"size", "Least and most diameter.", "%.4f m", true}, size, type.size);
-    if (ages && slideSpan({"growth", "Factors on the size at birth and at death.", "%.2f", false, 1, true},
-                          {0, std::max(4.0, std::max(type.growth.x, type.growth.y))}, type.growth)) {
-        if (type.growth == glm::dvec2(0)) type.growth.x = 0.01;
-        changed = true;
-    }
+        return slide({"pixels", "The dot's diameter.", "%.1f px"}, limits_.pixels, type.pixels) || changed;
+    changed |= slideSpan({"size", "Least and most diameter.", "%.4f m", true}, limits_.size, type.size);
+    if (ages)
+        changed |= slideSpan({"growth", "Factors on the size at birth and at death.", "%.2f", false, 1, true},
+                             limits_.growth, type.growth);
     return drawTurning(type) || changed;
 }
 
@@ -124,15 +110,14 @@ bool ParticleEditor::drawTurning(ParticleType& type) const {
             changed = true;
         }
         if (type.facing == ParticleFacing::velocity)
-            return slide({"stretch", "Longer by this times the speed.", "%.3f s", true},
-                         {0, std::max(0.5, 4 * type.stretch)}, type.stretch) ||
+            return slide({"stretch", "Longer by this times the speed.", "%.3f s", true}, limits_.stretch,
+                         type.stretch) ||
                    changed;
     }
-    const double most = std::max({turn, std::abs(type.turn.x), std::abs(type.turn.y)});
     changed |= slideSpan({"turn", "Least and most turn at birth.", "%.0f\xC2\xB0", false, degrees},
-                         {-most, most}, type.turn);
+                         limits_.turn, type.turn);
     return slideSpan({"spin", "Least and most turning speed.", "%.0f\xC2\xB0/s", false, degrees},
-                     {-mostSpin_, mostSpin_}, type.spin) ||
+                     limits_.spin, type.spin) ||
            changed;
 }
 
@@ -174,8 +159,7 @@ bool ParticleEditor::drawImage(ParticleImage& image) const {
     bool changed =
         tick({"flip-book", "All tiles one after another, else one for each particle."}, image.flipBook);
     if (!image.flipBook) return changed;
-    changed |= slide({"frame rate", "0: once over the life.", "%.1f Hz"},
-                     {0, std::min(mostFrameRate, std::max(60.0, image.frameRate))}, image.frameRate);
+    changed |= slide({"frame rate", "0: once over the life.", "%.1f Hz"}, limits_.frameRate, image.frameRate);
     return tick({"fade", "Neighbouring frames fade into one another."}, image.blend) || changed;
 }
 
@@ -193,11 +177,11 @@ bool ParticleEditor::drawBlending(ParticleType& type) const {
         changed = true;
     }
     if (type.blend == Blend::alpha && type.sort == DrawSort::spread)
-        changed |= slide({"frames", "Over how many frames the order is made.", "%d"},
-                         {1, double(std::max(60, type.spreadFrames))}, type.spreadFrames);
+        changed |= slide({"frames", "Over how many frames the order is made.", "%d"}, limits_.spreadFrames,
+                         type.spreadFrames);
     if (type.blend != Blend::none)
         changed |= slide({"softness", "Fades where a surface is nearer than this behind it.", "%.3f m", true},
-                         {0, std::max(1.0, 4 * type.softness)}, type.softness);
+                         limits_.softness, type.softness);
     if (type.blend != Blend::multiplicative)
         changed |= tick({"lit", "By sun and sky; else it sends its own colour."}, type.lit);
     return changed;

@@ -1,13 +1,13 @@
 // Sliders for the looks of one group of point particles.
 #pragma once
 
-#include "scene/particle.h"
+#include "scene/edit_limits.h"
 
 namespace shoal::app {
 
 class ParticleEditor {
   public:
-    explicit ParticleEditor(const ParticleType& type);
+    explicit ParticleEditor(const ParticleType& type) : limits_(limitsOf(type)) {}
 
     // Whether the user changed the type in this frame. `ages`: some are born or die.
     bool draw(ParticleType& type, bool ages);
@@ -19,7 +19,7 @@ class ParticleEditor {
     bool drawImage(ParticleImage& image) const;
     bool drawBlending(ParticleType& type) const;
 
-    double mostSize_, mostMass_, mostSpin_;  // m, kg, rad/s
+    LooksLimits limits_;
 };
 
 }  // namespace shoal::app

@@ -75,6 +75,37 @@ LifeLimits limitsOf(const Lifecycle& life, int count) {
     return out;
 }
 
+LooksLimits limitsOf(const ParticleType& type) {
+    LooksLimits out;
+    hold(out.mass, type.mass);
+    hold(out.size, type.size);
+    hold(out.growth, type.growth);
+    for (const double turn : {type.turn.x, type.turn.y})
+        hold(out.turn, std::abs(turn));
+    for (const double spin : {type.spin.x, type.spin.y})
+        hold(out.spin, std::abs(spin));
+    hold(out.stretch, type.stretch);
+    hold(out.softness, type.softness);
+    if (type.image) hold(out.frameRate, type.image->frameRate);
+    hold(out.spreadFrames, type.spreadFrames);
+    out.mass.most = std::min(out.mass.most, mostParticleMass);
+    out.size.most = std::min(out.size.most, mostParticleSize);
+    for (Limit* limit : {&out.turn, &out.spin}) {
+        limit->most = std::min(limit->most, mostParticleTurn);
+        limit->least = -limit->most;
+    }
+    out.frameRate.most = std::min(out.frameRate.most, mostFrameRate);
+    out.spreadFrames.most = std::min(out.spreadFrames.most, double(mostSpreadFrames));
+    return out;
+}
+
+void settle(ParticleType& type) {
+    order(type.size);
+    order(type.turn);
+    order(type.spin);
+    if (type.growth == glm::dvec2(0)) type.growth.x = 0.01;
+}
+
 void settle(Lifecycle& life, int count) {
     for (Emitter& emitter : life.emitters) {
         emitter.end = std::max(emitter.end, emitter.begin + 0.01);

@@ -43,6 +43,24 @@ LifeLimits limitsOf(const Lifecycle& life, int count);
 // most, room for those at the start, a box with an inside.
 void settle(Lifecycle& life, int count);
 
+// Of the looks of one group; the names are those of ParticleType.
+struct LooksLimits {
+    Limit mass{1e-6, 10};   // kg
+    Limit size{0.0005, 1};  // m: nothing gets smaller than can be found again
+    Limit growth{0, 4};
+    Limit turn{-6.283185307179586, 6.283185307179586};    // rad
+    Limit spin{-12.566370614359172, 12.566370614359172};  // rad/s
+    Limit stretch{0, 0.5};                                // s
+    Limit softness{0, 1};                                 // m
+    Limit pixels{1, mostParticlePixels};
+    Limit frameRate{0, 60};  // 1/s
+    Limit spreadFrames{1, 60};
+};
+LooksLimits limitsOf(const ParticleType& type);
+
+// What is 0 all its life would be seen no more.
+void settle(ParticleType& type);
+
 // Between its neighbours in age, so that the keyframes stay in order.
 double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age);
 // A keyframe more, in the middle of the widest gap and of the colour that is there. Does nothing where there

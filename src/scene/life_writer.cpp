@@ -160,13 +160,14 @@ std::optional<JsonValue> writeLife(const Group& group) {
     if (usualCapacity(group.count, life) != life.capacity)
         keys.value("capacity", JsonValue::makeNumber(life.capacity));
     // without either key there would be no life
-    if (keys.object.members.empty() && !life.emitters.empty()) return {};
+    const bool emits = !life.emitters.empty() || group.count == 0;
+    if (keys.object.members.empty() && emits) return {};
     return std::move(keys.object);
 }
 
 std::optional<JsonValue> writeEmitters(const Group& group, const std::vector<Model>& models) {
     const std::vector<Emitter>& emitters = group.life->emitters;
-    if (emitters.empty()) return {};
+    if (emitters.empty() && group.count > 0) return {};  // else the reader asks for a "place"
     JsonValue out = JsonValue::makeArray();
     for (const Emitter& emitter : emitters)
         out.items.push_back(write(emitter, models));

@@ -1,6 +1,7 @@
 #include "simulate/carry_over.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace shoal {
 
@@ -16,8 +17,23 @@ void overwrite(std::vector<T>& values, const std::vector<T>& with) {
     std::copy_n(with.begin(), std::min(values.size(), with.size()), values.begin());
 }
 
-// `start`: of the other plan, with the places that are new.
-GroupState carried(const GroupState& saved, const GroupPlan& from, const GroupPlan& to) {
+// Of an allocator on the CPU, which has `ends`: as the old one had them, else as long as each lives.
+void carryBook(const GroupState& saved, double time, GroupState& out) {
+    for (size_t m = 0; m < out.ends.size(); ++m) {
+        const glm::vec2& life = out.lives[m];
+        const double own =
+            life.y > 0 ? time + double(life.y - life.x) : -std::numeric_limits<double>::infinity();
+        out.ends[m] = m < saved.ends.size() ? saved.ends[m] : own;
+    }
+    // the order in which places were freed; without it, the first ones come first
+    if (saved.freed.size() == out.freed.size())
+        out.freed = saved.freed;
+    else
+        out.freed.clear();
+}
+
+// Beginning with the other plan's start, for the places that are new.
+GroupState carried(const GroupState& saved, double time, const GroupPlan& from, const GroupPlan& to) {
     if (from.count == to.count && !to.life) return saved;
     GroupState out = to.start;
     overwrite(out.positions, saved.positions);
@@ -34,9 +50,7 @@ GroupState carried(const GroupState& saved, const GroupPlan& from, const GroupPl
     out.clocks.resize(to.life->cycle.emitters.size());
     out.totals = saved.totals;
     out.totals.resize(2);
-    // which places are free follows from who lives
-    out.ends.clear();
-    out.freed.clear();
+    carryBook(saved, time, out);
     return out;
 }
 
@@ -47,7 +61,7 @@ std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, c
     SavedState out = saved;
     for (size_t g = 0; g < to.groups.size(); ++g) {
         if (!sameKind(from.groups[g], to.groups[g])) return {};
-        out.groups[g] = carried(saved.groups[g], from.groups[g], to.groups[g]);
+        out.groups[g] = carried(saved.groups[g], saved.time, from.groups[g], to.groups[g]);
     }
     return out;
 }

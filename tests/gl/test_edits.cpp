@@ -236,7 +236,6 @@ TEST_CASE("a run goes on with more places, with fewer and with another emitter",
             CHECK(counts.live <= capacity);
             CHECK(int(livingOf(next).size()) == counts.live);
         }
-        if (allocator == Allocator::stack) continue;  // which hands out its places in another order
         Simulation same = simulationOf(scene);
         same.load(*carryOver(saved, simulation.plan(), same.plan()));
         run(same, 20);

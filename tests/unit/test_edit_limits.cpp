@@ -118,3 +118,26 @@ TEST_CASE("a new colour keyframe changes nothing that is seen", "[editLimits]") 
     CHECK(one[1].age == 1);
     CHECK(one[1].color == one[0].color);
 }
+
+TEST_CASE("looks within the limits of their sliders can be read, and can be seen", "[editLimits]") {
+    ParticleType type;
+    type.size = {1e-7, 50};
+    type.spin = {-100, 3};
+    type.turn = {0, 1e6};
+    type.mass = 1e12;
+    const LooksLimits limits = limitsOf(type);
+    CHECK(limits.size.least <= 1e-7);
+    CHECK(limits.size.least >= leastParticleSize);
+    CHECK(limits.size.most > 50);
+    CHECK(limits.spin.least <= -100);
+    CHECK(limits.turn.most == mostParticleTurn);
+    CHECK(limits.mass.most == mostParticleMass);
+    CHECK(limitsOf(ParticleType()).size.least > 0);
+    type.growth = glm::dvec2(0);
+    type.size = {2, 1};
+    type.spin = {1, -1};
+    settle(type);
+    CHECK(std::max(type.growth.x, type.growth.y) > 0);
+    CHECK(type.size.x <= type.size.y);
+    CHECK(type.spin.x <= type.spin.y);
+}

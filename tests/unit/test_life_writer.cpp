@@ -230,6 +230,54 @@ TEST_CASE("saving changes the number that was edited and no other byte", "[lifeW
     CHECK(readFile(file) == sparks);
 }
 
+TEST_CASE("a group whose last emitter is taken away still reads", "[lifeWriter]") {
+    const Scratch scratch;
+    const std::string file = scratchScene(scratch);
+    const Scene before = readScene(file);
+    Scene after = before;
+    after.groups[1].life->emitters.clear();
+    saveEdits(before, after);
+    const Scene again = readScene(file);
+    CHECK(same(*again.groups[1].life, *after.groups[1].life));
+    after.groups[0].life->emitters.clear();
+    after.groups[0].life->life = glm::dvec2(longestLife);
+    saveEdits(again, after);
+    CHECK(same(*readScene(file).groups[0].life, *after.groups[0].life));
+}
+
+TEST_CASE("looks are saved where they were edited", "[lifeWriter]") {
+    const Scratch scratch;
+    const std::string text = R"({
+  "format": "shoal-scene-1",
+  "groups": [
+    {"particle": {"comment": "dust", "size": [0.010, 0.02], "blend": "alpha",
+                  "colors": [{"color": [1.0, 1, 1]}, {"age": 1, "opacity": 0.0, "comment": "gone"}]},
+     "name": "dust", "count": 3, "life": {"span": 2},
+     "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}
+  ]
+})";
+    const std::string file = scratchScene(scratch, text);
+    const Scene before = readScene(file);
+    Scene after = before;
+    ParticleType& type = *after.groups[0].particle;
+    type.size.y = 0.03;
+    type.colors.insert(type.colors.begin() + 1, {0.5, {2, 0, 0}, 0.75});
+    type.softness = 0.25;
+    saveEdits(before, after);
+    std::string expected = replaced(text, "[0.010, 0.02]", "[0.01, 0.03]");
+    expected = replaced(expected, R"({"color": [1.0, 1, 1]}, )",
+                        R"({"color": [1.0, 1, 1]}, {"age": 0.5, "color": [2, 0, 0], "opacity": 0.75}, )");
+    expected = replaced(expected, R"("comment": "gone"}])", R"("comment": "gone"}], "softness": 0.25)");
+    CHECK(readFile(file) == expected);
+    CHECK(!differ(readScene(file), after));
+    saveEdits(after, before);
+    CHECK(!differ(readScene(file), before));
+
+    after.groups[0].particle->growth = glm::dvec2(0);
+    CHECK_THAT(messageOf([&] { saveEdits(before, after); }), Catch::Contains("$.groups[0].particle.growth"));
+    CHECK(!differ(readScene(file), before));
+}
+
 TEST_CASE("a capacity that followed the rate is written when it no longer does", "[lifeWriter]") {
     const Scratch scratch;
     const std::string file = scratchScene(scratch);
