@@ -62,7 +62,9 @@ void addOverrides(CLI::App& command, Options& options, Texts& texts) {
         ->check(wholeNumber());
     command.add_option("--field-sampling", options.fieldSampling,
                        "vertexSubstep, vertexFrame or moleculeFrame, instead of the scene's");
-    command.add_option("--count", options.count, "Molecules in each group that is placed at random; places where they are born")
+    command
+        .add_option("--count", options.count,
+                    "Molecules in each group that is placed at random; places where they are born")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
@@ -154,7 +156,9 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
                        "Measures the report's own scenes into this folder, and goes on where it was ended");
     command.add_option("--only", options.only,
                        "With --report: scenes with this in their name, such as leaf-fall");
-    command.add_option("--count", options.count, "Molecules in each group that is placed at random; places where they are born")
+    command
+        .add_option("--count", options.count,
+                    "Molecules in each group that is placed at random; places where they are born")
         ->check(wholeNumber());
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));

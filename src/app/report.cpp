@@ -2,6 +2,8 @@
 
 #include <cstdio>
 
+#include "core/error.h"
+
 namespace shoal::app {
 
 static JsonValue asJson(const gpu::Traffic& traffic) {
@@ -16,6 +18,35 @@ static JsonValue asJson(const gpu::Traffic& traffic) {
         out.add(word, std::move(entry));
     }
     return out;
+}
+
+static JsonValue asJson(const std::vector<GroupLives>& lives) {
+    JsonValue out = JsonValue::makeArray();
+    for (const auto& [group, counts] : lives) {
+        JsonValue entry = JsonValue::makeObject();
+        entry.add("group", JsonValue::makeString(group))
+            .add("capacity", JsonValue::makeNumber(counts.capacity))
+            .add("living", JsonValue::makeNumber(counts.live))
+            .add("reach", JsonValue::makeNumber(counts.mark))
+            .add("born", JsonValue::makeNumber(double(counts.born)))
+            .add("lost", JsonValue::makeNumber(double(counts.lost)));
+        out.items.push_back(std::move(entry));
+    }
+    return out;
+}
+
+std::vector<GroupLives> livesOf(const Simulation& simulation) {
+    std::vector<GroupLives> out;
+    const std::vector<GroupPlan>& groups = simulation.plan().groups;
+    for (size_t g = 0; g < groups.size(); ++g)
+        if (groups[g].needs.life) out.push_back({groups[g].name, simulation.lifeCounts(g)});
+    return out;
+}
+
+std::string text(const GroupLives& lives) {
+    const LifeCounts& n = lives.counts;
+    return concat(lives.group, ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born, ",
+                  n.lost > 0 ? std::to_string(n.lost) : "none", " lost");
 }
 
 JsonValue asJson(const std::vector<gpu::PassTime>& passes) {
@@ -62,6 +93,7 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
         .add("hash", JsonValue::makeString(hashText));
     if (!times.empty()) out.add("passes", asJson(times));
     out.add("written", std::move(written));
+    if (!report.lives.empty()) out.add("lives", asJson(report.lives));
     if (simulation.contact())
         out.add("contactBytes", JsonValue::makeNumber(double(simulation.contact()->bytes())))
             .add("contactsDropped", JsonValue::makeNumber(simulation.contact()->dropped()));

@@ -11,6 +11,12 @@
 
 namespace shoal::app {
 
+// Births and deaths of a group until now.
+struct GroupLives {
+    std::string group;
+    LifeCounts counts;
+};
+
 struct RunReport {
     std::string scene;
     double seconds = 0;                // wall-clock time of the frames
@@ -18,7 +24,11 @@ struct RunReport {
     gpu::Traffic frames;               // by the frames alone: simulate and draw
     gpu::Traffic outside;              // by captures, exports and the final hash
     std::vector<std::string> written;  // pictures, videos, exports
+    std::vector<GroupLives> lives;     // at the end, of groups with life
 };
+
+std::vector<GroupLives> livesOf(const Simulation& simulation);
+std::string text(const GroupLives& lives);  // "drops: 512 of 600 places taken, 2048 born, none lost"
 
 JsonValue asJson(const std::vector<gpu::PassTime>& passes);  // an array
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,

@@ -142,7 +142,10 @@ class HeadlessRun {
 
     void tell() {
         uint64_t hash = 0;
-        outside([&] { hash = simulation_.hash(); });
+        outside([&] {
+            hash = simulation_.hash();
+            report_.lives = livesOf(simulation_);
+        });
         tellDropped();
         if (options_.json) {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
@@ -152,6 +155,8 @@ class HeadlessRun {
                   << " s on the " << name(simulation_.path().path) << " path, " << context_.info().renderer
                   << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
+        for (const GroupLives& lives : report_.lives)
+            std::cout << text(lives) << "\n";
         for (const gpu::PassTime& pass : passTimes())
             std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
                       << " ms, median " << pass.median * 1e3 << " ms\n";

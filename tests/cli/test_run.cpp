@@ -116,6 +116,39 @@ TEST_CASE("every shipped scene runs", "[cli]") {
     CHECK(scenes >= 11);
 }
 
+TEST_CASE("the report counts births and what found no place", "[cli]") {
+    const std::string fountain = sourceFile("models/fountain/fountain.scene.json");
+    // 15,000 drops a second: 250 in a frame.
+    const auto lives = [&](const std::string& count) {
+        const Scratch scratch;
+        const Outcome outcome = runShoal({"run", fountain, "--headless", "--frames", "2", "--count", count,
+                                          "--export", scratch.path("x.csv"), "--json"});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return member(outcome.json(), "lives").items;
+    };
+    const std::vector<JsonValue> roomy = lives("600"), full = lives("400");
+    REQUIRE(roomy.size() == 2);
+    CHECK(member(roomy[0], "group").text == "drops");
+    CHECK(member(roomy[0], "capacity").number == 600);
+    CHECK(member(roomy[0], "living").number == 500);
+    CHECK(member(roomy[0], "reach").number == 500);
+    CHECK(member(roomy[0], "born").number == 500);
+    CHECK(member(roomy[0], "lost").number == 0);
+    CHECK(member(roomy[1], "born").number == 0);  // none has fallen yet
+    CHECK(member(full[0], "living").number == 400);
+    CHECK(member(full[0], "born").number == 400);
+    CHECK(member(full[0], "lost").number == 100);
+
+    const Scratch scratch;
+    const Outcome told = runShoal({"run", fountain, "--headless", "--frames", "2", "--count", "400",
+                                   "--export", scratch.path("x.csv")});
+    CHECK_THAT(told.out, Catch::Contains("drops: 400 of 400 places taken, 400 born, 100 lost"));
+    CHECK_THAT(told.out, Catch::Contains("splashes: 0 of 400 places taken, 0 born, none lost"));
+    const Outcome plain = runShoal(runWords({"--export", scratch.path("plain.csv")}));
+    CHECK_THAT(plain.out, !Catch::Contains("born"));
+}
+
 TEST_CASE("every second frame, and one picture alone", "[cli]") {
     const Scratch scratch;
     CHECK(runShoal(runWords({"--capture", scratch.path("some"), "--capture-every", "2"})).code == 0);
