@@ -21,6 +21,15 @@ uniform int stepLanes;      // of a workgroup of the step
 
 shared uint tops[LANES];
 
+#ifndef DEATHS
+// A counter that stays at the largest number.
+void count(int which, uint more)
+{
+    uint before = control[controlBase + which];
+    control[controlBase + which] = before + min(more, 0xffffffffu - before);
+}
+#endif
+
 void main()
 {
     int lane = int(gl_LocalInvocationID.x);
@@ -61,8 +70,8 @@ void main()
     if (allocates != 0) {
         control[controlBase + controlRequested] = requested;
         control[controlBase + controlBorn] = born;
-        control[controlBase + controlLost] += requested - born;
-        control[controlBase + controlBornEver] += born;
+        count(controlLost, requested - born);
+        count(controlBornEver, born);
         control[controlBase + controlBirthGroups] = (born + 63u) / 64u;
     }
 #endif

@@ -354,7 +354,7 @@ void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
 
 void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state) {
     Living& living = *groups_[group];
-    const double begin = frame.time, end = begin + frame.parameters.frameTime;
+    const double begin = frame.time, end = frame.end;
     std::vector<BirthRun> runs;
     for (size_t e = 0; e < living.life.emitters.size(); ++e)
         addRuns(living.life.emitters[e], int(e), living.plan->life->seed, begin, end, living.clocks[e], runs);

@@ -196,8 +196,7 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
     program.set("givenStagePhi", stage.drag.phi);
     program.set("givenRestarts", int(frame.restarts));
     if (group.forces.any())
-        program.set("givenForceParameters",
-                    std::span<const glm::vec4>(forceParameters(plan, group, frame)));
+        program.set("givenForceParameters", std::span<const glm::vec4>(forceParameters(plan, group, frame)));
     if (group.needs.collide && !plan.movingColliders.empty())
         program.set("givenColliderParameters",
                     std::span<const glm::vec4>(colliderParameters(plan, group, frame)));

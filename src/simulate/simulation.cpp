@@ -78,13 +78,13 @@ void Simulation::frame() {
     check();
     before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;
-    const Frame frame{time_, step, frames_, parameters, step != lastStep_};
+    const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};
     lastStep_ = step;
     timers_.beginFrame();
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
     if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
     timers_.endFrame();
-    time_ += parameters.frameTime;
+    time_ = frame.end;
     ++frames_;
 }
 

@@ -8,7 +8,9 @@ namespace shoal {
 Frame pieceOf(const Frame& frame, int i, int steps) {
     const int substeps = frame.parameters.substeps;
     Frame out = frame;
-    out.time = frame.time + frame.h * (substeps * i / steps);
+    const auto begin = [&](int piece) { return frame.time + frame.h * (substeps * piece / steps); };
+    out.time = begin(i);
+    out.end = i + 1 == steps ? frame.end : begin(i + 1);
     out.number = frame.number * steps + i;  // random numbers differ
     out.parameters.substeps = ContactPlan::substepsOf(i, steps, substeps);
     out.parameters.frameTime = frame.h * out.parameters.substeps;

@@ -10,6 +10,7 @@ namespace shoal {
 
 struct Frame {
     double time = 0;  // s, at its start
+    double end = 0;   // s, at its end, which is the next one's start to the bit
     double h = 0;     // s, a substep
     int number = 0;   // from 0
     Parameters parameters;
