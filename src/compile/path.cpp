@@ -210,7 +210,7 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
         const size_t state = size_t(layout.stateElements()) * (inPlace ? 1 : 2);
         const size_t normals = drawn && group.needs.normals ? size_t(layout.positionElements()) : 0;
         const size_t constants = group.needs.scale || group.needs.phase ? 1 : 0;
-        elements += BufferLayout::padded(size_t(group.count)) * (state + normals + 1 + constants);
+        elements += layout.padded(size_t(group.count)) * (state + normals + 1 + constants);
     }
     return elements * sizeof(glm::vec4);
 }

@@ -178,7 +178,7 @@ class MemoryCopy : public BenchRunner {
 // Of one side of the fused path's state.
 size_t sideBytes(const BenchCase& one, const Molecule& molecule) {
     const BufferLayout layout{int(molecule.vertices.size())};
-    return BufferLayout::padded(size_t(one.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);
+    return layout.padded(size_t(one.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);
 }
 
 }  // namespace

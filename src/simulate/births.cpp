@@ -53,11 +53,12 @@ void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
     const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
     const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
                                  size_t(info.maxBufferTexels) / size_t(group.layout().stateElements()));
-    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * BufferLayout::lanes);
-    if (BufferLayout::padded(size_t(group.count)) <= reach) return;
+    const auto lanes = size_t(group.layout().lanes());
+    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * lanes);
+    if (group.layout().padded(size_t(group.count)) <= reach) return;
     throw Error(group.life->cycle.location,
                 concat("a capacity of ", group.count, " for \"", group.name,
-                       "\" is more than this context holds: at most ", reach / 64 * 64));
+                       "\" is more than this context holds: at most ", reach / lanes * lanes));
 }
 
 }  // namespace
@@ -81,7 +82,7 @@ Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan&
         Living& living = *groups_[g];
         mostSums = std::max(mostSums, size_t(living.laneCount));
         living.diedAt = died;
-        if (living.died) died += BufferLayout::padded(size_t(living.plan->count));
+        if (living.died) died += living.plan->layout().padded(size_t(living.plan->count));
     }
     order();
     counts_ =
@@ -115,7 +116,7 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
     if (!group.life->bears()) return;
     if (living.listed())
         living.places = Buffer(*context_, Buffer::Use::storage, nullptr,
-                               BufferLayout::padded(size_t(group.count)) * sizeof(uint32_t), "places");
+                               group.layout().padded(size_t(group.count)) * sizeof(uint32_t), "places");
     for (size_t e = 0; e < living.life.emitters.size(); ++e)
         if (group.life->sources[e] != LifePlan::noSource)
             living.deathRuns.push_back({group.life->sources[e], int(e), living.life.emitters[e].perDeath});
@@ -212,7 +213,7 @@ void Births::listDeaths(size_t group) {
     store(listDeaths_, "Counts", 1, counts_);
     store(listDeaths_, "Control", 2, control_);
     listDeaths_.storage("List", 3, died_, living.diedAt * sizeof(uint32_t),
-                        BufferLayout::padded(size_t(living.plan->count)) * sizeof(uint32_t));
+                        living.plan->layout().padded(size_t(living.plan->count)) * sizeof(uint32_t));
     listDeaths_.set("laneCount", living.laneCount);
     listDeaths_.set("controlBase", int(controlAt(group)));
     listDeaths_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
@@ -240,7 +241,7 @@ void Births::countPlaces(size_t group, int scheduled, bool allocate) {
     scanPlaces_.set("controlBase", int(controlAt(group)));
     scanPlaces_.set("scheduled", scheduled);
     scanPlaces_.set("allocates", int(allocate));
-    scanPlaces_.set("stepLanes", BufferLayout::lanes);
+    scanPlaces_.set("stepLanes", living.plan->layout().lanes());
     scanPlaces_.set("deathRunCount", int(living.deathRuns.size()));
     std::vector<glm::ivec4> runs(mostDeathRuns);
     for (size_t d = 0; d < living.deathRuns.size(); ++d)
@@ -260,7 +261,7 @@ void Births::listPlaces(size_t group) {
     listPlaces_.set("laneCount", living.laneCount);
     listPlaces_.set("placeCount", living.plan->count);
     listPlaces_.set("controlBase", int(controlAt(group)));
-    listPlaces_.set("stepLanes", BufferLayout::lanes);
+    listPlaces_.set("stepLanes", living.plan->layout().lanes());
     listPlaces_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
     settled();
 }
@@ -388,7 +389,7 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
                                               uint64_t(living.plan->count)));
             living.born += uint64_t(born);
         }
-        living.bear.dispatch((born + groupLanes - 1) / groupLanes);
+        living.bear.dispatch((born + birthLanes - 1) / birthLanes);
     }
     settled();
 }

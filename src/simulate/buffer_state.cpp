@@ -108,7 +108,7 @@ Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements
 GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
                            size_t largestPart)
     : layout_(group.layout()),
-      molecules_(BufferLayout::padded(size_t(group.count))),
+      molecules_(layout_.padded(size_t(group.count))),
       inPlace_(inPlace),
       seeds_(group.constants.seeds) {
     state_[0] = makeBuffer(context, group, molecules_ * size_t(layout_.stateElements()), "state");
@@ -130,9 +130,10 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
 }
 
 // Of a buffer with so many 4-vectors a molecule.
-static GroupBuffers::Range rangeOf(const GroupBuffers::Part& part, const Buffer& buffer, int elements) {
+static GroupBuffers::Range rangeOf(const BufferLayout& layout, const GroupBuffers::Part& part,
+                                   const Buffer& buffer, int elements) {
     const size_t bytes = size_t(elements) * sizeof(glm::vec4);
-    return {&buffer, size_t(part.first) * bytes, BufferLayout::padded(size_t(part.count)) * bytes};
+    return {&buffer, size_t(part.first) * bytes, layout.padded(size_t(part.count)) * bytes};
 }
 
 // Parts are whole workgroups, so that the molecules of a part are one range of every buffer.
@@ -140,8 +141,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
     const gpu::ContextInfo& info = context.info();
     const auto alignment = size_t(std::max({1, info.textureBufferAlignment, info.storageBufferAlignment}));
     // molecules whose records end on a multiple of the alignment; a block of the state always does
-    const size_t unit =
-        std::lcm(size_t(BufferLayout::lanes), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
+    const size_t unit = std::lcm(size_t(layout_.lanes()), std::max<size_t>(1, alignment / sizeof(glm::vec4)));
     const size_t elements = size_t(layout_.stateElements());
     size_t most =
         std::min(size_t(info.maxBufferTexels), size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4)) /
@@ -153,7 +153,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
         part.first = int(first);
         part.count = int(std::min(most, molecules_ - first));
         const auto texture = [&](const Buffer& buffer, int count, const char* label) {
-            const Range range = rangeOf(part, buffer, count);
+            const Range range = rangeOf(layout_, part, buffer, count);
             return BufferTexture(context, buffer, label, range.offset, range.bytes);
         };
         for (size_t side = 0; side < (inPlace_ ? 1u : 2u); ++side)
@@ -166,23 +166,23 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
 }
 
 GroupBuffers::Range GroupBuffers::newState(const Part& part) const {
-    return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
+    return rangeOf(layout_, part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
 }
 
 GroupBuffers::Range GroupBuffers::currentState(const Part& part) const {
-    return rangeOf(part, state_[size_t(current_)], layout_.stateElements());
+    return rangeOf(layout_, part, state_[size_t(current_)], layout_.stateElements());
 }
 
 GroupBuffers::Range GroupBuffers::records(const Part& part) const {
-    return rangeOf(part, records_, 1);
+    return rangeOf(layout_, part, records_, 1);
 }
 
 GroupBuffers::Range GroupBuffers::constants(const Part& part) const {
-    return rangeOf(part, constants_, 1);
+    return rangeOf(layout_, part, constants_, 1);
 }
 
 GroupBuffers::Range GroupBuffers::normals(const Part& part) const {
-    return rangeOf(part, normals_, layout_.positionElements());
+    return rangeOf(layout_, part, normals_, layout_.positionElements());
 }
 
 void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {

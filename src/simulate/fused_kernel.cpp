@@ -42,8 +42,9 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     const Needs& needs = group.needs;
     const BufferLayout layout = group.layout();
     std::vector<std::string> out = {
-        concat("LANES ", workgroupLanes(group, options.lanes)), concat("BLOCK ", BufferLayout::block),
-        concat("VERTICES ", group.vertexCount), concat("POSITION_ELEMENTS ", layout.positionElements()),
+        concat("LANES ", options.births ? birthLanes : workgroupLanes(group, options.lanes)),
+        concat("BLOCK ", BufferLayout::block), concat("VERTICES ", group.vertexCount),
+        concat("POSITION_ELEMENTS ", layout.positionElements()),
         concat("STATE_ELEMENTS ", layout.stateElements())};
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
@@ -141,7 +142,7 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
 }  // namespace
 
 int workgroupLanes(const GroupPlan& group, Lanes lanes) {
-    return lanes == Lanes::molecule ? BufferLayout::lanes
+    return lanes == Lanes::molecule ? group.layout().lanes()
                                     : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
 }
 

@@ -21,7 +21,8 @@ struct KernelOptions {
     bool births = false;            // of newborns instead of a step (shaders/particles/bear.comp)
 };
 
-// Lanes of a workgroup.
+constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
+// Lanes of a workgroup of the step.
 int workgroupLanes(const GroupPlan& group, Lanes lanes);
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);

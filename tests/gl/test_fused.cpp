@@ -87,7 +87,7 @@ TEST_CASE("in place the bits are the same, from half the memory", "[fused]") {
                            {.path = Path::fused, .inPlace = true, .lanes = lanes});
             const BufferLayout layout{9};
             CHECK(two.stateBytes() - one.stateBytes() ==
-                  BufferLayout::padded(size_t(count)) * size_t(layout.stateElements()) * 16);
+                  layout.padded(size_t(count)) * size_t(layout.stateElements()) * 16);
             test::run(two, 31);
             test::run(one, 31);
             INFO(name(lanes) << ", " << count << " molecules");

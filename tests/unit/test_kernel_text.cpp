@@ -211,9 +211,10 @@ TEST_CASE("packing moves every float once, for 1 to 40 vertices", "[kernel]") {
 TEST_CASE("no two 4-vectors of a buffer share a place, and none is left out", "[kernel]") {
     for (const int elements : {1, 2, 3, 6, 18, 50}) {
         for (const size_t molecules : {1u, 31u, 32u, 33u, 1025u}) {
-            const size_t padded = BufferLayout::padded(molecules);
+            const BufferLayout layout{elements};  // of as many vertices: other workgroups
+            const size_t padded = layout.padded(molecules);
             CHECK(padded >= molecules);
-            CHECK(padded < molecules + BufferLayout::lanes);
+            CHECK(padded < molecules + size_t(layout.lanes()));
             CHECK(padded % BufferLayout::block == 0);
             std::vector<int> taken(padded * size_t(elements), 0);
             for (size_t m = 0; m < padded; ++m)
