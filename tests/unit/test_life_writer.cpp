@@ -278,6 +278,29 @@ TEST_CASE("looks are saved where they were edited", "[lifeWriter]") {
     CHECK(!differ(readScene(file), before));
 }
 
+TEST_CASE("editing a shipped scene changes a few lines of it", "[lifeWriter]") {
+    for (const char* name : {"fountain/fountain", "fire/fire", "bees/bees", "winter/snowfall"}) {
+        const std::string file = concat(SHOAL_SOURCE_DIR "/models/", name, ".scene.json");
+        INFO(file);
+        const std::string text = readFile(file);
+        const Scene before = parseScene(text, file);
+        CHECK(withEdits(text, before, before) == text);
+        Scene after = before;
+        size_t edited = 0;
+        for (Group& group : after.groups) {
+            if (group.particle) group.particle->mass *= 2, ++edited;
+            if (!group.life || group.life->emitters.empty()) continue;
+            group.life->emitters[0].spread = 0.125;
+            ++edited;
+        }
+        REQUIRE(edited > 0);
+        const std::string saved = withEdits(text, before, after);
+        CHECK(saved.size() < text.size() + 40 * edited);
+        const Scene again = parseScene(saved, file);
+        CHECK(!differ(again, after));
+    }
+}
+
 TEST_CASE("a capacity that followed the rate is written when it no longer does", "[lifeWriter]") {
     const Scratch scratch;
     const std::string file = scratchScene(scratch);
