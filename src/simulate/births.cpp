@@ -1,30 +1,18 @@
 #include "simulate/births.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
 
 #include "compile/generate_emitters.h"
 #include "compile/pack.h"
 #include "core/random.h"
-#include "gpu/barrier.h"
 
 namespace shoal {
 
-using gpu::Barrier;
 using gpu::Buffer;
 using gpu::Program;
 using gpu::Traffic;
 
 namespace {
-
-// shaders/particles/control.glsl
-constexpr int controls = 32, mostDeathRuns = 8;
-namespace control {
-constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, stepGroups = 12;
-}
-
-constexpr int wordsOfLane = 8, groupLanes = 64, scanLanes = 256;
 
 void store(const Program& program, const char* block, int at, const Buffer& buffer) {
     program.storage(block, at, buffer, 0, buffer.bytes());
@@ -32,21 +20,6 @@ void store(const Program& program, const char* block, int at, const Buffer& buff
 
 void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
-}
-
-void settled() {
-    gpu::barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
-}
-
-Program makeProgram(gpu::Context& context, const std::string& root, const char* file, bool deaths, int own,
-                    gpu::ProgramCache* cache) {
-    gpu::ProgramOptions options;
-    options.compute = file;
-    options.label = concat(file, deaths ? " of deaths" : "");
-    options.defines = {concat("LANES ", own), concat("WORDS ", wordsOfLane)};
-    if (deaths) options.defines.emplace_back("DEATHS");
-    options.cache = cache;
-    return Program(context, root, options);
 }
 
 void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
@@ -63,38 +36,35 @@ void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
 
 }  // namespace
 
+// Storage offsets are multiples of so many words on any device.
+static size_t apart(size_t words) {
+    return (words + 63) / 64 * 64;
+}
+
+static size_t mostPlaces(const Plan& plan) {
+    size_t most = 0;
+    for (const GroupPlan& group : plan.groups)
+        if (group.life) most = std::max(most, size_t(group.count));
+    return most;
+}
+
 Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
                gpu::ProgramCache* cache)
-    : context_(&context), plan_(&plan), tables_(&tables), groups_(plan.groups.size()) {
-    const auto program = [&](const char* file, bool deaths, int own) {
-        return makeProgram(context, shaderRoot, file, deaths, own, cache);
-    };
-    count_ = program("particles/bits_count.comp", false, groupLanes);
-    scanPlaces_ = program("particles/bits_scan.comp", false, scanLanes);
-    listPlaces_ = program("particles/bits_list.comp", false, groupLanes);
-    scanDeaths_ = program("particles/bits_scan.comp", true, scanLanes);
-    listDeaths_ = program("particles/bits_list.comp", true, groupLanes);
-
-    size_t died = 0, mostSums = 1;
+    : context_(&context),
+      plan_(&plan),
+      tables_(&tables),
+      groups_(plan.groups.size()),
+      lists_(context, shaderRoot, plan.groups.size(), mostPlaces(plan), cache) {
+    size_t died = 0;
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         if (!plan.groups[g].life) continue;
         make(g, shaderRoot, cache);
         Living& living = *groups_[g];
-        mostSums = std::max(mostSums, size_t(living.laneCount));
         living.diedAt = died;
-        if (living.died) died += living.plan->layout().padded(size_t(living.plan->count));
+        if (living.died) died += apart(size_t(living.plan->count));
     }
     order();
-    counts_ =
-        Buffer(context, Buffer::Use::storage, nullptr, mostSums * 2 * sizeof(uint32_t), "sums of places");
     if (died > 0) died_ = Buffer(context, Buffer::Use::storage, nullptr, died * sizeof(uint32_t), "deaths");
-    std::vector<uint32_t> words(plan.groups.size() * controls);
-    for (size_t g = 0; g < plan.groups.size(); ++g) {
-        for (const size_t xyz : {control::birthGroups, control::stepGroups})
-            words[g * controls + xyz + 1] = words[g * controls + xyz + 2] = 1;
-    }
-    control_ = Buffer(context, Buffer::Use::storage, words.data(), words.size() * sizeof(uint32_t),
-                      "control of births");
 }
 
 void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* cache) {
@@ -105,9 +75,8 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
     living.plan = &group;
     living.life = group.life->cycle;
     living.middles = group.life->middles;
-    const int words = (group.count + 31) / 32;
-    living.laneCount = (words + wordsOfLane - 1) / wordsOfLane;
-    const size_t bytes = size_t(living.laneCount) * wordsOfLane * sizeof(uint32_t);
+    living.set = {group.count, g, group.layout().lanes()};
+    const size_t bytes = PlaceLists::bytesOf(size_t(group.count));
     living.free = Buffer(*context_, Buffer::Use::storage, nullptr, bytes, "free places");
     if (group.life->feeds) {
         const std::vector<uint8_t> none(bytes);
@@ -166,8 +135,8 @@ void Births::bindStep(const Program& program, size_t group) const {
 void Births::dispatchStep(const Program& program, size_t group, int own) const {
     const Living& living = *groups_[group];
     if (living.bear && living.onGpu())
-        return program.dispatchIndirect(control_,
-                                        (controlAt(group) + control::stepGroups) * sizeof(uint32_t));
+        return program.dispatchIndirect(
+            lists_.control(), (PlaceLists::controlAt(group) + control::stepGroups) * sizeof(uint32_t));
     program.dispatch((reachOf(living) + own - 1) / own);
 }
 
@@ -183,87 +152,23 @@ int Births::markOf(const Living& living) const {
     return int(std::min(used, uint64_t(living.plan->count)));
 }
 
-size_t Births::controlAt(size_t group) const {
-    return group * controls;
-}
-
 void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
     if (order_.empty()) return;
     const auto timer = timers.time("births");
-    settled();
+    settleBirths();
     for (size_t g = 0; g < groups_.size(); ++g)
-        if (groups_[g] && groups_[g]->died) listDeaths(g);
+        if (groups_[g] && groups_[g]->died)
+            lists_.listDeaths(groups_[g]->set, groups_[g]->died, died_, groups_[g]->diedAt);
     for (const size_t g : order_)
         bear(g, frame, state);
-    settled();
+    settleBirths();
 }
 
-void Births::listDeaths(size_t group) {
-    const Living& living = *groups_[group];
-    sum(living, living.died);
-    scanDeaths_.use();
-    store(scanDeaths_, "Counts", 1, counts_);
-    store(scanDeaths_, "Control", 2, control_);
-    scanDeaths_.set("laneCount", living.laneCount);
-    scanDeaths_.set("controlBase", int(controlAt(group)));
-    scanDeaths_.dispatch(1);
-    settled();
-    listDeaths_.use();
-    store(listDeaths_, "Bits", 0, living.died);
-    store(listDeaths_, "Counts", 1, counts_);
-    store(listDeaths_, "Control", 2, control_);
-    listDeaths_.storage("List", 3, died_, living.diedAt * sizeof(uint32_t),
-                        living.plan->layout().padded(size_t(living.plan->count)) * sizeof(uint32_t));
-    listDeaths_.set("laneCount", living.laneCount);
-    listDeaths_.set("controlBase", int(controlAt(group)));
-    listDeaths_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
-    settled();
-}
-
-void Births::sum(const Living& living, const Buffer& bits) {
-    count_.use();
-    store(count_, "Bits", 0, bits);
-    store(count_, "Counts", 1, counts_);
-    count_.set("laneCount", living.laneCount);
-    count_.set("placeCount", living.plan->count);
-    count_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
-    settled();
-}
-
-void Births::countPlaces(size_t group, int scheduled, bool allocate) {
-    const Living& living = *groups_[group];
-    sum(living, living.free);
-    scanPlaces_.use();
-    store(scanPlaces_, "Counts", 1, counts_);
-    store(scanPlaces_, "Control", 2, control_);
-    scanPlaces_.set("laneCount", living.laneCount);
-    scanPlaces_.set("placeCount", living.plan->count);
-    scanPlaces_.set("controlBase", int(controlAt(group)));
-    scanPlaces_.set("scheduled", scheduled);
-    scanPlaces_.set("allocates", int(allocate));
-    scanPlaces_.set("stepLanes", living.plan->layout().lanes());
-    scanPlaces_.set("deathRunCount", int(living.deathRuns.size()));
-    std::vector<glm::ivec4> runs(mostDeathRuns);
-    for (size_t d = 0; d < living.deathRuns.size(); ++d)
-        runs[d] = {int(controlAt(living.deathRuns[d].source)), living.deathRuns[d].each, 0, 0};
-    scanPlaces_.set("deathRuns", std::span<const glm::ivec4>(runs));
-    scanPlaces_.dispatch(1);
-    settled();
-}
-
-void Births::listPlaces(size_t group) {
-    const Living& living = *groups_[group];
-    listPlaces_.use();
-    store(listPlaces_, "Bits", 0, living.free);
-    store(listPlaces_, "Counts", 1, counts_);
-    store(listPlaces_, "Control", 2, control_);
-    store(listPlaces_, "List", 3, living.places);
-    listPlaces_.set("laneCount", living.laneCount);
-    listPlaces_.set("placeCount", living.plan->count);
-    listPlaces_.set("controlBase", int(controlAt(group)));
-    listPlaces_.set("stepLanes", living.plan->layout().lanes());
-    listPlaces_.dispatch((living.laneCount + groupLanes - 1) / groupLanes);
-    settled();
+void Births::countPlaces(const Living& living, int scheduled, bool allocates) {
+    std::vector<glm::ivec4> deaths;
+    for (const Living::DeathRun& run : living.deathRuns)
+        deaths.emplace_back(int(PlaceLists::controlAt(run.source)), run.each, 0, 0);
+    lists_.countPlaces(living.set, living.free, scheduled, deaths, allocates);
 }
 
 int Births::takePlaces(Living& living, const std::vector<BirthRun>& runs, double end) {
@@ -321,7 +226,7 @@ void Births::setNumbers(size_t group, const Frame& frame) const {
     const std::vector<glm::vec4> parameters =
         emitterParameters(living.life, living.middles, frame.time, frame.parameters.frameTime);
     program.set("emitterParameters", std::span<const glm::vec4>(parameters));
-    program.set("controlBase", int(controlAt(group)));
+    program.set("controlBase", int(PlaceLists::controlAt(group)));
     program.set("placeCount", living.plan->count);
     program.set("groupSeed", int(living.plan->life->seed));
     program.set("lifeSpan", glm::vec2(living.life.life));
@@ -341,7 +246,7 @@ void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
     if (living.listed()) store(program, "Places", 3, living.places);
     if (!living.onGpu()) store(program, "FreeBits", 4, living.free);
     if (!living.deathRuns.empty()) store(program, "Died", 5, died_);
-    store(program, "Control", 6, control_);
+    store(program, "Control", 6, lists_.control());
     if (program.uses("samples") && tables_->sampleTexels)
         program.texture("samples", 3, tables_->sampleTexels);
     int unit = 4;
@@ -365,9 +270,9 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
     const int scheduled = int(std::min<int64_t>(asked, 1 << 30));
     int born = 0;
     if (living.onGpu()) {
-        countPlaces(group, scheduled, true);
+        countPlaces(living, scheduled, true);
         if (scheduled == 0 && living.deathRuns.empty()) return;
-        listPlaces(group);
+        lists_.listPlaces(living.set, living.free, living.places);
     } else if (living.listed()) {
         born = takePlaces(living, runs, end);
     } else {
@@ -381,7 +286,8 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
     setRuns(living, runs, begin);
     bindBirths(group, state);
     if (living.onGpu()) {
-        living.bear.dispatchIndirect(control_, (controlAt(group) + control::birthGroups) * sizeof(uint32_t));
+        living.bear.dispatchIndirect(
+            lists_.control(), (PlaceLists::controlAt(group) + control::birthGroups) * sizeof(uint32_t));
     } else {
         living.bear.set("givenBorn", born);
         if (!living.listed()) {
@@ -391,7 +297,7 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
         }
         living.bear.dispatch((born + birthLanes - 1) / birthLanes);
     }
-    settled();
+    settleBirths();
 }
 
 void Births::write(size_t group, const GroupState& state, double time) {
@@ -407,16 +313,15 @@ void Births::write(size_t group, const GroupState& state, double time) {
     living.free.update(Traffic::Kind::state, 0, bits.data(), living.free.bytes());
     // the whole capacity: the other side of the state is what it was before
     const auto all = uint32_t(living.plan->count);
-    std::vector<uint32_t> words(controls);
+    std::vector<uint32_t> words(control::words);
     words[control::live] = live;
     words[control::mark] = all;
     words[control::lost] = uint32_t(state.totals[1]);
     words[control::bornEver] = uint32_t(state.totals[0]);
-    words[control::stepGroups] = (all + groupLanes - 1) / groupLanes;
+    words[control::stepGroups] = (all + uint32_t(living.set.stepLanes) - 1) / uint32_t(living.set.stepLanes);
     for (const size_t xyz : {control::birthGroups, control::stepGroups})
         words[xyz + 1] = words[xyz + 2] = 1;
-    control_.update(Traffic::Kind::state, controlAt(group) * sizeof(uint32_t), words.data(),
-                    words.size() * sizeof(uint32_t));
+    lists_.writeControl(group, words.data());
     living.markBefore = int(all);
     living.clocks = state.clocks;
     living.clocks.resize(living.life.emitters.size());
@@ -440,8 +345,8 @@ uint64_t Births::lostOf(const Living& living, const uint32_t* words) {
 void Births::read(size_t group, GroupState& state) const {
     const Living& living = *groups_[group];
     state.clocks = living.clocks;
-    uint32_t words[controls];
-    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words, sizeof words);
+    uint32_t words[control::words];
+    lists_.readControl(group, words);
     state.totals = {bornOf(living, words), lostOf(living, words)};
     if (!living.bear || living.onGpu() || !living.listed()) return;
     state.ends = living.book.ends();
@@ -451,11 +356,11 @@ void Births::read(size_t group, GroupState& state) const {
 LifeCounts Births::counts(size_t group) {
     const Living& living = *groups_[group];
     if (!living.onGpu() || !living.bear) {
-        settled();
-        countPlaces(group, 0, false);
+        settleBirths();
+        countPlaces(living, 0, false);
     }
-    uint32_t words[controls];
-    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words, sizeof words);
+    uint32_t words[control::words];
+    lists_.readControl(group, words);
     LifeCounts out;
     out.capacity = living.plan->count;
     out.live = int(words[control::live]);

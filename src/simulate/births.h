@@ -21,6 +21,7 @@
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
 #include "simulate/fused_kernel.h"
+#include "simulate/place_lists.h"
 #include "simulate/places.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
@@ -62,9 +63,9 @@ class Births {
     struct Living {
         const GroupPlan* plan;
         Lifecycle life;
-        gpu::Buffer free, died, places;   // bits, bits, list
-        int laneCount = 0;                // of the sums
-        size_t diedAt = 0;                // of its deaths in died_
+        gpu::Buffer free, died, places;  // bits, bits, list
+        PlaceSet set;
+        size_t diedAt = 0;                // word of its deaths in died_
         gpu::Program bear;                // none: nothing is born
         std::vector<glm::dvec3> middles;  // m, of the emitters
         std::vector<BirthClock> clocks;
@@ -83,19 +84,15 @@ class Births {
     };
     void make(size_t group, const std::string& shaderRoot, gpu::ProgramCache* cache);
     void order();
-    void listDeaths(size_t group);
-    void countPlaces(size_t group, int scheduled, bool allocate);
-    void listPlaces(size_t group);
+    void countPlaces(const Living& living, int scheduled, bool allocates);
     // Of the allocators on the CPU: how many have a place; uploads the list.
     int takePlaces(Living& living, const std::vector<BirthRun>& runs, double end);
     void bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state);
     void setRuns(const Living& living, const std::vector<BirthRun>& runs, double begin) const;
     void setNumbers(size_t group, const Frame& frame) const;
     void bindBirths(size_t group, std::vector<GroupBuffers>& state) const;
-    void sum(const Living& living, const gpu::Buffer& bits);
     int reachOf(const Living& living) const;
     int markOf(const Living& living) const;
-    size_t controlAt(size_t group) const;
     static uint64_t bornOf(const Living& living, const uint32_t* words);  // `words`: of its control
     static uint64_t lostOf(const Living& living, const uint32_t* words);
 
@@ -104,8 +101,8 @@ class Births {
     const Tables* tables_;
     std::vector<std::unique_ptr<Living>> groups_;  // of the plan; null: without life
     std::vector<size_t> order_;                    // groups that bear, the born from deaths first
-    gpu::Program count_, scanDeaths_, scanPlaces_, listDeaths_, listPlaces_;
-    gpu::Buffer control_, counts_, died_;
+    PlaceLists lists_;
+    gpu::Buffer died_;  // lists of deaths
 };
 
 }  // namespace shoal
