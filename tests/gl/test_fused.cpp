@@ -139,7 +139,8 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
             for (int frame = 0; frame < 40; ++frame) {
                 const Parameters& parameters = whole.parameters;
-                split.step({whole.time(), parameters.frameTime / parameters.substeps, frame, parameters},
+                split.step({whole.time(), whole.time() + parameters.frameTime,
+                            parameters.frameTime / parameters.substeps, frame, parameters},
                            timers);
                 whole.frame();
             }
