@@ -242,8 +242,8 @@ TEST_CASE("one side of the state, contact steps or two sides: births are the sam
     CHECK(std::abs(int(pieces.lifeCounts(0).born) - int(two.lifeCounts(0).born)) <= 1);
     const auto ages = [](const std::vector<Living>& living) {
         double sum = 0;
-        for (const Living& one : living)
-            sum += one.age;
+        for (const Living& each : living)
+            sum += each.age;
         return sum;
     };
     // deaths come at a step's end, which is earlier in pieces
