@@ -112,7 +112,6 @@ bool LifeEditor::drawEmitters(Scene& scene) {
             emitter.position = {0, 1, 0};
         }
         life.emitters.push_back(emitter);
-        if (life.allocator != Allocator::gpu && emitter.from == From::death) life.allocator = Allocator::gpu;
         changed = true;
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Another one beside these, like the last.");
@@ -128,10 +127,8 @@ bool LifeEditor::drawEmitter(Scene& scene, size_t index) {
     changed |= drawVelocity(emitter, angles_[index]);
     if (emitter.from != From::death) changed |= drawBursts(emitter);
     // a group of which none is there and none is born would be nothing
-    if (life.emitters.size() == 1 && scene.groups[group_].count == 0) {
-        ImGui::NewLine();
-        return changed;
-    }
+    if (life.emitters.size() == 1 && scene.groups[group_].count == 0) return changed;
+    if (emitter.from != From::death) ImGui::SameLine();
     if (ImGui::SmallButton("Remove")) {
         life.emitters.erase(life.emitters.begin() + std::ptrdiff_t(index));
         angles_.erase(angles_.begin() + std::ptrdiff_t(index));
@@ -255,7 +252,6 @@ bool LifeEditor::drawBursts(Emitter& emitter) const {
         changed = true;
     }
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("Many at one moment, once or again and again.");
-    ImGui::SameLine();
     return changed;
 }
 

@@ -235,6 +235,7 @@ class WindowRun {
             return false;
         }
         copyEdits(scene_.groups, original_.groups);
+        message_.clear();
         scenePanel_.say(", saved");
         return true;
     }
@@ -319,7 +320,8 @@ class WindowRun {
 
     void showMessage() {
         ImGui::SetNextWindowPos(ImVec2(330, 12), ImGuiCond_Always);
-        ImGui::SetNextWindowSize(ImVec2(std::max(200.0f, float(width_) - 350), 0));
+        const float panels = scenePanel_.empty() ? 350 : 730;  // to its left and right
+        ImGui::SetNextWindowSize(ImVec2(std::max(200.0f, float(width_) - panels), 0));
         ImGui::Begin("Message", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
         ImGui::TextWrapped("%s", message_.c_str());
         if (ImGui::Button("Close")) message_.clear();
