@@ -58,7 +58,11 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     depth.label = name_ + " (shadow)";
 }
 
-void MoleculeDrawer::setGrowth(const gpu::Program& program) const {
+void MoleculeDrawer::setShape(const gpu::Program& program) const {
+    if (image_) {
+        program.texture("image", unit::image, image_);
+        program.set("alphaCut", float(material_.alphaCut));
+    }
     constexpr float atOnce = 1e-6f;  // s
     if (grows()) program.set("growTimes", glm::max(glm::vec2(grow_, shrink_), glm::vec2(atOnce)));
 }
@@ -68,11 +72,7 @@ const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const Shado
     program.use();
     shadow.origin().apply(program);
     program.set("toClip", shadow.toClip());
-    if (image_) {
-        program.texture("image", unit::image, image_);
-        program.set("alphaCut", float(material_.alphaCut));
-    }
-    setGrowth(program);
+    setShape(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));
         program.set("pixelsPerMeter", shadow.pixelsPerMeter());
@@ -91,11 +91,7 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
     program.set("secondColor", secondColor_);
     program.set("roughness", float(material_.roughness));
     if (material_.blend != Blend::none) program.set("opacity", float(material_.opacity));
-    if (image_) {
-        program.texture("image", unit::image, image_);
-        program.set("alphaCut", float(material_.alphaCut));
-    }
-    setGrowth(program);
+    setShape(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));
         program.set("pixelsPerMeter", eye.pixelsPerMeter);

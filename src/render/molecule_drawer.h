@@ -19,7 +19,7 @@ class MoleculeDrawer : public GroupDrawer {
     void makeCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);
     bool grows() const { return grow_ > 0 || shrink_ > 0; }
-    void setGrowth(const gpu::Program& program) const;
+    void setShape(const gpu::Program& program) const;
 
     Material material_;
     glm::vec3 color_{0}, secondColor_{0};
