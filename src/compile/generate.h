@@ -35,9 +35,9 @@ struct GeneratedColliders : Generated {
 // For one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3
 // velocity, vec3 gravity, Drift drift) and float clearance(vec3 anchor, vec3 position): negative where
 // collideAll would respond; and their parts, vec4 surfaceAt(vec3 anchor, vec3 position) and Contact
-// answerTo(vec4 surface, vec3 position, vec3 velocity, vec3 gravity, Drift drift). For all else, with JOINT_CONTACT defined, those of
-// shaders/lib/joint_contact.glsl; what uniforms have no room for goes into the samples
-// (compile/collider_table.h).
+// answerTo(vec4 surface, vec3 position, vec3 velocity, vec3 gravity, Drift drift). For all else, with
+// JOINT_CONTACT defined, those of shaders/lib/joint_contact.glsl; what uniforms have no room for goes into
+// the samples (compile/collider_table.h).
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
 // The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:

@@ -80,10 +80,10 @@ GroupForces generateForces(const std::vector<Force>& forces, const std::string& 
             concat("vec3 forceAcceleration(vec3 anchor, vec3 position)\n{\n    vec3 a = vec3(0.0);\n",
                    writer.pulls, "    return a;\n}\n");
     if (!out.thrusts.empty())
-        out.source += concat("\nvec3 thrustedVelocity(vec3 velocity, bool whole)\n{\n", writer.thrusts,
-                             "    return velocity;\n}\n\n",
-                             "vec3 thrustedOver(vec3 velocity, float time)\n{\n", writer.anyThrusts,
-                             "    return velocity;\n}\n");
+        out.source +=
+            concat("\nvec3 thrustedVelocity(vec3 velocity, bool whole)\n{\n", writer.thrusts,
+                   "    return velocity;\n}\n\n", "vec3 thrustedOver(vec3 velocity, float time)\n{\n",
+                   writer.anyThrusts, "    return velocity;\n}\n");
     out.source += wind;
     return out;
 }

@@ -67,7 +67,7 @@ struct ParticleType {
     glm::dvec2 spin{0, 0};    // rad/s, random between the two
     double stretch = 0;       // s: facing velocity, the length grows by this times the speed across the view
     std::vector<ColorKey> colors = std::vector<ColorKey>(1);  // 1 to mostColorKeys; ages rise
-    std::optional<ParticleImage> image;        // nothing: a round dot with a soft edge
+    std::optional<ParticleImage> image;                       // nothing: a round dot with a soft edge
     double softness = 0;  // m: with a blend, fades where a surface is nearer than this behind it; 0: does not
     bool lit = false;     // by sun and sky, as a ball, facing free as a sheet; else it sends its colour
     Blend blend = Blend::alpha;
