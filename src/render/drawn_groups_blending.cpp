@@ -15,10 +15,14 @@ static bool commute(const std::vector<Blend>& blends) {
 void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                              int slabs) {
     std::vector<Blend> blends;
-    for (const Drawn& group : groups_)
-        if (group.blend != Blend::none) blends.push_back(group.blend);
+    bool unordered = true;  // all ask for no order: they are drawn one after another, whole
+    for (const Drawn& group : groups_) {
+        if (group.blend == Blend::none) continue;
+        blends.push_back(group.blend);
+        unordered = unordered && group.blend == Blend::alpha && group.sort == DrawSort::none;
+    }
     blends_ = !blends.empty();
-    const bool inSlabs = blends.size() > 1 && !commute(blends) && slabs > 1;
+    const bool inSlabs = blends.size() > 1 && !commute(blends) && !unordered && slabs > 1;
     int most = -1;
     for (size_t i = 0; i < groups_.size(); ++i) {
         Drawn& group = groups_[i];

@@ -166,6 +166,11 @@ TEST_CASE("several groups are blended by their depths, in slabs", "[render][tran
         CHECK(farthest(middle(scene), shownOf(blendedOver(light, order, 0.5))) <= 2.5);
         scene.groups[1].molecule.material.sort = DrawSort::spread;
         CHECK(farthest(middle(scene), shownOf(blendedOver(light, order, 0.5))) <= 2.5);
+        // One that asks for no order is drawn in the slabs of the other; where none asks, there are no slabs.
+        scene.groups[0].molecule.material.sort = DrawSort::none;
+        CHECK(farthest(middle(scene), shownOf(blendedOver(light, order, 0.5))) <= 2.5);
+        scene.groups[1].molecule.material.sort = DrawSort::none;
+        CHECK(farthest(middle(scene), shownOf(blendedOver(light, {0, 1, 2, 3}, 0.5))) <= 2.5);
     }
 }
 
