@@ -263,7 +263,11 @@ TEST_CASE("those at the start die of age, and their places are used", "[births]"
     CHECK(simulation.lifeCounts(0).live == 50);
     run(simulation, 9);
     CHECK(simulation.lifeCounts(0).live == 0);
-    run(simulation, 15);
+    for (int i = 0; i < 3; ++i) {  // on neither side of the state
+        simulation.frame();
+        CHECK(livingOf(simulation).empty());
+    }
+    run(simulation, 12);
     CHECK(simulation.lifeCounts(0).live == 60);
     CHECK(simulation.lifeCounts(0).lost == 0);
 }

@@ -195,11 +195,11 @@ TEST_CASE("two emitters, two groups and two seeds have nothing in common", "[emi
     simulation.frame();
     const std::vector<Living> born = livingOf(simulation);
     REQUIRE(born.size() == many);
-    // the sum of two independent uniforms, wrapped, is uniform
-    std::vector<double> sums;
+    // the difference of two independent uniforms, wrapped, is uniform
+    std::vector<double> differences;
     for (size_t i = 0; i < many / 2; ++i)
-        sums.push_back(std::fmod(born[i].position.x + born[i + many / 2].position.x, 1.0));
-    checkUniform(sums, "of two emitters");
+        differences.push_back(std::fmod(born[i].position.x - born[i + many / 2].position.x + 1, 1.0));
+    checkUniform(differences, "of two emitters");
     scene.seed = 2;
     Simulation other = simulationOf(scene);
     other.frame();
