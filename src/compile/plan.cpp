@@ -109,6 +109,20 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
                                        (most - before) / vertices, " such molecules fit"));
 }
 
+// The allocators on the CPU know of no death but of age.
+void warnOfBooks(Plan& plan) {
+    for (const GroupPlan& group : plan.groups) {
+        if (!group.life || !group.life->bears()) continue;
+        const Lifecycle& life = group.life->cycle;
+        const bool booked = life.allocator == Allocator::stack || life.allocator == Allocator::heap;
+        if (booked && life.life.y >= longestLife && (life.within || life.afterContact))
+            plan.warnings.push_back(
+                {life.location, concat("the allocator \"", name(life.allocator), "\" of \"", group.name,
+                                       "\" knows of no death but of age: without a \"span\" the places of "
+                                       "what dies otherwise never come back")});
+    }
+}
+
 // Who is born from whose deaths is known once all groups are.
 void planLives(const Scene& scene, Plan& plan) {
     for (GroupPlan& group : plan.groups) {
@@ -296,6 +310,7 @@ Plan compile(const Scene& scene) {
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide) group.colliderParameters = parametersOf(scene, group, colliders);
     planLives(scene, plan);
+    warnOfBooks(plan);
     plan.movingColliders = std::move(colliders.moving);
     plan.fastestSlot = colliders.fastestSlot;
     plan.sampleRows = tableRows(plan.samples);

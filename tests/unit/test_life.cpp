@@ -94,6 +94,19 @@ TEST_CASE("a capacity is what rates and spans keep alive, and a twentieth more",
               .capacity == 9);
 }
 
+TEST_CASE("places that would never come back are warned of", "[life]") {
+    const Drops drops;
+    const auto warnings = [&](const std::string& life) {
+        return compile(drops.scene(R"("life": {"capacity": 9, )" + life +
+                                   R"(}, "emitters": [{"from": "point", "rate": 5}])"))
+            .warnings.size();
+    };
+    CHECK(warnings(R"("allocator": "heap", "dies": {"afterContact": 1})") == 1);
+    CHECK(warnings(R"("allocator": "heap", "span": 2, "dies": {"afterContact": 1})") == 0);
+    CHECK(warnings(R"("allocator": "gpu", "dies": {"afterContact": 1})") == 0);
+    CHECK(warnings(R"("allocator": "stack")") == 0);
+}
+
 TEST_CASE("what makes no sense of a life is refused where it stands", "[life]") {
     const Drops drops;
     const std::string point = R"("emitters": [{"from": "point", "rate": 5}])";
