@@ -2,6 +2,7 @@
 // Pure functions; read as C++ through GLM by the tests.
 
 #include "physics/random.glsl"
+#include "physics/rotation.glsl"
 
 // Counters of the random numbers, one for each attribute.
 const uint sizeCounter = 0xa71c01u;
@@ -56,7 +57,6 @@ float randomTile(uint seed, float count)
     return min(floor(uniformFrom(hashSeed(seed, tileCounter)) * count), count - 1.0f);
 }
 
-// Quaternions: xyz the axis times the sine of half the angle, w its cosine.
 vec4 aboutAxis(vec3 axis, float angle)
 {
     return vec4(axis * sin(0.5f * angle), cos(0.5f * angle));
@@ -69,13 +69,6 @@ vec4 composed(vec4 a, vec4 b)
     return vec4(a.w * bv + b.w * av + cross(av, bv), a.w * b.w - dot(av, bv));
 }
 
-vec3 rotated(vec4 q, vec3 v)
-{
-    vec3 axis = vec3(q);
-    vec3 t = 2.0f * cross(axis, v);
-    return v + q.w * t + cross(axis, t);
-}
-
 // Every direction alike.
 vec3 randomAxis(uint seed)
 {
@@ -85,12 +78,8 @@ vec3 randomAxis(uint seed)
     return vec3(across * cos(angle), across * sin(angle), z);
 }
 
-// Every rotation alike (Shoemake 1992, "Uniform random rotations").
 vec4 randomRotation(uint seed)
 {
-    float share = uniformFrom(hashSeed(seed, rotationCounter));
-    float one = fullTurn * uniformFrom(hashSeed(seed, rotationCounter + 1u));
-    float two = fullTurn * uniformFrom(hashSeed(seed, rotationCounter + 2u));
-    float a = sqrt(1.0f - share), b = sqrt(share);
-    return vec4(a * sin(one), a * cos(one), b * sin(two), b * cos(two));
+    return anyRotation(uniformFrom(hashSeed(seed, rotationCounter)), uniformFrom(hashSeed(seed, rotationCounter + 1u)),
+                       uniformFrom(hashSeed(seed, rotationCounter + 2u)));
 }

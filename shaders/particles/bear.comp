@@ -55,7 +55,6 @@ struct Start {
     vec3 lattice;   // m
     vec3 place;     // m, from there
     vec3 velocity;  // m/s
-    vec3 axis;      // unit, about which it was sent out
 };
 
 // The first of `count` triangles whose share of the area ends beyond x.
@@ -139,7 +138,7 @@ void flyOn(float since)
     thrustFor(0.5 * since);
 }
 
-vec4 rotationOf(vec3 axis)
+vec4 newbornRotation()
 {
     vec4 rotation = vec4(0.0, 0.0, 0.0, 1.0);
 #ifdef TURN_ANY
@@ -154,17 +153,17 @@ vec4 rotationOf(vec3 axis)
 
 void shape(Start start)
 {
-    vec3 step = floor(start.place * 16.0 + 0.5) * 0.0625;
+    vec3 step = latticeNear(start.place);
     vec3 base = start.place - step;
     anchor = start.lattice + step;
     released = false;
     scale = mix(newbornScale.x, newbornScale.y, drawn(seed, bornScale));
     phase = newbornPhase * drawn(seed, bornPhase);
-    vec4 rotation = rotationOf(start.axis);
+    vec4 rotation = newbornRotation();
     vec3 spin = newbornSpin * (2.0 * vec3(drawn(seed, bornSpin), drawn(seed, bornSpin + 1u),
                                           drawn(seed, bornSpin + 2u)) - 1.0);
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 arm = rotated(rotation, restPlace[i]) * scale;
+        vec3 arm = turned(rotation, restPlace[i]) * scale;
         x[i] = base + arm;
         v[i] = isHeld(pinned[i]) ? vec3(0.0) : start.velocity + cross(spin, arm);
         fluid[i] = vec3(0.0);

@@ -1,4 +1,4 @@
-// Sums of set bits, a lane each WORDS words; with ALLOCATE also one past the last place that is taken.
+// Sums of set bits, and one past the last clear one that stands for a place; a lane each WORDS words.
 #include "particles/control.glsl"
 #include "particles/places.glsl"
 

@@ -12,7 +12,7 @@ layout(std430, binding = 3) writeonly buffer List { uint list[]; };
 
 uniform int controlBase;
 #ifndef DEATHS
-uniform int stepLanes;
+#include "particles/reach.glsl"
 #endif
 
 void main()
@@ -35,10 +35,7 @@ void main()
             ++rank;
 #ifndef DEATHS
             if (rank == limit) {  // the last newborn, which only this lane meets
-                uint mark = max(control[controlBase + controlMark], place + 1u);
-                uint reach = max(mark, control[controlBase + controlMarkBefore]);
-                control[controlBase + controlMark] = mark;
-                control[controlBase + controlStepGroups] = (reach + uint(stepLanes) - 1u) / uint(stepLanes);
+                reachTo(max(control[controlBase + controlMark], place + 1u));
             }
 #endif
         }

@@ -16,7 +16,7 @@ uniform int scheduled;      // births that the CPU knows of
 uniform int allocates;      // 0: only counts
 uniform int deathRunCount;
 uniform ivec4 deathRuns[mostDeathRuns];  // x control of the group that dies, y births for each
-uniform int stepLanes;      // of a workgroup of the step
+#include "particles/reach.glsl"
 #endif
 
 shared uint tops[LANES];
@@ -64,9 +64,7 @@ void main()
     uint born = allocates != 0 ? min(requested, total) : 0u;
     control[controlBase + controlLive] = uint(placeCount) - total + born;
     control[controlBase + controlMarkBefore] = control[controlBase + controlMark];
-    control[controlBase + controlMark] = mark;
-    uint reach = max(mark, control[controlBase + controlMarkBefore]);
-    control[controlBase + controlStepGroups] = (reach + uint(stepLanes) - 1u) / uint(stepLanes);
+    reachTo(mark);
     if (allocates != 0) {
         control[controlBase + controlRequested] = requested;
         control[controlBase + controlBorn] = born;

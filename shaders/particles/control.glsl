@@ -1,5 +1,4 @@
-// What births leave for whoever comes after them, CONTROLS words a group (src/simulate/births.h).
-const int controls = 32;
+// What births leave for whoever comes after them, so many words a group (src/simulate/place_lists.h).
 const int controlDeaths = 0;       // in the last step, where they are listed
 const int controlRequested = 1;    // births of the last step: asked for,
 const int controlBorn = 2;         // and had
@@ -11,4 +10,4 @@ const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
 const int controlStepGroups = 12;  // workgroups of the next step, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
-const int mostDeathRuns = 8;
+const int mostDeathRuns = 6;

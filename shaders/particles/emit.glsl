@@ -1,5 +1,6 @@
 // Where and how fast what an emitter bears starts out. Everything random hangs on the newborn's seed. Distributions:
 // src/scene/emitter.h. Needs physics/random.glsl.
+#include "physics/rotation.glsl"
 
 // Counters of a newborn's hashes, beyond those of the frames (fused/step.glsl).
 const uint bornPlace = 0xe0000000u;      // and the two after it
@@ -57,18 +58,4 @@ float discRadius(float radius, float hollow, float u)
 float ballRadius(float radius, float hollow, float u)
 {
     return radius * pow(mix(hollow * hollow * hollow, 1.0, u), 1.0 / 3.0);
-}
-
-// A uniform random rotation (Shoemake, Graphics Gems III, 1992): xyz, w.
-vec4 anyRotation(float u, float v, float w)
-{
-    float a = sqrt(1.0 - u);
-    float b = sqrt(u);
-    return vec4(a * sin(6.2831853 * v), a * cos(6.2831853 * v), b * sin(6.2831853 * w), b * cos(6.2831853 * w));
-}
-
-vec3 rotated(vec4 q, vec3 v)
-{
-    vec3 t = 2.0 * cross(vec3(q), v);
-    return v + t * q.w + cross(vec3(q), t);
 }

@@ -168,8 +168,8 @@ void main()
 #ifdef TURNS
     rotation = composed(aboutAxis(randomAxis(seed), angle), rotation);
 #endif
-    right = rotated(rotation, vec3(1.0, 0.0, 0.0));
-    up = rotated(rotation, vec3(0.0, 1.0, 0.0));
+    right = turned(rotation, vec3(1.0, 0.0, 0.0));
+    up = turned(rotation, vec3(0.0, 1.0, 0.0));
     front = cross(right, up);
 #else
     vec3 level = right;

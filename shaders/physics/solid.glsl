@@ -1,6 +1,7 @@
 // Signed distance and unit normal of solids: xyz normal towards the free side, w distance in m (negative
 // inside), exact on both sides. A normal is a unit vector everywhere: where several are as good (a centre, an
 // axis, an edge from inside) one of them. Read as C++ through GLM by the tests.
+#include "physics/rotation.glsl"
 
 // m: the squares of less are lost to rounding, and a direction with them.
 const float noDirection = 1e-15f;
@@ -35,16 +36,4 @@ vec4 capsuleSurface(vec3 x, vec3 axis, float perLength, vec3 aside, float radius
     vec3 off = x - axis * clamp(dot(x, axis) * perLength, 0.0f, 1.0f);
     float r = length(off);
     return vec4(r > noDirection ? off / r : aside, r - radius);
-}
-
-// By a unit quaternion, and back.
-vec3 turned(vec4 q, vec3 v)
-{
-    vec3 across = cross(vec3(q.x, q.y, q.z), v) * 2.0f;
-    return v + across * q.w + cross(vec3(q.x, q.y, q.z), across);
-}
-
-vec3 turnedBack(vec4 q, vec3 v)
-{
-    return turned(vec4(-q.x, -q.y, -q.z, q.w), v);
 }

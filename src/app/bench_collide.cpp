@@ -90,13 +90,11 @@ int benchCollideCommand(const Options& options) {
     gpu::Context context(contextOptions);
     gpu::ProgramCache cache(context, cacheFolder());
     CollideReport report;
-    report.processor = processorName();
-    report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    report.context = context.info();
+    report.machine = measuredOn(context);
     report.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 20);
-    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.cores, {}};
+    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     measureAll(wanted, options, device, report);
-    report.pinned = pinRasteriserThreads();  // all of them run by now
+    report.machine.pinned = pinRasteriserThreads();  // all of them run by now
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));

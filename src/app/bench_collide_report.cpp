@@ -212,10 +212,7 @@ JsonValue asJson(const SearchReport& report) {
 }  // namespace
 
 std::string asText(const CollideReport& report) {
-    std::string out =
-        print("%s, %d %s; ", report.processor.c_str(), report.cores, report.cores == 1 ? "core" : "cores");
-    out += report.context.renderer + ", OpenGL " + report.context.version;
-    if (report.pinned > 0) out += print("; %d rasteriser threads pinned", report.pinned);
+    std::string out = asText(report.machine);
     out += "\n" + contactText(report.contact) + uberFlowText(report.uberFlow);
     if (report.searches) out += searchText(*report.searches);
     if (report.contact.empty()) return out;
@@ -241,14 +238,8 @@ JsonValue asJson(const CollideReport& report) {
             .add("measured", verdict.measured ? number(*verdict.measured) : JsonValue());
         targets.items.push_back(std::move(one));
     }
-    JsonValue out = JsonValue::makeObject();
-    return out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("processor", JsonValue::makeString(report.processor))
-        .add("cores", number(report.cores))
-        .add("pinnedRasteriserThreads", number(report.pinned))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("openGL", JsonValue::makeString(report.context.version))
-        .add("secondsAGroup", number(report.secondsAGroup))
+    JsonValue out = headOf(report.machine);
+    return out.add("secondsAGroup", number(report.secondsAGroup))
         .add("contact", std::move(contact))
         .add("uberFlow", std::move(uberFlow))
         .add("searches", report.searches ? asJson(*report.searches) : JsonValue())

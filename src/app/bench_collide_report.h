@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "app/machine.h"
 #include "core/json.h"
-#include "gpu/context.h"
 #include "measure/bench_collide.h"
 #include "measure/bench_search.h"
 #include "measure/bench_uberflow.h"
@@ -14,9 +14,7 @@
 namespace shoal::app {
 
 struct CollideReport {
-    std::string processor;
-    int cores = 1, pinned = 0;  // pinned: workers of a CPU rasteriser
-    gpu::ContextInfo context;
+    MeasuredOn machine;
     double secondsAGroup = 0;
     std::vector<measure::ContactTimes> contact;
     std::vector<measure::UberFlowTimes> uberFlow;

@@ -51,11 +51,9 @@ int benchParticlesCommand(const Options& options) {
     gpu::Context context(contextOptions);
     gpu::ProgramCache cache(context, cacheFolder());
     ParticleReport report;
-    report.processor = processorName();
-    report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    report.context = context.info();
+    report.machine = measuredOn(context);
     report.secondsAGroup = options.seconds.value_or(options.quick ? 1 : 8);
-    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.cores, {}};
+    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     std::cerr << "This takes about " << roughly(double(groups.size()) * (report.secondsAGroup * 1.2 + 3))
               << ".\n";
     BenchSchedule schedule;
@@ -66,7 +64,7 @@ int benchParticlesCommand(const Options& options) {
             report.times.push_back(std::move(times));
         bar.step();
     }
-    report.pinned = pinRasteriserThreads();  // all of them run by now
+    report.machine.pinned = pinRasteriserThreads();  // all of them run by now
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));

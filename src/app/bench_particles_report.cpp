@@ -82,7 +82,7 @@ std::vector<Verdict> verdicts(const ParticleReport& report) {
     const auto copy = find(report.times, [&](const ParticleCase& one) {
         return one.heights && one.side == side && one.what == What::copy;
     });
-    if (!report.context.software && step && copy)
+    if (!report.machine.context.software && step && copy)
         out.push_back({"a step over a height field, over a copy of the state", 2, false,
                        step->frame.min / copy->frame.min});
     addBirths(report.times, out);
@@ -191,10 +191,7 @@ constexpr const char* papers =
 }  // namespace
 
 std::string asText(const ParticleReport& report) {
-    std::string out =
-        print("%s, %d %s; ", report.processor.c_str(), report.cores, report.cores == 1 ? "core" : "cores");
-    out += report.context.renderer + ", OpenGL " + report.context.version;
-    if (report.pinned > 0) out += print("; %d rasteriser threads pinned", report.pinned);
+    std::string out = asText(report.machine);
     out += "\n" + timesText(report.times) + birthsText(report.times) + "\n" + papers + "\n";
     for (const Verdict& verdict : verdicts(report))
         out += verdict.what + ": " +
@@ -221,14 +218,8 @@ JsonValue asJson(const ParticleReport& report) {
             .add("measured", verdict.measured ? number(*verdict.measured) : JsonValue());
         targets.items.push_back(std::move(one));
     }
-    JsonValue out = JsonValue::makeObject();
-    return out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("processor", JsonValue::makeString(report.processor))
-        .add("cores", number(report.cores))
-        .add("pinnedRasteriserThreads", number(report.pinned))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("openGL", JsonValue::makeString(report.context.version))
-        .add("secondsAGroup", number(report.secondsAGroup))
+    JsonValue out = headOf(report.machine);
+    return out.add("secondsAGroup", number(report.secondsAGroup))
         .add("cases", std::move(cases))
         .add("birthCosts", std::move(costs))
         .add("targets", std::move(targets));

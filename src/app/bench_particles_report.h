@@ -4,16 +4,14 @@
 #include <string>
 #include <vector>
 
+#include "app/machine.h"
 #include "core/json.h"
-#include "gpu/context.h"
 #include "measure/bench_particles.h"
 
 namespace shoal::app {
 
 struct ParticleReport {
-    std::string processor;
-    int cores = 1, pinned = 0;  // pinned: workers of a CPU rasteriser
-    gpu::ContextInfo context;
+    MeasuredOn machine;
     double secondsAGroup = 0;
     std::vector<measure::ParticleTimes> times;
 };

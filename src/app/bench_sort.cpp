@@ -20,9 +20,7 @@ using namespace measure;
 namespace {
 
 struct Report {
-    std::string processor;
-    int cores = 1, pinned = 0;
-    gpu::ContextInfo context;
+    MeasuredOn machine;
     double secondsASize = 0;
     std::vector<SortTable> tables;
 };
@@ -45,7 +43,7 @@ std::vector<Verdict> verdicts(const Report& report) {
     const std::string at = concat(" at ", table.side, " x ", table.side);
     std::vector<Verdict> out = {{"radix, times as fast as bitonic" + at, 10, over(bitonic)},
                                 {"radix, times as fast as std::sort" + at, 1, over(&table.stdSort())}};
-    if (!report.context.software && radix)
+    if (!report.machine.context.software && radix)
         out.push_back(
             {"radix, share of the copy bandwidth in each pass" + at, 0.25, table.shareOfCopy(*radix)});
     return out;
@@ -106,9 +104,7 @@ void printTimes(const Report& report) {
 }
 
 void print(const Report& report) {
-    std::cout << report.processor << ", " << report.cores << (report.cores == 1 ? " core" : " cores") << "; "
-              << report.context.renderer << ", OpenGL " << report.context.version;
-    if (report.pinned > 0) std::cout << "; " << report.pinned << " rasteriser threads pinned";
+    std::cout << asText(report.machine);
     std::cout << "\n\n";
     printRates(report);
     printTimes(report);
@@ -159,14 +155,8 @@ JsonValue asJson(const Report& report) {
             .add("measured", verdict.measured ? JsonValue::makeNumber(*verdict.measured) : JsonValue());
         targets.items.push_back(std::move(one));
     }
-    JsonValue out = JsonValue::makeObject();
-    return out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("processor", JsonValue::makeString(report.processor))
-        .add("cores", JsonValue::makeNumber(report.cores))
-        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.pinned))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("openGL", JsonValue::makeString(report.context.version))
-        .add("secondsASize", JsonValue::makeNumber(report.secondsASize))
+    JsonValue out = headOf(report.machine);
+    return out.add("secondsASize", JsonValue::makeNumber(report.secondsASize))
         .add("cases", std::move(cases))
         .add("published", std::move(published))
         .add("targets", std::move(targets));
@@ -181,10 +171,8 @@ int benchSortCommand(const Options& options) {
     gpu::Context context(contextOptions);
     gpu::ProgramCache cache(context, cacheFolder());
     Report report;
-    report.processor = processorName();
-    report.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    report.pinned = pinRasteriserThreads();
-    report.context = context.info();
+    report.machine = measuredOn(context);
+    report.machine.pinned = pinRasteriserThreads();
     report.secondsASize = options.seconds.value_or(options.quick ? 1 : 8);
     BenchSchedule schedule;
     schedule.seconds = report.secondsASize;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <thread>
 
 #include "core/error.h"
 
@@ -14,6 +15,29 @@ std::string processorName() {
         if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
     }
     return "unknown processor";
+}
+
+MeasuredOn measuredOn(const gpu::Context& context) {
+    return {processorName(), int(std::max(1u, std::thread::hardware_concurrency())), 0, context.info()};
+}
+
+std::string asText(const MeasuredOn& machine) {
+    std::string out =
+        concat(machine.processor, ", ", machine.cores, machine.cores == 1 ? " core; " : " cores; ",
+               machine.context.renderer, ", OpenGL ", machine.context.version);
+    if (machine.pinned > 0) out += concat("; ", machine.pinned, " rasteriser threads pinned");
+    return out;
+}
+
+JsonValue headOf(const MeasuredOn& machine) {
+    JsonValue out = JsonValue::makeObject();
+    out.add("version", JsonValue::makeString(SHOAL_VERSION))
+        .add("processor", JsonValue::makeString(machine.processor))
+        .add("cores", JsonValue::makeNumber(machine.cores))
+        .add("pinnedRasteriserThreads", JsonValue::makeNumber(machine.pinned))
+        .add("renderer", JsonValue::makeString(machine.context.renderer))
+        .add("openGL", JsonValue::makeString(machine.context.version));
+    return out;
 }
 
 std::string roughly(double seconds) {

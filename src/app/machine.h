@@ -3,9 +3,22 @@
 
 #include <string>
 
+#include "core/json.h"
+#include "gpu/context.h"
+
 namespace shoal::app {
 
 std::string processorName();
+
+// Where a benchmark ran.
+struct MeasuredOn {
+    std::string processor;
+    int cores = 1, pinned = 0;  // pinned: workers of a CPU rasteriser
+    gpu::ContextInfo context;
+};
+MeasuredOn measuredOn(const gpu::Context& context);  // none pinned
+std::string asText(const MeasuredOn& machine);       // one line, without its end
+JsonValue headOf(const MeasuredOn& machine);         // the first keys of a report
 
 // "3 s", "12 minutes": an estimate for people.
 std::string roughly(double seconds);

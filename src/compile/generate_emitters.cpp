@@ -80,15 +80,14 @@ class EmitterText {
         out += concat("        vec3 axis = ", outward ? "outward" : turned(slot(2) + ".xyz"), ";\n",
                       "        start.velocity = coneDirection(axis, ", slot(0),
                       ".w, drawn(seed, bornDirection), ", "drawn(seed, bornDirection + 1u)) * mix(", slot(3),
-                      ".x, ", slot(3), ".y, drawn(seed, bornSpeed)) + carried * ", slot(1), ".w;\n",
-                      "        start.axis = axis;\n");
+                      ".x, ", slot(3), ".y, drawn(seed, bornSpeed)) + carried * ", slot(1), ".w;\n");
         return out + "    }\n";
     }
 
   private:
     std::string slot(size_t i) const { return concat("emitterParameters[", slots * index_ + i, "]"); }
     std::string turned(const std::string& v) const {
-        return emitter_->path ? concat("rotated(", slot(7), ", ", v, ")") : v;
+        return emitter_->path ? concat("turned(", slot(7), ", ", v, ")") : v;
     }
 
     std::string fromPlace() {
@@ -202,7 +201,7 @@ std::string generateEmitters(const Scene& scene, const Lifecycle& life,
         "= 0.0;\n",
         lengths,
         "}\n\nvoid emitFrom(int emitter, uint seed, float time, Source source, out Start start)\n{\n",
-        "    start = Start(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0, 1.0, 0.0));\n", body, "}\n");
+        "    start = Start(vec3(0.0), vec3(0.0), vec3(0.0));\n", body, "}\n");
 }
 
 std::vector<glm::dvec3> emitterMiddles(const Scene& scene, const Lifecycle& life) {

@@ -80,16 +80,12 @@ std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::op
     schedule.seconds = seconds.value_or(usualSeconds);
     schedule.leastSamples = least;
     schedule.mostSamples = mostSamples;
-    const VisitPlan plan = planVisits(cost, schedule);
     std::vector<std::vector<double>> samples(contenders.size());
     double done = 0;
-    for (int round = 0; round < plan.rounds; ++round) {
-        for (size_t i = 0; i < places.size(); ++i) {
-            if (!plan.visits(i, round)) continue;
-            samples[places[i]].push_back(sample(contenders[places[i]]));
-            tell(done += cost[i]);
-        }
-    }
+    takeTurns(planVisits(cost, schedule), [&](size_t i) {
+        samples[places[i]].push_back(sample(contenders[places[i]]));
+        tell(done += cost[i]);
+    });
     std::vector<Spread> out;
     for (const std::vector<double>& one : samples)
         out.push_back(spreadOf(one));

@@ -132,14 +132,11 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
     }
     const VisitPlan plan = planVisits(cost, schedule);
     double left = plan.seconds;
-    for (int round = 0; round < plan.rounds; ++round) {
-        for (size_t i = 0; i < entrants.size(); ++i) {
-            if (!plan.visits(i, round)) continue;
-            entrants[i]->visit();
-            left = std::max(0.0, left - cost[i]);
-            progress(cases.front().group, left);
-        }
-    }
+    takeTurns(plan, [&](size_t i) {
+        entrants[i]->visit();
+        left = std::max(0.0, left - cost[i]);
+        progress(cases.front().group, left);
+    });
     for (size_t i = 0; i < entrants.size(); ++i)
         out[places[i]] = entrants[i]->finish();
     device.context->checkErrors("bench");

@@ -196,11 +196,9 @@ std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, 
         cost.push_back(entrants.back()->seconds);
     }
     const VisitPlan plan = planVisits(cost, schedule);
-    for (int round = 0; round < plan.rounds; ++round) {
-        progress(double(round) / plan.rounds);
-        for (size_t i = 0; i < entrants.size(); ++i)
-            if (plan.visits(i, round)) entrants[i]->visit();
-    }
+    takeTurns(
+        plan, [&](int round) { progress(double(round) / plan.rounds); },
+        [&](size_t i) { entrants[i]->visit(); });
     for (size_t i = 0; i < entrants.size(); ++i)
         out[places[i]] = entrants[i]->finish();
     device.context->checkErrors("bench collide");

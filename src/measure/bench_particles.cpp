@@ -339,11 +339,7 @@ std::vector<ParticleTimes> measureParticles(const std::vector<ParticleCase>& cas
         places.push_back(out.size() - 1);
         cost.push_back(entrants.back()->seconds);
     }
-    const VisitPlan plan = planVisits(cost, schedule);
-    for (int round = 0; round < plan.rounds; ++round) {
-        for (size_t i = 0; i < entrants.size(); ++i)
-            if (plan.visits(i, round)) entrants[i]->visit();
-    }
+    takeTurns(planVisits(cost, schedule), [&](size_t i) { entrants[i]->visit(); });
     for (size_t i = 0; i < entrants.size(); ++i)
         out[places[i]] = entrants[i]->finish();
     device.context->checkErrors("bench particles");

@@ -198,14 +198,11 @@ SortTable measureSorts(int side, const SortBenchDevice& device, const BenchSched
     for (size_t i = 0; i < input.size(); ++i)
         input[i] = {uint32_t(random()), uint32_t(i)};
     std::vector<Running> all = runnersOf(side, device, input);
-    const VisitPlan plan = planVisits(costs(all), schedule);
-    for (int round = 0; round < plan.rounds; ++round) {
-        for (size_t i = 0; i < all.size(); ++i) {
-            if (!all[i].runner || !plan.visits(i, round)) continue;
-            all[i].runner->restart();
-            all[i].seconds.push_back(timed(*all[i].runner));
-        }
-    }
+    takeTurns(planVisits(costs(all), schedule), [&](size_t i) {
+        if (!all[i].runner) return;
+        all[i].runner->restart();
+        all[i].seconds.push_back(timed(*all[i].runner));
+    });
     SortTable out;
     out.side = side;
     for (Running& one : all) {

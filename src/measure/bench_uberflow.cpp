@@ -282,11 +282,11 @@ std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, cons
     }
     pinRasteriserThreads();
     const VisitPlan plan = planVisits(cost, schedule);
-    for (int round = 0; round < plan.rounds; ++round) {
-        progress(double(round) / plan.rounds);
-        for (size_t i = 0; i < entrants.size(); ++i)
-            if (entrants[i]->result.leftOut.empty() && plan.visits(i, round)) entrants[i]->visit();
-    }
+    takeTurns(
+        plan, [&](int round) { progress(double(round) / plan.rounds); },
+        [&](size_t i) {
+            if (entrants[i]->result.leftOut.empty()) entrants[i]->visit();
+        });
     std::vector<UberFlowTimes> out;
     for (const std::unique_ptr<Entrant>& entrant : entrants)
         out.push_back(entrant->finish());

@@ -20,6 +20,23 @@ void GroupDrawer::addOrderDefines(const std::vector<std::string>& defines) {
     orderDefines_.insert(orderDefines_.end(), defines.begin(), defines.end());
 }
 
+const gpu::Program& GroupDrawer::beginLit(const StateView& state, const DrawInputs& inputs) {
+    const gpu::Program& lit = program(lit_, litOptions_, state);
+    lit.use();
+    inputs.eye.origin.apply(lit);
+    inputs.lighting.apply(lit, inputs.eye);
+    lit.set("toClip", inputs.eye.toClip);
+    return lit;
+}
+
+const gpu::Program& GroupDrawer::beginDepth(const StateView& state, const ShadowMap& shadow) {
+    const gpu::Program& depth = program(depth_, depthOptions_, state);
+    depth.use();
+    shadow.origin().apply(depth);
+    depth.set("toClip", shadow.toClip());
+    return depth;
+}
+
 const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramOptions& options,
                                          const StateView& state) const {
     gpu::Program& program = variants[state.textures ? 0 : 1];

@@ -53,8 +53,9 @@ class GroupDrawer {
     using Variants = std::array<gpu::Program, 2>;
 
     GroupDrawer(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& plan, size_t index);
-    const gpu::Program& program(Variants& variants, const gpu::ProgramOptions& options,
-                                const StateView& state) const;
+    // In use, with what all groups have of the picture or the shadow map.
+    const gpu::Program& beginLit(const StateView& state, const DrawInputs& inputs);
+    const gpu::Program& beginDepth(const StateView& state, const ShadowMap& shadow);
 
     gpu::Context* context_;
     std::string shaderRoot_, name_;
@@ -65,6 +66,8 @@ class GroupDrawer {
     std::vector<std::string> orderDefines_;
 
   private:
+    const gpu::Program& program(Variants& variants, const gpu::ProgramOptions& options,
+                                const StateView& state) const;
     void bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part,
               int count) const;
 

@@ -68,10 +68,7 @@ void MoleculeDrawer::setShape(const gpu::Program& program) const {
 }
 
 const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double) {
-    const gpu::Program& program = this->program(depth_, depthOptions_, state);
-    program.use();
-    shadow.origin().apply(program);
-    program.set("toClip", shadow.toClip());
+    const gpu::Program& program = beginDepth(state, shadow);
     setShape(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));
@@ -81,12 +78,8 @@ const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const Shado
 }
 
 const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
-    const gpu::Program& program = this->program(lit_, litOptions_, state);
+    const gpu::Program& program = beginLit(state, inputs);
     const Eye& eye = inputs.eye;
-    program.use();
-    eye.origin.apply(program);
-    inputs.lighting.apply(program, eye);
-    program.set("toClip", eye.toClip);
     program.set("firstColor", color_);
     program.set("secondColor", secondColor_);
     program.set("roughness", float(material_.roughness));

@@ -176,10 +176,7 @@ void ParticleDrawer::setType(const gpu::Program& program) const {
 }
 
 const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double time) {
-    const gpu::Program& program = this->program(depth_, depthOptions_, state);
-    program.use();
-    shadow.origin().apply(program);
-    program.set("toClip", shadow.toClip());
+    const gpu::Program& program = beginDepth(state, shadow);
     program.set("viewToScene", shadow.toScene());
     program.set("eyeAt", glm::vec4(shadow.toScene()[2], 0));
     program.set("pictureSize", glm::vec2(float(shadow.depth().width())));
@@ -191,12 +188,8 @@ const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const Shado
 }
 
 const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
-    const gpu::Program& program = this->program(lit_, litOptions_, state);
+    const gpu::Program& program = beginLit(state, inputs);
     const Eye& eye = inputs.eye;
-    program.use();
-    eye.origin.apply(program);
-    inputs.lighting.apply(program, eye);
-    program.set("toClip", eye.toClip);
     program.set("viewToScene", eye.viewToScene);
     program.set("eyeAt", glm::vec4(0, 0, 0, 1));
     program.set("pictureSize", eye.size);

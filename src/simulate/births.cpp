@@ -22,10 +22,6 @@ void store(const Program& program, const char* block, int at, const GroupBuffers
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
 
-// Two textures of each, beside four of the group's own: any device has 16.
-constexpr size_t mostSources = 6;
-static_assert(mostSources <= mostDeathRuns);
-
 void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
     const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
     const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
@@ -93,10 +89,10 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
     for (size_t e = 0; e < living.life.emitters.size(); ++e)
         if (group.life->sources[e] != LifePlan::noSource)
             living.deathRuns.push_back({group.life->sources[e], int(e), living.life.emitters[e].perDeath});
-    if (living.deathRuns.size() > mostSources)
+    if (living.deathRuns.size() > mostDeathRuns)
         throw Error(living.life.location,
                     concat("\"", group.name, "\" is born from the deaths of ", living.deathRuns.size(),
-                           " groups; at most ", mostSources, " are possible"));
+                           " groups; at most ", mostDeathRuns, " are possible"));
     KernelOptions kernel;
     kernel.births = true;
     kernel.software = context_->info().software;

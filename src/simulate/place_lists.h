@@ -20,7 +20,9 @@ namespace control {
 constexpr int words = 32;  // a group
 constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, stepGroups = 12;
 }  // namespace control
-constexpr int mostDeathRuns = 8;  // groups from whose deaths one group bears
+// Emitters from deaths that a group may have: two textures of each, beside four of the group's own, of the
+// 16 that any device has.
+constexpr int mostDeathRuns = 6;
 
 // Whose bits, where its control is, and with how many lanes a workgroup of its step works.
 struct PlaceSet {
