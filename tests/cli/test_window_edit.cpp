@@ -92,8 +92,9 @@ Edited edit(const std::string& name, const std::string& steps) {
                                      file + ".hidden " + file + "; }\n" + steps);
     Edited out;
     out.outcome = runShoal({"run", file, "--context", "window", "--size", "900x640"}, {.seconds = 90});
+    INFO(out.outcome.err);
+    REQUIRE(out.outcome.code == 0);
     CHECK(user.finish() == 0);
-    CHECK(out.outcome.code == 0);
     out.after = readFile(file);
     out.between = readFile(file + ".kept");
     const Outcome checked = runShoal({"check", file});
