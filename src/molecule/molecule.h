@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 
 #include "core/error.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 
@@ -72,6 +73,7 @@ struct Molecule {
     std::vector<Vertex> vertices;
     std::vector<Spring> springs;
     std::vector<Triangle> triangles;
+    Skin skin;  // empty: the triangles themselves are drawn
     Material material;
     std::string file;  // where it was read from; empty when made in code
 

@@ -14,103 +14,19 @@
 #include "core/error.h"
 #include "molecule/molecule.h"
 #include "scene/collider_path.h"
+#include "scene/color_scale.h"
 #include "scene/distance_field.h"
 #include "scene/emitter.h"
+#include "scene/field.h"
 #include "scene/force.h"
 #include "scene/mesh.h"
 #include "scene/particle.h"
 #include "scene/placement.h"
+#include "scene/school.h"
 #include "scene/solver.h"
+#include "scene/water.h"
 
 namespace shoal {
-
-// ---- Vector fields: fluid velocity u(x, t) in m/s. They add up, each times its weight, inside its box.
-
-struct UniformField {
-    glm::dvec3 velocity{0};  // m/s
-};
-
-// The same everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
-struct OscillatingField {
-    glm::dvec3 velocity{0};  // m/s, at the peak
-    double frequency = 1;    // Hz, at least 0
-    double phase = 0;        // rad
-};
-
-// Direction constant, strength varied in space and time: fronts of size length x width travel along the
-// direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
-// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
-// width) with s along the direction and p, q across it: p along y x direction (x x direction where
-// |direction.y| >= 0.9), q along direction x p.
-struct GustField {
-    glm::dvec3 direction{1, 0, 0};  // any length above 0; normalised
-    double speed = 5;               // m/s, mean
-    double strength = 0.6;          // relative variation, at least 0
-    double length = 8;              // m, of a front along the direction
-    double width = 6;               // m, of a front across it
-    double frontSpeed = 5;          // m/s
-    uint32_t seed = 0;
-};
-
-struct ShearField {
-    glm::dvec3 origin{0};
-    glm::dvec3 velocity{0};  // m/s at the origin
-    glm::dmat3 gradient{0};  // 1/s; rows in the file: u = velocity + gradient (x - origin)
-};
-
-// Scully's vortex: turns about the axis with peak speed at the core radius,
-// speed * 2 (r/R) / (1 + (r/R)^2), plus `lift` along the axis times the same profile's core 1/(1+(r/R)^2).
-struct VortexField {
-    glm::dvec3 origin{0};
-    glm::dvec3 axis{0, 1, 0};
-    double speed = 3;   // m/s at r = radius
-    double radius = 1;  // m
-    double lift = 0;    // m/s on the axis
-};
-
-// Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi /
-// wavelength.
-struct AbcField {
-    glm::dvec3 origin{0};
-    double a = 1, b = 1, c = 1;             // m/s
-    double wavelength = 6.283185307179586;  // m
-};
-
-// Taylor-Green: u = speed (cos kx sin ky, -sin kx cos ky, 0) cos kz.
-struct TaylorGreenField {
-    glm::dvec3 origin{0};
-    double speed = 1;                       // m/s
-    double wavelength = 6.283185307179586;  // m
-};
-
-// Curl of three gradient noises in (x / length, t / period): divergence-free and unbiased because it
-// evolves in time instead of being scrolled (Bridson et al. 2007).
-struct CurlNoiseField {
-    double speed = 1;   // m/s, about the RMS of u
-    double length = 2;  // m, of the largest eddies
-    double period = 2;  // s, in which they change
-    int octaves = 1;    // 1 to 4, each half the length, period and 2^(-1/3) of the speed
-    uint32_t seed = 0;
-};
-
-// A regular grid of velocities, trilinear between cell centres.
-struct GridField {
-    std::string file;
-    glm::ivec3 resolution{0};
-    glm::dvec3 low{0}, high{0};     // m, in the scene's axes: the outer faces of the outer cells
-    std::vector<glm::vec3> values;  // m/s, x fastest, then y, then z
-    bool wrap = false;              // repeat outside the bounds, else clamp to the border
-};
-
-using FieldShape = std::variant<UniformField, OscillatingField, GustField, ShearField, VortexField, AbcField,
-                                TaylorGreenField, CurlNoiseField, GridField>;
-
-struct Field {
-    std::string name;
-    FieldShape shape;
-    double weight = 1;
-    std::optional<Box> box;  // no effect outside
-};
 
 // ---- Colliders
 
@@ -220,6 +136,7 @@ struct Group {
     int count = 0;                         // at the start
     Placement place;
     std::optional<Lifecycle> life;  // nothing: none is born and none dies
+    std::optional<School> school;   // nothing: they do not steer
     Drag drag;
     bool held = true;  // pinned vertices hold; false: they are free from the start
     std::optional<Release> release;
@@ -232,6 +149,7 @@ struct Group {
     std::string surface;                           // what it is made of, for surfacePairs
     double restitution = 0.2, friction = 0.5;      // against other groups
     std::optional<glm::dvec3> color, secondColor;  // override the molecule's material
+    std::optional<ColorScale> colorBy;             // in place of those
     Location location;                             // of the group in the file, for messages
 };
 
@@ -314,6 +232,7 @@ struct Scene {
     Camera camera;
     Light light;
     Sky sky;
+    std::optional<Water> water;     // nothing: all is in the air
     std::vector<Warning> warnings;  // found while reading
 };
 
