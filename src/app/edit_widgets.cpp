@@ -6,12 +6,14 @@
 #include <array>
 #include <cmath>
 
+#include "app/interface.h"
+
 namespace shoal::app {
 
 namespace {
 
 constexpr double degrees = 57.29577951308232;
-constexpr float labelWidth = 136;
+constexpr float labelWidth = 136;  // points
 
 void tipHere(const Row& row) {
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", row.tip);
@@ -45,7 +47,7 @@ void beginRow(const Row& row) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label);
     if (ImGui::IsItemHovered() && *row.tip) ImGui::SetTooltip("%s", row.tip);
-    ImGui::SameLine(labelWidth);
+    ImGui::SameLine(points(labelWidth));
     ImGui::SetNextItemWidth(-1);
 }
 

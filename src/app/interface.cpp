@@ -4,11 +4,20 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+
 namespace shoal::app {
 
-static void style() {
-    ImGui::StyleColorsDark();
+static constexpr float fontHeight = 13;  // points: the size at which the built-in font was drawn
+
+static void style(float unitsPerPoint) {
     ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    ImGui::StyleColorsDark();
     style.WindowRounding = 6;
     style.FrameRounding = style.GrabRounding = 4;
     style.WindowPadding = ImVec2(12, 10);
@@ -34,14 +43,15 @@ static void style() {
     color(ImGuiCol_HeaderHovered, 0.3f, 0.44f, 0.25f, 1);
     color(ImGuiCol_HeaderActive, 0.38f, 0.55f, 0.3f, 1);
     color(ImGuiCol_TableHeaderBg, 0.13f, 0.17f, 0.13f, 1);
+    style.ScaleAllSizes(unitsPerPoint);
 }
 
-Interface::Interface(GLFWwindow* window) {
+Interface::Interface(GLFWwindow* window, std::optional<double> scale) : window_(window), scale_(scale) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
-    style();
     ImGui_ImplGlfw_InitForOpenGL(window, true);
     ImGui_ImplOpenGL3_Init("#version 330");
+    makeFont(density());
 }
 
 Interface::~Interface() {
@@ -50,7 +60,40 @@ Interface::~Interface() {
     ImGui::DestroyContext();
 }
 
+// Where the window system counts in units of several pixels (Wayland, macOS), those are part of the scale
+// that it asks for.
+Interface::Density Interface::density() const {
+    int width = 0, height = 0, pixelsWide = 0, pixelsHigh = 0;
+    glfwGetWindowSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_, &pixelsWide, &pixelsHigh);
+    if (height < 1 || pixelsHigh < 1) return made_;  // minimised
+    float asked = 1, ignored = 1;
+    glfwGetWindowContentScale(window_, &asked, &ignored);
+    const float pixelsPerPoint = float(std::clamp(scale_.value_or(double(asked)), leastScale, mostScale));
+    const float pixelsPerUnit = float(pixelsHigh) / float(height);
+    return {pixelsPerPoint / pixelsPerUnit, pixelsPerUnit};
+}
+
+void Interface::makeFont(const Density& density) {
+    made_ = density;
+    style(density.unitsPerPoint);
+    ImGuiIO& io = ImGui::GetIO();
+    ImFontConfig font;
+    font.SizePixels = std::round(fontHeight * density.unitsPerPoint * density.pixelsPerUnit);
+    io.Fonts->Clear();
+    io.Fonts->AddFontDefault(&font);
+    io.FontGlobalScale = 1 / density.pixelsPerUnit;
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+float points(float count) {
+    return std::round(count * ImGui::GetFontSize() / fontHeight);
+}
+
 void Interface::begin() {
+    const Density now = density();
+    if (!(now == made_)) makeFont(now);
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     ImGui::NewFrame();

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <iostream>
 
+#include "app/interface.h"
 #include "core/file.h"
 #include "scene/scene_file.h"
 
@@ -101,6 +102,10 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
         ->check(wholeNumber());
     command.add_option("--size", texts.size, "Picture size in pixels")->capture_default_str();
+    command
+        .add_option("--scale", options.scale,
+                    "Window: size of panels and letters, such as 2 (default: as the screen asks)")
+        ->check(kindOf(isAll<double>, "a factor such as 1.5"));
     command.add_option("--capture", options.capture,
                        "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)");
     command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
@@ -333,6 +338,8 @@ void checkRanges(const Options& options) {
             throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
     atLeast("--frames", options.frames, 1);
+    if (options.scale && !(*options.scale >= leastScale && *options.scale <= mostScale))
+        throw Error(concat("--scale: expected ", leastScale, " to ", mostScale, ", found ", *options.scale));
     atLeast("--substeps", options.substeps, 1);
     atMost("--substeps", options.substeps, maxSubsteps);
     atLeast("--count", options.count, 1);

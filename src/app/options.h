@@ -30,6 +30,7 @@ struct Options {
     bool shader = false;   // explain: print the kernels
     std::optional<int> frames;
     int width = 1280, height = 720;
+    std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for
 
     // Instead of what the scene says.
     std::optional<double> dt;                         // s, of a frame

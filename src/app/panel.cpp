@@ -6,6 +6,8 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/interface.h"
+
 namespace shoal::app {
 
 Controls::Controls(const Plan& plan)
@@ -55,17 +57,19 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
 }
 
 static void heading(const char* text) {
-    ImGui::Dummy(ImVec2(0, 4));
+    ImGui::Dummy(ImVec2(0, points(4)));
     ImGui::TextColored(ImVec4(0.62f, 0.78f, 0.45f, 1), "%s", text);
     ImGui::Separator();
 }
 
 Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
                           const gpu::Traffic& lastFrame) {
-    ImGui::SetNextWindowPos(ImVec2(12, 12), ImGuiCond_FirstUseEver);
-    ImGui::SetNextWindowSize(ImVec2(304, 0), ImGuiCond_Always);
+    const float edge = points(12), width = points(304);
+    ImGui::SetNextWindowPos(ImVec2(edge, edge), ImGuiCond_FirstUseEver);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
+                                        ImVec2(width, ImGui::GetIO().DisplaySize.y - 2 * edge));
     ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-    ImGui::PushItemWidth(150);
+    ImGui::PushItemWidth(points(150));
     if (!sceneName_.empty()) ImGui::TextWrapped("%s", sceneName_.c_str());
     Action action = drawClock(controls, simulation);
     drawForces(controls, simulation);

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "app/edit_widgets.h"
+#include "app/interface.h"
 
 namespace shoal::app {
 
@@ -37,7 +38,7 @@ glm::dvec4 colorAt(const std::vector<ColorKey>& keys, double age) {
 // A life from birth to death as a bar, over dark and light, with a mark at each keyframe.
 void drawBar(const std::vector<ColorKey>& keys) {
     constexpr int steps = 48;
-    const float width = ImGui::GetContentRegionAvail().x, height = 18;
+    const float width = ImGui::GetContentRegionAvail().x, height = points(18), mark = points(4);
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImDrawList& list = *ImGui::GetWindowDrawList();
     for (int i = 0; i < steps; ++i) {
@@ -52,10 +53,10 @@ void drawBar(const std::vector<ColorKey>& keys) {
     }
     for (const ColorKey& key : keys) {
         const float x = at.x + width * float(key.age), y = at.y + height;
-        list.AddTriangleFilled(ImVec2(x - 4, y + 6), ImVec2(x, y - 2), ImVec2(x + 4, y + 6),
-                               ImGui::GetColorU32(ImGuiCol_Text));
+        list.AddTriangleFilled(ImVec2(x - mark, y + 1.5f * mark), ImVec2(x, y - 0.5f * mark),
+                               ImVec2(x + mark, y + 1.5f * mark), ImGui::GetColorU32(ImGuiCol_Text));
     }
-    ImGui::InvisibleButton("bar", ImVec2(width, height + 6));
+    ImGui::InvisibleButton("bar", ImVec2(width, height + 1.5f * mark));
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("Colour and opacity from birth to death, over black and over grey.");
 }

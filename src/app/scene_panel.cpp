@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "app/interface.h"
+
 namespace shoal::app {
 
 namespace {
 
-constexpr float panelWidth = 368;
+constexpr float panelWidth = 368;    // points
 constexpr double countEvery = 0.25;  // s: each reading waits for the GPU
 
 // 12345678 as 12,345,678.
@@ -49,11 +51,11 @@ void ScenePanel::follow(const Scene& scene) {
         if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
 }
 
-ScenePanel::Action ScenePanel::draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved,
-                                    int width, int height) {
-    const auto right = float(width) - panelWidth - 12;
-    ImGui::SetNextWindowPos(ImVec2(std::max(right, 12.0f), 12), ImGuiCond_Always);
-    ImGui::SetNextWindowSizeConstraints(ImVec2(panelWidth, 0), ImVec2(panelWidth, float(height) - 24));
+ScenePanel::Action ScenePanel::draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float edge = points(12), width = points(panelWidth);
+    ImGui::SetNextWindowPos(ImVec2(std::max(screen.x - width - edge, edge), edge), ImGuiCond_Always);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - 2 * edge));
     ImGui::Begin("Particles", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     changed_ = false;
     const Action action = drawHead(scene, unsaved);

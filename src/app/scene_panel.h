@@ -25,8 +25,7 @@ class ScenePanel {
     bool changed() const { return changed_; }  // in the last draw
     bool pending() const { return pending_; }  // something was edited that does not run yet
     // Edits `scene`, which the simulation runs. `unsaved`: it is not as its file.
-    Action draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved, int width,
-                int height);
+    Action draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved);
     // Of the question whether to save, before the window closes.
     enum class Answer { none, save, discard, stay };
     Answer askBeforeClosing(const std::string& file);

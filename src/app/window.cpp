@@ -57,7 +57,7 @@ class WindowRun {
           scenePanel_(scene_),
           running_(scene_.groups),
           camera_(View::of(scene_.camera)),
-          interface_(window_),
+          interface_(window_, options.scale),
           cache_(context, cacheFolder()),
           path_(options.path) {
         glfwSwapInterval(1);
@@ -211,7 +211,7 @@ class WindowRun {
         sceneAction_ = ScenePanel::Action::none;
         if (scenePanel_.empty()) return;
         const bool changed = unsaved();
-        sceneAction_ = scenePanel_.draw(scene_, *simulation_, *renderer_, changed, width_, height_);
+        sceneAction_ = scenePanel_.draw(scene_, *simulation_, *renderer_, changed);
         if (scenePanel_.changed() && !scenePanel_.pending()) running_ = scene_.groups;
         if (std::exchange(shownUnsaved_, changed) != changed)
             glfwSetWindowTitle(window_, (title() + (changed ? " *" : "")).c_str());
@@ -319,9 +319,9 @@ class WindowRun {
     }
 
     void showMessage() {
-        ImGui::SetNextWindowPos(ImVec2(330, 12), ImGuiCond_Always);
-        const float panels = scenePanel_.empty() ? 350 : 730;  // to its left and right
-        ImGui::SetNextWindowSize(ImVec2(std::max(200.0f, float(width_) - panels), 0));
+        ImGui::SetNextWindowPos(ImVec2(points(330), points(12)), ImGuiCond_Always);
+        const float panels = points(scenePanel_.empty() ? 350 : 730);  // to its left and right
+        ImGui::SetNextWindowSize(ImVec2(std::max(points(200), ImGui::GetIO().DisplaySize.x - panels), 0));
         ImGui::Begin("Message", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
         ImGui::TextWrapped("%s", message_.c_str());
         if (ImGui::Button("Close")) message_.clear();
@@ -354,7 +354,8 @@ class WindowRun {
     void moveCamera() {
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantCaptureMouse || holdsForces()) return;
-        const double dx = double(io.MouseDelta.x) / height_, dy = double(io.MouseDelta.y) / height_;
+        const double dx = double(io.MouseDelta.x / io.DisplaySize.y),
+                     dy = double(io.MouseDelta.y / io.DisplaySize.y);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera_.turn(dx, dy);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
             camera_.pan(dx, dy);
