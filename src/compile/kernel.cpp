@@ -51,6 +51,24 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     return out + "    return sum;\n}\n";
 }
 
+// What a spring's line of the text says of its numbers: constants, or what springNumbers() holds.
+struct SpringText {
+    std::string load;  // a line before; may be empty
+    std::string stiffness, damping, restLength;
+    bool damped = true;
+};
+
+SpringText liveText(size_t index, const Needs& needs) {
+    SpringText out;
+    out.load = concat("    s = texelFetch(liveSprings, ", 2 * index, ");\n    m = texelFetch(liveSprings, ",
+                      2 * index + 1, ");\n");
+    out.stiffness = "s.x * stiffnessFactor";
+    out.damping = "s.y * dampingFactor";
+    out.restLength = concat("actuatedLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * time + m.z",
+                            needs.phase ? " + phase)" : ")");
+    return out;
+}
+
 std::string restLength(const Molecule& molecule, const Spring& spring, const Needs& needs) {
     std::string length = glslLiteral(molecule.restLength(spring));
     if (needs.scale) length += " * scale";
@@ -61,46 +79,63 @@ std::string restLength(const Molecule& molecule, const Spring& spring, const Nee
                   glslLiteral(muscle.phase), needs.phase ? " + phase)" : ")");
 }
 
-// `bounded`: to a distance constraint (shaders/solver/verlet.glsl).
-std::string stiffness(const Molecule& molecule, const Spring& spring, bool bounded) {
-    const std::string plain = concat(glslLiteral(spring.stiffness), " * stiffnessFactor");
-    if (!bounded) return plain;
-    const double weight =
-        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
-    return concat("min(", plain, ", ", glslLiteral(1 / weight), " / (substep * substep))");
+SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs) {
+    if (needs.liveSprings) return liveText(index, needs);
+    const Spring& spring = molecule.springs[index];
+    SpringText out;
+    out.stiffness = concat(glslLiteral(spring.stiffness), " * stiffnessFactor");
+    out.damping = concat(glslLiteral(spring.damping), " * dampingFactor");
+    out.restLength = restLength(molecule, spring, needs);
+    out.damped = spring.damping > 0;
+    return out;
 }
 
-std::string springText(const Molecule& molecule, const Needs& needs, bool bounded) {
-    std::string out =
+// To a distance constraint (shaders/solver/verlet.glsl).
+std::string bounded(const Molecule& molecule, const Spring& spring, const std::string& stiffness) {
+    const double weight =
+        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
+    return concat("min(", stiffness, ", ", glslLiteral(1 / weight), " / (substep * substep))");
+}
+
+const char* springVariables(const Needs& needs) {
+    return needs.liveSprings ? "    vec4 s;\n    vec4 m;\n" : "";
+}
+
+std::string springText(const Molecule& molecule, const Needs& needs, bool isBounded) {
+    std::string out = concat(
         "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
         "void springForces(float time)\n{\n"
-        "    for (int i = 0; i < VERTICES; ++i) {\n        force[i] = vec3(0.0);\n    }\n    vec3 f;\n";
-    for (const Spring& spring : molecule.springs) {
+        "    for (int i = 0; i < VERTICES; ++i) {\n        force[i] = vec3(0.0);\n    }\n    vec3 f;\n",
+        springVariables(needs));
+    for (size_t i = 0; i < molecule.springs.size(); ++i) {
+        const Spring& spring = molecule.springs[i];
+        const SpringText numbers = numbersOf(molecule, i, needs);
         const std::string relative =
-            spring.damping > 0 ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
-        out += concat("    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ", relative,
-                      ", ", stiffness(molecule, spring, bounded), ", ", glslLiteral(spring.damping),
-                      " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    ",
-                      at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+            numbers.damped ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
+        out += concat(numbers.load, "    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ",
+                      relative, ", ",
+                      isBounded ? bounded(molecule, spring, numbers.stiffness) : numbers.stiffness, ", ",
+                      numbers.damping, ", ", numbers.restLength, ");\n    ", at("force", spring.a),
+                      " += f;\n    ", at("force", spring.b), " -= f;\n");
     }
     return out + "}\n";
 }
 
 // One Gauss-Seidel sweep over the springs, in their order or against it.
 std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward) {
-    std::string out =
-        concat("\nvoid relax", forward ? "Forward" : "Backward", "(float time, float inverseEta)\n{\n");
+    std::string out = concat("\nvoid relax", forward ? "Forward" : "Backward",
+                             "(float time, float inverseEta)\n{\n", springVariables(needs));
     const size_t count = molecule.springs.size();
     const std::vector<size_t> order = sweepOrder(molecule);
     for (size_t i = 0; i < count; ++i) {
         const size_t index = order[forward ? i : count - 1 - i];
         const Spring& spring = molecule.springs[index];
-        const std::string damping =
-            spring.damping > 0 ? concat(glslLiteral(spring.damping), " * dampingFactor * inverseEta") : "0.0";
+        const SpringText numbers = numbersOf(molecule, index, needs);
+        const std::string damping = numbers.damped ? concat(numbers.damping, " * inverseEta") : "0.0";
+        out += numbers.load;
         if (forward) out += concat("    lambda[", index, "] = 0.0;\n");
         out += concat("    relax(RELAXED(", spring.a, ", ", spring.b, "), lambda[", index, "], ",
-                      glslLiteral(spring.stiffness), " * stiffnessFactor, ", damping, ", ",
-                      restLength(molecule, spring, needs), ");\n");
+                      numbers.stiffness, ", ", damping, ", ", numbers.restLength, ");\n");
     }
     return out + "}\n";
 }
@@ -110,14 +145,15 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
     std::string out =
         "\n// Adds the springs' forces at x + q, with the stage's velocity.\n"
         "void stageForces(float time, float inverseEta)\n{\n    vec3 f;\n";
-    for (const Spring& spring : molecule.springs) {
+    for (size_t i = 0; i < molecule.springs.size(); ++i) {
+        const Spring& spring = molecule.springs[i];
+        const SpringText numbers = numbersOf(molecule, i, needs);
         const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
         const std::string relative =
-            spring.damping > 0 ? concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta")
-                               : "vec3(0.0)";
+            numbers.damped ? concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta")
+                           : "vec3(0.0)";
         out += concat("    f = springForce((x", a, " - x", b, ") + (q", a, " - q", b, "), ", relative, ", ",
-                      stiffness(molecule, spring, false), ", ", glslLiteral(spring.damping),
-                      " * dampingFactor, ", restLength(molecule, spring, needs), ");\n    force", a,
+                      numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ");\n    force", a,
                       " += f;\n    force", b, " -= f;\n");
     }
     return out + "}\n";
@@ -229,6 +265,16 @@ std::string packingText(const Molecule& molecule, const Needs& needs, bool histo
 
 }  // namespace
 
+std::vector<glm::vec4> springNumbers(const Molecule& molecule) {
+    std::vector<glm::vec4> out;
+    for (const Spring& spring : molecule.springs) {
+        const Actuation muscle = spring.actuation.value_or(Actuation{});
+        out.emplace_back(spring.stiffness, spring.damping, molecule.restLength(spring), 0);
+        out.emplace_back(muscle.amplitude, 2 * std::numbers::pi * muscle.frequency, muscle.phase, 0);
+    }
+    return out;
+}
+
 std::vector<size_t> sweepOrder(const Molecule& molecule) {
     std::vector<size_t> out;
     std::vector<bool> done(molecule.springs.size());
@@ -248,6 +294,8 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     KernelText text;
     text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"physics/spring.glsl\"\n\n";
+    if (needs.liveSprings)
+        text.forces += "uniform samplerBuffer liveSprings;  // two a spring: src/compile/kernel.h\n\n";
     if (needs.springs) text.forces += springText(molecule, needs, solver.kind == SolverKind::verlet);
     if (needs.normals) text.forces += normalText(molecule);
     if (solver.implicit && needs.springs)

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/glm.hpp>
+
 #include "compile/needs.h"
 #include "molecule/molecule.h"
 #include "scene/solver.h"
@@ -20,6 +22,10 @@ struct KernelText {
 };
 
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
+
+// What the kernel reads of each spring where its numbers are live, two a spring:
+//   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase
+std::vector<glm::vec4> springNumbers(const Molecule& molecule);
 
 // The order of a sweep over the springs: in rounds whose springs share no vertex, so that a processor works
 // on several at once (a greedy colouring of the edges).

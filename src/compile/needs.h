@@ -22,6 +22,7 @@ struct Needs {
     bool collide = false;
     bool normals = false;       // the shape has triangles
     bool life = false;          // some are born or die
+    bool liveSprings = false;   // their numbers may change while it runs (CompileOptions)
     bool acceleration = false;  // the solver keeps the springs' acceleration
 };
 

@@ -14,7 +14,7 @@ namespace shoal {
 
 namespace {
 
-Needs findNeeds(const Scene& scene, const Group& group) {
+Needs findNeeds(const Scene& scene, const Group& group, const CompileOptions& options) {
     const Molecule& molecule = group.molecule;
     Needs needs;
     needs.drag = group.drag.any();
@@ -22,10 +22,12 @@ Needs findNeeds(const Scene& scene, const Group& group) {
     needs.fields = needs.drag && !scene.fields.empty();
     needs.gravity = scene.gravity != glm::dvec3(0);
     needs.springs = !molecule.springs.empty();
+    needs.liveSprings = options.liveSprings && needs.springs;
     for (const Spring& spring : molecule.springs) {
         needs.springDamping |= spring.damping > 0;
         needs.actuation |= spring.actuation.has_value() && spring.actuation->amplitude != 0;
     }
+    if (needs.liveSprings) needs.springDamping = needs.actuation = true;
     needs.pins = group.held && molecule.hasPins();
     needs.release = needs.pins && group.release.has_value();
     needs.life = group.life.has_value();
@@ -53,7 +55,7 @@ int placesOf(const Group& group) {
 }
 
 // Of slabs in the textures; and what the group needs.
-GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
+GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options, Plan& plan) {
     const Group& group = scene.groups[index];
     GroupPlan out;
     out.name = uniqueName(group, index, plan);
@@ -62,7 +64,7 @@ GroupPlan layOut(const Scene& scene, size_t index, Plan& plan) {
     out.count = placesOf(group);
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
-    out.needs = findNeeds(scene, group);
+    out.needs = findNeeds(scene, group, options);
     out.forces = generateForces(scene.forces, group.name, out.needs.drag);
     out.needs.forces = !out.forces.pulls.empty();
     out.needs.thrust = !out.forces.thrusts.empty();
@@ -244,7 +246,7 @@ size_t Plan::tableBytes() const {
     return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
 }
 
-Plan compile(const Scene& scene) {
+Plan compile(const Scene& scene, const CompileOptions& options) {
     for (const Collider& collider : scene.colliders)
         checkTurn(scene, collider);
     Plan plan;
@@ -258,7 +260,7 @@ Plan compile(const Scene& scene) {
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         checkCount(scene, i, plan);
-        GroupPlan group = layOut(scene, i, plan);
+        GroupPlan group = layOut(scene, i, options, plan);
         if (group.needs.drag && scene.groups[i].drag.directional() && !group.needs.directionalDrag)
             plan.warnings.push_back(
                 {scene.groups[i].location,
@@ -269,6 +271,7 @@ Plan compile(const Scene& scene) {
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
+        if (group.needs.liveSprings) group.springNumbers = springNumbers(scene.groups[i].molecule);
         if (group.factored()) group.shape = scene.groups[i].molecule;
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));

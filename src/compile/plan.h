@@ -66,8 +66,9 @@ struct GroupPlan {
     std::vector<glm::vec4> colliderParameters;  // with the group's restitution and friction; 0 or as many as
                                                 // Plan::colliderParameterCount
     GroupForces forces;
-    KernelText kernel;  // of the fused path
-    Molecule shape;     // bdf2-corotated only: of its matrix (compile/corotated.h)
+    KernelText kernel;                     // of the fused path
+    std::vector<glm::vec4> springNumbers;  // needs.liveSprings: see compile/kernel.h
+    Molecule shape;                        // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
@@ -118,9 +119,15 @@ struct Plan {
     size_t tableBytes() const;  // topology and samples
 };
 
+struct CompileOptions {
+    // The springs' numbers are data instead of constants of the fused kernels, for an editor: a step takes
+    // longer, and Simulation::changeSprings compiles nothing. Not with bdf2-corotated (its matrix).
+    bool liveSprings = false;
+};
+
 // Error: fields or colliders take more uniforms than OpenGL 3.3 promises; or the substep is beyond what the
 // explicit solver holds stable (located at the solver, else at the group), and how many substeps would do.
-Plan compile(const Scene& scene);
+Plan compile(const Scene& scene, const CompileOptions& options = {});
 
 // How many substeps of a frame the solvers need when stiffness, damping and drag are scaled by these factors;
 // at least `substeps`.

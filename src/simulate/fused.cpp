@@ -9,7 +9,7 @@ using gpu::Program;
 namespace {
 
 namespace unit {
-constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4;
+constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4, springs = 5;
 }
 namespace binding {
 constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
@@ -71,6 +71,11 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
             made.stage = corotatedStage(group, parameters, 1 / plan.frameRate / plan.substeps);
             makeFactors(g);
         }
+        if (group.needs.liveSprings) {
+            made.springs = gpu::Buffer(context, gpu::Buffer::Use::storage,
+                                       std::span<const glm::vec4>(group.springNumbers), "springs");
+            made.springTexels = gpu::BufferTexture(context, made.springs, "springs");
+        }
         makeStep(g);
         if (!options.drawn || !group.needs.normals) continue;
         kernel.normals = kernel.onlyNormals = true;
@@ -125,6 +130,11 @@ void Fused::updateFactors(size_t index, const Frame& frame) {
     if (kernel.factors) kernel.step.uniformBlock("Factors", 0, kernel.factors);
 }
 
+void Fused::changeSprings(size_t group, const std::vector<glm::vec4>& numbers) {
+    kernels_[group].springs.update(gpu::Traffic::Kind::parameters, 0, numbers.data(),
+                                   numbers.size() * sizeof(glm::vec4));
+}
+
 void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     const GroupPlan& group = plan_->groups[index];
     const GroupBuffers& buffers = state[index];
@@ -133,6 +143,8 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
     if (buffers.hasConstants()) program.texture("constants", unit::constants, part.constant);
     if ((group.needs.fields || group.needs.collide) && tables_->sampleTexels)
         program.texture("samples", unit::samples, tables_->sampleTexels);
+    if (group.needs.liveSprings && kernels_[index].options.lanes == Lanes::molecule)
+        program.texture("liveSprings", unit::springs, kernels_[index].springTexels);
     if (kernels_[index].options.lanes == Lanes::vertex) {
         program.texture("topology", unit::topology, tables_->topology);
         program.set("topologyBase", group.topologyBase);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "compile/corotated.h"
+#include "gpu/buffer_texture.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/births.h"
@@ -39,6 +40,8 @@ class Fused {
     void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
 
     std::vector<GroupBuffers> state;  // per group
+    // Where they are live: plan.springNumbers as they are now, of the group's molecules.
+    void changeSprings(size_t group, const std::vector<glm::vec4>& numbers);
     Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
     const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
     Births* births() const { return births_.get(); }                   // null: none is born and none dies
@@ -52,6 +55,8 @@ class Fused {
         gpu::Program step, normals;
         CorotatedStage stage;  // bdf2-corotated: of the matrix
         gpu::Buffer factors;   // and the matrix, where it is not part of the program
+        gpu::Buffer springs;   // where their numbers are live
+        gpu::BufferTexture springTexels;
     };
     void makeStep(size_t index);
     void makeFactors(size_t index);

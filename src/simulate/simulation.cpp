@@ -126,6 +126,16 @@ bool Simulation::changeLife(size_t group, const Lifecycle& life) {
     return fused && plan_.groups[group].needs.life && fused->births()->change(group, life);
 }
 
+bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
+    auto* fused = std::get_if<Fused>(&path_);
+    GroupPlan& plan = plan_.groups[group];
+    if (!fused || !plan.needs.liveSprings || fused->lanes(group) != Lanes::molecule) return false;
+    if (molecule.springs.size() != size_t(plan.springCount)) return false;
+    plan.springNumbers = springNumbers(molecule);
+    fused->changeSprings(group, plan.springNumbers);
+    return true;
+}
+
 StateView Simulation::state() const {
     if (const auto* fused = std::get_if<Fused>(&path_)) return {nullptr, &fused->state};
     return {&std::get<PingPong>(path_).state, nullptr};

@@ -83,6 +83,10 @@ class Simulation {
     // Other numbers for birth and death, from the next frame on. False, and nothing changes: what differs
     // needs another plan.
     bool changeLife(size_t group, const Lifecycle& life);
+    // Other numbers for the springs of a group, from the next frame on; `molecule` is the group's otherwise.
+    // Compiles nothing. False, and nothing changes: the plan's springs are not live (CompileOptions), are
+    // others, or the path does not read them.
+    bool changeSprings(size_t group, const Molecule& molecule);
     // What was done otherwise than asked, such as one side instead of two for want of memory.
     const std::vector<Warning>& warnings() const { return warnings_; }
 
