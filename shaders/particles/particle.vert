@@ -12,6 +12,9 @@
 #include "lib/molecule.glsl"
 #include "render/drawn.glsl"
 #include "particles/attributes.glsl"
+#ifdef COLOR_BY
+#include "render/color_scale.glsl"
+#endif
 
 uniform mat4 toClip;
 uniform mat3 viewToScene;      // columns: right, up, towards the eye
@@ -90,6 +93,9 @@ void main()
     color = firstColor;
 #ifdef COLORS
     color = colorAt(age, firstColor, colorChanges[0], colorChanges[1], colorChanges[2], colorBegins, colorPerAge);
+#endif
+#ifdef COLOR_BY
+    color.rgb *= scaleColor(molecule);
 #endif
     place = middle;
 

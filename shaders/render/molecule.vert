@@ -1,10 +1,14 @@
 // A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
-// Variants: TEXTURED, DEPTH_ONLY, and those of render/drawn.glsl and render/grown.glsl.
+// Variants: TEXTURED, DEPTH_ONLY, COLOR_BY (by speed), and those of render/drawn.glsl and render/grown.glsl.
 
 #include "lib/molecule.glsl"
 #include "render/drawn.glsl"
 #include "render/grown.glsl"
+#ifdef COLOR_BY
+#include "render/color_scale.glsl"
+#else
 #include "render/instance_color.glsl"
+#endif
 
 layout(location = 0) in vec2 cornerUv;
 
@@ -26,7 +30,11 @@ void main()
 #ifndef DEPTH_ONLY
     place = at;
     normal = vertexNormal(molecule, gl_VertexID);
+#ifdef COLOR_BY
+    color = scaleColor(molecule);
+#else
     color = instanceColor(moleculeSeed(molecule));
+#endif
 #endif
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside

@@ -1,9 +1,13 @@
-// Molecules without triangles: every vertex a round sprite. Variants: DEPTH_ONLY, and those of
+// Molecules without triangles: every vertex a round sprite. Variants: DEPTH_ONLY, COLOR_BY (by speed), and those of
 // render/drawn.glsl.
 
 #include "lib/molecule.glsl"
 #include "render/drawn.glsl"
+#ifdef COLOR_BY
+#include "render/color_scale.glsl"
+#else
 #include "render/instance_color.glsl"
+#endif
 
 uniform mat4 toClip;
 uniform float pointSize;      // m, diameter
@@ -24,6 +28,10 @@ void main()
     gl_PointSize = max(pointSize * pixelsPerMeter / gl_Position.w, 1.0);
 #ifndef DEPTH_ONLY
     middle = at;
+#ifdef COLOR_BY
+    color = scaleColor(molecule);
+#else
     color = instanceColor(moleculeSeed(molecule));
+#endif
 #endif
 }

@@ -60,6 +60,7 @@ struct Material {
     double alphaCut = 0.5;                  // texels below this alpha are not drawn
     double translucency = 0;                // share of light that shines through from behind, in [0, 1]
     double roughness = 0.7;                 // in [0, 1]
+    double metallic = 0;                    // share of a mirror of the material's own colour, in [0, 1]
     double pointSize = 0.02;                // m, the diameter of a molecule without triangles
     Blend blend = Blend::none;
     double opacity = 1;               // in [0, 1]; with a blend

@@ -199,6 +199,7 @@ void readMaterial(JsonReader& root, Material& material) {
     reader->get("alphaCut", material.alphaCut, unit);
     reader->get("translucency", material.translucency, unit);
     reader->get("roughness", material.roughness, unit);
+    reader->get("metallic", material.metallic, unit);
     reader->get("pointSize", material.pointSize, Range{0, maxCoordinate, true});
     readBlend(*reader, material);
     reader->finish();

@@ -91,6 +91,7 @@ JsonValue write(const Material& material) {
     addNumber("alphaCut", material.alphaCut, usual.alphaCut);
     addNumber("translucency", material.translucency, usual.translucency);
     addNumber("roughness", material.roughness, usual.roughness);
+    addNumber("metallic", material.metallic, usual.metallic);
     addNumber("pointSize", material.pointSize, usual.pointSize);
     if (material.blend == Blend::none) return out;
     out.add("blend", JsonValue::makeString(name(material.blend)));

@@ -22,6 +22,7 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         else
             drawn.drawer =
                 std::make_unique<MoleculeDrawer>(context, shaderRoot, group, groupPlan, g, lighting);
+        if (group.colorBy) drawn.drawer->colorBy(*group.colorBy, groupPlan.vertexCount);
         drawn.blend = material.blend;
         if (drawn.blend == Blend::alpha) drawn.sort = material.sort;
         drawn.spreadFrames = material.spreadFrames;

@@ -20,12 +20,17 @@ void GroupDrawer::addOrderDefines(const std::vector<std::string>& defines) {
     orderDefines_.insert(orderDefines_.end(), defines.begin(), defines.end());
 }
 
+void GroupDrawer::colorBy(const ColorScale& scale, int vertexCount) {
+    scale_.emplace(scale, vertexCount);
+}
+
 const gpu::Program& GroupDrawer::beginLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& lit = program(lit_, litOptions_, state);
     lit.use();
     inputs.eye.origin.apply(lit);
     inputs.lighting.apply(lit, inputs.eye);
     lit.set("toClip", inputs.eye.toClip);
+    if (scale_) scale_->apply(lit);
     return lit;
 }
 
@@ -44,8 +49,10 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
     gpu::ProgramOptions wanted = options;
     const std::vector<std::string> defines = stateDefines(state, layout_);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
-    if (&variants == &lit_)
+    if (&variants == &lit_) {
         wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
+        if (scale_) wanted.defines.emplace_back("COLOR_BY");
+    }
     program = gpu::Program(*context_, shaderRoot_, wanted);
     return program;
 }

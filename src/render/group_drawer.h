@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "gpu/program.h"
 #include "gpu/texture.h"
 #include "render/lighting.h"
+#include "render/scale_uniforms.h"
 #include "render/slab_draws.h"
 #include "render/view.h"
 #include "simulate/state_view.h"
@@ -40,6 +42,9 @@ class GroupDrawer {
     // What the order adds to the programs of the picture, before the first is made.
     void addOrderDefines(const std::vector<std::string>& defines);
 
+    // Colours by what the molecules do, before the first program is made.
+    void colorBy(const ColorScale& scale, int vertexCount);
+
     // The program that draws into the picture or the shadow map: in use, all but the state set. `time`: s.
     virtual const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) = 0;
     virtual const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) = 0;
@@ -64,6 +69,7 @@ class GroupDrawer {
     gpu::ProgramOptions litOptions_, depthOptions_;  // but for what the kind of the state adds
     Variants lit_, depth_;
     std::vector<std::string> orderDefines_;
+    std::optional<ScaleUniforms> scale_;  // none: the material's own colours
 
   private:
     const gpu::Program& program(Variants& variants, const gpu::ProgramOptions& options,

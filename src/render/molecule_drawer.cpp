@@ -80,8 +80,10 @@ const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const Shado
 const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& program = beginLit(state, inputs);
     const Eye& eye = inputs.eye;
-    program.set("firstColor", color_);
-    program.set("secondColor", secondColor_);
+    if (!scale_) {
+        program.set("firstColor", color_);
+        program.set("secondColor", secondColor_);
+    }
     program.set("roughness", float(material_.roughness));
     if (material_.blend != Blend::none) program.set("opacity", float(material_.opacity));
     setShape(program);

@@ -199,6 +199,7 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     r.get("friction", group.friction, Range::atLeast(0));
     getColor(r, "color", group.color);
     getColor(r, "secondColor", group.secondColor);
+    group.colorBy = readColorScale(r);
     const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
     if (group.particle && forEver)
         for (Warning& warning : agelessWarnings(*group.particle, r.at("particle")))

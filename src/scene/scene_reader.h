@@ -38,6 +38,11 @@ DistanceFieldCollider readDistanceField(JsonReader& reader, const std::vector<Mo
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 
+// "colorBy" of a group. Error, located: a span the wrong way round, colours out of [0, 1], too few or too many.
+std::optional<ColorScale> readColorScale(JsonReader& group);
+// "water" of the scene.
+std::optional<Water> readWater(JsonReader& scene);
+
 // "life" and "emitters" of a group whose molecule and count are read. Error, located: a rate below 0, a life
 // without length, no capacity where nothing says it, and more.
 void readLife(JsonReader& reader, Group& group, const std::vector<Model>& models);
