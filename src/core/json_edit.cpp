@@ -228,6 +228,26 @@ void addChanges(const std::string& text, const JsonValue& original, const JsonVa
     replace(text, original, after, changes);
 }
 
+void addArrayChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
+                     const JsonValue& after, const std::vector<int>& origins,
+                     std::vector<TextChange>& changes) {
+    Edited edited(text, original);
+    std::vector<bool> kept(before.items.size());
+    std::optional<size_t> behind;  // the last one that was there
+    for (size_t i = 0; i < after.items.size(); ++i) {
+        if (origins[i] < 0) {
+            edited.add(behind, "", after.items[i]);
+            continue;
+        }
+        behind = size_t(origins[i]);
+        kept[*behind] = true;
+        addChanges(text, original.items[*behind], before.items[*behind], after.items[i], changes);
+    }
+    for (size_t i = 0; i < kept.size(); ++i)
+        if (!kept[i]) edited.leaveOut(i);
+    edited.finish(changes);
+}
+
 std::string withChanges(const std::string& text, std::vector<TextChange> changes) {
     std::stable_sort(changes.begin(), changes.end(), [](const TextChange& a, const TextChange& b) {
         return a.begin != b.begin ? a.begin < b.begin : a.end < b.end;

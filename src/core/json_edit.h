@@ -22,6 +22,12 @@ struct TextChange {
 void addChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
                 const JsonValue& after, std::vector<TextChange>& changes);
 
+// The same for an array whose elements are known by where they came from: `origins[i]` is the index in
+// `before` of element i of `after`, ascending, or -1 where it is new.
+void addArrayChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
+                     const JsonValue& after, const std::vector<int>& origins,
+                     std::vector<TextChange>& changes);
+
 // The changes must not overlap; those at one place keep their order.
 std::string withChanges(const std::string& text, std::vector<TextChange> changes);
 

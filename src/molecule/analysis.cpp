@@ -14,7 +14,7 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/Dense>
+#include "molecule/linearised.h"
 
 namespace shoal {
 
@@ -22,54 +22,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-constexpr size_t mostDense = 300;      // vertices
-constexpr double zeroRelative = 1e-9;  // an eigenvalue below this share of the largest is zero
-
-// Which vertices move, and where their coordinates stand in the matrices; -1 for pinned.
-struct Freedom {
-    std::vector<int> index;
-    int count = 0;
-
-    Freedom(const Molecule& molecule, bool pinned) {
-        for (const Vertex& vertex : molecule.vertices)
-            index.push_back(pinned && vertex.pinned ? -1 : count++);
-    }
-};
-
-Eigen::Vector3d toEigen(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-// From b to a; zero for coincident vertices, where a spring has no direction.
-Eigen::Vector3d direction(const Molecule& molecule, const Spring& spring) {
-    const glm::dvec3 d =
-        molecule.vertices[size_t(spring.a)].position - molecule.vertices[size_t(spring.b)].position;
-    const double length = glm::length(d);
-    return length > 0 ? toEigen(d / length) : Eigen::Vector3d::Zero();
-}
-
-double inverseRootMass(const Molecule& molecule, int vertex) {
-    return 1 / std::sqrt(molecule.vertices[size_t(vertex)].mass);
-}
-
-// Sum of coefficient * n n^T over the springs, scaled by the masses. `Coefficient`: stiffness or damping.
-MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient) {
-    MatrixXd out = MatrixXd::Zero(3 * freedom.count, 3 * freedom.count);
-    for (const Spring& spring : molecule.springs) {
-        const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
-        const Eigen::Vector3d n = direction(molecule, spring);
-        const Eigen::Matrix3d block = spring.*coefficient * n * n.transpose();
-        const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
-        if (a >= 0) out.block<3, 3>(3 * a, 3 * a) += ra * ra * block;
-        if (b >= 0) out.block<3, 3>(3 * b, 3 * b) += rb * rb * block;
-        if (a >= 0 && b >= 0) {
-            out.block<3, 3>(3 * a, 3 * b) -= ra * rb * block;
-            out.block<3, 3>(3 * b, 3 * a) -= ra * rb * block;
-        }
-    }
-    return out;
-}
 
 // The largest eigenvalue of the same matrix without building it (power iteration, from above by 2 %, since it
 // converges from below), or of the Laplacian that bounds it.
@@ -90,7 +42,7 @@ double largestByIteration(const Molecule& molecule, const Freedom& freedom, doub
             if (a >= 0) d += ra * x.col(a);
             if (b >= 0) d -= rb * x.col(b);
             if (!laplacian) {
-                const Eigen::Vector3d n = direction(molecule, spring);
+                const Eigen::Vector3d n = direction(molecule, spring.a, spring.b);
                 d = n.dot(d) * n;
             }
             d *= spring.*coefficient;
@@ -121,42 +73,6 @@ MatrixXd scaledLaplacian(const Molecule& molecule, const Freedom& freedom) {
 
 VectorXd eigenvalues(const MatrixXd& matrix) {
     return Eigen::SelfAdjointEigenSolver<MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
-int rankOf(const MatrixXd& matrix) {
-    if (matrix.rows() == 0) return 0;
-    Eigen::JacobiSVD<MatrixXd> svd(matrix);
-    const VectorXd& values = svd.singularValues();
-    int rank = 0;
-    for (Eigen::Index i = 0; i < values.size(); ++i)
-        rank += values(i) > 1e-7 ? 1 : 0;
-    return rank;
-}
-
-// Rigid motions of the whole that hold every pinned vertex still: those of all vertices less those that the
-// pinned ones alone would show.
-int countRigidModes(const Molecule& molecule, const Freedom& freedom) {
-    glm::dvec3 centre(0);
-    for (const Vertex& vertex : molecule.vertices)
-        centre += vertex.position / double(molecule.vertices.size());
-    const double size = molecule.size();
-    // A Gram matrix would square the condition number; the rows of six columns are few enough as they are.
-    const auto motions = [&](bool onlyPinned) {
-        std::vector<glm::dvec3> points;
-        for (size_t i = 0; i < molecule.vertices.size(); ++i)
-            if (!onlyPinned || freedom.index[i] < 0)
-                points.push_back((molecule.vertices[i].position - centre) / size);
-        MatrixXd out = MatrixXd::Zero(3 * Eigen::Index(points.size()), 6);
-        for (size_t i = 0; i < points.size(); ++i) {
-            const Eigen::Index row = 3 * Eigen::Index(i);
-            const Eigen::Vector3d p = toEigen(points[i]);
-            out.block<3, 3>(row, 0).setIdentity();
-            for (int axis = 0; axis < 3; ++axis)
-                out.block<3, 1>(row, 3 + axis) = Eigen::Vector3d::Unit(axis).cross(p);
-        }
-        return out;
-    };
-    return rankOf(motions(false)) - rankOf(motions(true));
 }
 
 // The largest h for which h^2 A + factor h B stays below 4, found by bisection: the eigenvalues grow with h.
@@ -243,7 +159,7 @@ Analysis analyse(const Molecule& molecule, bool pinned) {
         analyseByIteration(molecule, freedom, out);
         return out;
     }
-    out.rigidModes = countRigidModes(molecule, freedom);
+    out.rigidModes = int(rigidMotions(molecule, freedom).cols());
     analyseDensely(molecule, freedom, out);
     return out;
 }

@@ -1,10 +1,11 @@
-#include "molecule/check.h"
+#include "molecule/findings.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 
 #include "molecule/analysis.h"
+#include "molecule/check.h"
 
 namespace shoal {
 
@@ -18,12 +19,35 @@ const char* plural(size_t count, const char* one, const char* many) {
     return count == 1 ? one : many;
 }
 
-// Collects warnings about one molecule.
+using Mend = std::function<void(Draft&)>;
+
+// Springs from a vertex to those nearest to it that it has none to yet.
+Mend tie(int vertex, std::set<int> among) {
+    return [vertex, among = std::move(among)](Draft& draft) {
+        const std::vector<Vertex>& vertices = draft.molecule.vertices;
+        std::vector<int> others(among.begin(), among.end());
+        std::erase(others, vertex);
+        const auto nearer = [&](int a, int b) {
+            const glm::dvec3& from = vertices[size_t(vertex)].position;
+            return glm::distance(from, vertices[size_t(a)].position) <
+                   glm::distance(from, vertices[size_t(b)].position);
+        };
+        std::sort(others.begin(), others.end(), nearer);
+        int ties = 0;
+        for (const int other : others)
+            if (ties < 3 && springBetween(draft.molecule, vertex, other) < 0) {
+                addSpring(draft, vertex, other);
+                ++ties;
+            }
+    };
+}
+
+// Looks at one molecule.
 class Checker {
   public:
     explicit Checker(const Molecule& molecule) : m_(molecule) {}
 
-    std::vector<Warning> run() {
+    std::vector<Finding> run() {
         looseVertices();
         const bool whole = connected();
         prestress();
@@ -31,7 +55,7 @@ class Checker {
         pins();
         masses();
         if (whole) shape();
-        return std::move(warnings_);
+        return std::move(findings_);
     }
 
   private:
@@ -41,10 +65,23 @@ class Checker {
     Location place(const Places& places, size_t index) const {
         return index < places.size() ? places[index] : Location{m_.file, 0, 0, {}};
     }
-    void warn(Location location, std::string message) {
-        warnings_.push_back({std::move(location), std::move(message)});
+    Finding& find(Finding::Kind kind, Location location, std::string message) {
+        Finding& out = findings_.emplace_back();
+        out.kind = kind;
+        out.warning = {std::move(location), std::move(message)};
+        return out;
     }
-    void warnMolecule(std::string message) { warn({m_.file, 0, 0, {}}, std::move(message)); }
+    Finding& findVertex(Finding::Kind kind, size_t vertex, std::string message) {
+        Finding& out = find(kind, place(m_.places.vertices, vertex), std::move(message));
+        out.vertices = {int(vertex)};
+        return out;
+    }
+    std::set<int> allVertices() const {
+        std::set<int> out;
+        for (size_t i = 0; i < m_.vertices.size(); ++i)
+            out.insert(int(i));
+        return out;
+    }
 
     void looseVertices() {
         if (m_.vertices.size() < 2) return;
@@ -59,13 +96,15 @@ class Checker {
                                                              [](const Vertex& v) { return v.pinned; });
         for (size_t i = 0; i < m_.vertices.size(); ++i) {
             if (!sprung[i] && m_.vertices[i].pinned && !still)
-                warn(place(m_.places.vertices, i),
-                     concat("vertex ", i, " is pinned but holds nothing: no spring ends at it"));
+                findVertex(Kind::loose, i,
+                           concat("vertex ", i, " is pinned but holds nothing: no spring ends at it"))
+                    .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
             else if (!sprung[i] && !still)
-                warn(place(m_.places.vertices, i), concat("vertex ", i, " is loose: no spring ends at it"));
-            if (!drawn[i] && !m_.triangles.empty())
-                warn(place(m_.places.vertices, i),
-                     concat("vertex ", i, " is in no triangle and will not be seen"));
+                findVertex(Kind::loose, i, concat("vertex ", i, " is loose: no spring ends at it"))
+                    .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
+            // a skin is drawn instead of the triangles
+            if (!drawn[i] && !m_.triangles.empty() && m_.skin.empty())
+                findVertex(Kind::unseen, i, concat("vertex ", i, " is in no triangle and will not be seen"));
         }
     }
 
@@ -96,11 +135,16 @@ class Checker {
             else if (stray == 0 && root(i) != root(first))
                 stray = i;
         }
-        if (parts > 1)
-            warn(place(m_.places.vertices, stray),
-                 concat("the springs form ", parts,
-                        " separate parts that will drift apart: no spring joins vertex ", stray,
-                        " to vertex ", first));
+        if (parts > 1) {
+            std::set<int> others;
+            for (size_t i = 0; i < m_.vertices.size(); ++i)
+                if (sprung[i] && root(i) != root(stray)) others.insert(int(i));
+            findVertex(Kind::apart, stray,
+                       concat("the springs form ", parts,
+                              " separate parts that will drift apart: no spring joins vertex ", stray,
+                              " to vertex ", first))
+                .mendBy("Join them here", tie(int(stray), others));
+        }
         return parts == 1 && loose == 0;
     }
 
@@ -111,10 +155,23 @@ class Checker {
             const double drawn =
                 glm::length(m_.vertices[size_t(spring.a)].position - m_.vertices[size_t(spring.b)].position);
             if (std::abs(*spring.restLength - drawn) > mostPrestrain * drawn)
-                warn(place(m_.places.springs, i),
-                     concat("restLength ", *spring.restLength, " is far from the drawn distance ", drawn,
-                            ": the molecule starts under tension and will change its shape"));
+                findTension(
+                    i, concat("restLength ", *spring.restLength, " is far from the drawn distance ", drawn,
+                              ": the molecule starts under tension and will change its shape"));
         }
+    }
+
+    void findTension(size_t spring, std::string message) {
+        Finding& out = find(Kind::tension, place(m_.places.springs, spring), std::move(message));
+        out.springs = {int(spring)};
+        out.mendBy("Rest as drawn",
+                   [spring](Draft& draft) { draft.molecule.springs[spring].restLength.reset(); });
+    }
+
+    Finding& findTriangle(Finding::Kind kind, size_t triangle, std::string message) {
+        Finding& out = find(kind, place(m_.places.triangles, triangle), std::move(message));
+        out.triangles = {int(triangle)};
+        return out;
     }
 
     void triangles() {
@@ -129,8 +186,10 @@ class Checker {
                              r = m_.vertices[size_t(t.c)].position;
             const double longest = std::max({glm::length(q - p), glm::length(r - q), glm::length(p - r)});
             if (glm::length(glm::cross(q - p, r - p)) <= leastAreaShare * longest * longest)
-                warn(place(m_.places.triangles, i), concat("triangle ", i, " has no area: vertices ", t.a,
-                                                           ", ", t.b, " and ", t.c, " stand in line"));
+                findTriangle(Kind::flat, i,
+                             concat("triangle ", i, " has no area: vertices ", t.a, ", ", t.b, " and ", t.c,
+                                    " stand in line"))
+                    .mendBy("Remove it", [i](Draft& draft) { removeTriangles(draft, {int(i)}); });
             for (const auto& [a, b] : {std::pair(t.a, t.b), std::pair(t.b, t.c), std::pair(t.c, t.a)}) {
                 Edge& edge = edges[std::minmax(a, b)];
                 (a < b ? edge.forward : edge.backward).push_back(i);
@@ -140,9 +199,15 @@ class Checker {
         for (const auto& [ends, edge] : edges) {
             const std::vector<size_t>& same = edge.forward.empty() ? edge.backward : edge.forward;
             if (edge.forward.size() + edge.backward.size() != 2 || same.size() != 2) continue;
-            warn(place(m_.places.triangles, same[1]),
-                 concat("triangle ", same[1], " faces the other way than its neighbour ", same[0],
-                        " across the edge ", ends.first, "-", ends.second, ": swap two of its vertices"));
+            const size_t turned = same[1];
+            findTriangle(
+                Kind::flipped, turned,
+                concat("triangle ", turned, " faces the other way than its neighbour ", same[0],
+                       " across the edge ", ends.first, "-", ends.second, ": swap two of its vertices"))
+                .mendBy("Turn it round", [turned](Draft& draft) {
+                    Triangle& t = draft.molecule.triangles[turned];
+                    std::swap(t.b, t.c);
+                });
         }
     }
 
@@ -152,14 +217,14 @@ class Checker {
             if (m_.vertices[i].pinned) pinned.push_back(i);
         if (pinned.empty()) return;
         if (pinned.size() == m_.vertices.size())
-            warn(place(m_.places.vertices, 0), m_.vertices.size() == 1
-                                                   ? "the only vertex is pinned: nothing can move"
-                                                   : "every vertex is pinned: nothing can move");
+            findVertex(Kind::pins, 0,
+                       m_.vertices.size() == 1 ? "the only vertex is pinned: nothing can move"
+                                               : "every vertex is pinned: nothing can move");
         else if (pinned.size() == 1)
-            warn(place(m_.places.vertices, pinned[0]),
-                 concat("vertex ", pinned[0],
-                        " is the only one pinned: the molecule can spin about it in every "
-                        "direction (pin a second vertex for a hinge, or a third to hold it)"));
+            findVertex(Kind::pins, pinned[0],
+                       concat("vertex ", pinned[0],
+                              " is the only one pinned: the molecule can spin about it in every "
+                              "direction (pin a second vertex for a hinge, or a third to hold it)"));
     }
 
     void masses() {
@@ -167,9 +232,9 @@ class Checker {
         const auto [least, most] = std::minmax_element(m_.vertices.begin(), m_.vertices.end(), lighter);
         if (most->mass <= mostMassRatio * least->mass) return;
         const auto index = size_t(most - m_.vertices.begin());
-        warn(place(m_.places.vertices, index),
-             concat("vertex ", index, " is ", most->mass / least->mass, " times as heavy as vertex ",
-                    least - m_.vertices.begin(), ": above ", mostMassRatio, " solvers lose accuracy"));
+        findVertex(Kind::masses, index,
+                   concat("vertex ", index, " is ", most->mass / least->mass, " times as heavy as vertex ",
+                          least - m_.vertices.begin(), ": above ", mostMassRatio, " solvers lose accuracy"));
     }
 
     // The springs join all vertices: do they hold the shape too?
@@ -177,20 +242,29 @@ class Checker {
         const Analysis free = analyse(m_, false);
         if (!free.modesKnown || free.zeroModes == 0) return;
         const size_t count = size_t(free.zeroModes);
-        warnMolecule(
-            concat("the springs leave ", count, plural(count, " motion", " motions"),
-                   " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
-                   "what is flat (by about 0.12 of its size)"));
+        find(Kind::soft, {m_.file, 0, 0, {}},
+             concat("the springs leave ", count, plural(count, " motion", " motions"),
+                    " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
+                    "what is flat (by about 0.12 of its size)"));
     }
 
+    using Kind = Finding::Kind;
+
     const Molecule& m_;
-    std::vector<Warning> warnings_;
+    std::vector<Finding> findings_;
 };
 
 }  // namespace
 
-std::vector<Warning> check(const Molecule& molecule) {
+std::vector<Finding> findingsOf(const Molecule& molecule) {
     return Checker(molecule).run();
+}
+
+std::vector<Warning> check(const Molecule& molecule) {
+    std::vector<Warning> out;
+    for (Finding& finding : findingsOf(molecule))
+        out.push_back(std::move(finding.warning));
+    return out;
 }
 
 }  // namespace shoal

@@ -1,7 +1,8 @@
 // From a Molecule to the text of a molecule file.
 #include <map>
 
-#include "core/json.h"
+#include "molecule/molecule_json.h"
+
 #include "molecule/molecule_file.h"
 
 namespace shoal {
@@ -29,8 +30,10 @@ class Common {
 
 struct Defaults {
     std::optional<double> mass, stiffness, damping;
+    bool spelled = false;  // every element says its own
 
-    explicit Defaults(const Molecule& molecule) {
+    Defaults(const Molecule& molecule, bool all) : spelled(all) {
+        if (all) return;
         Common masses, stiffnesses, dampings;
         for (const Vertex& vertex : molecule.vertices)
             masses.count(vertex.mass);
@@ -65,7 +68,7 @@ JsonValue write(const Spring& spring, const Defaults& defaults) {
     JsonValue out = JsonValue::makeObject();
     out.add("a", JsonValue::makeNumber(spring.a)).add("b", JsonValue::makeNumber(spring.b));
     if (spring.stiffness != defaults.stiffness) out.add("stiffness", JsonValue::makeNumber(spring.stiffness));
-    if (spring.damping != defaults.damping.value_or(0))
+    if (defaults.spelled || spring.damping != defaults.damping.value_or(0))
         out.add("damping", JsonValue::makeNumber(spring.damping));
     if (spring.restLength) out.add("restLength", JsonValue::makeNumber(*spring.restLength));
     if (spring.actuation) {
@@ -105,8 +108,8 @@ JsonValue write(const Material& material) {
 
 }  // namespace
 
-std::string writeMolecule(const Molecule& molecule, const std::string& originalText) {
-    const Defaults defaults(molecule);
+JsonValue toJson(const Molecule& molecule, bool spelled) {
+    const Defaults defaults(molecule, spelled);
     JsonValue root = JsonValue::makeObject();
     root.add("format", JsonValue::makeString("shoal-molecule-1"));
     if (!molecule.name.empty()) root.add("name", JsonValue::makeString(molecule.name));
@@ -125,6 +128,11 @@ std::string writeMolecule(const Molecule& molecule, const std::string& originalT
     if (!molecule.springs.empty()) root.add("springs", std::move(springs));
     if (!molecule.triangles.empty()) root.add("triangles", std::move(triangles));
     root.add("material", write(molecule.material));
+    return root;
+}
+
+std::string writeMolecule(const Molecule& molecule, const std::string& originalText) {
+    JsonValue root = toJson(molecule, false);
     if (originalText.empty()) return writeJson(root);
     return writeJson(inOrderOf(parseJson(originalText, molecule.file), std::move(root)));
 }

@@ -1,0 +1,42 @@
+// A molecule linearised about its drawn shape, as matrices: M x'' + C x' + K x = 0, scaled by the masses to
+// A = M^-1/2 K M^-1/2, of the vertices that move. For this room and those who look for soft motions.
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Dense>
+
+#include "molecule/molecule.h"
+
+namespace shoal {
+
+constexpr size_t mostDense = 300;      // vertices of which matrices are made
+constexpr double zeroRelative = 1e-9;  // an eigenvalue below this share of the largest is zero
+
+// Which vertices move, and where their coordinates stand in the matrices; -1 for pinned.
+struct Freedom {
+    std::vector<int> index;
+    int count = 0;
+
+    Freedom(const Molecule& molecule, bool pinned);
+};
+
+inline Eigen::Vector3d toEigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+// Unit, from b to a; zero for coincident vertices, where a spring has no direction.
+Eigen::Vector3d direction(const Molecule& molecule, int a, int b);
+double inverseRootMass(const Molecule& molecule, int vertex);
+
+// Sum of coefficient * n n^T over the springs, scaled by the masses. `Coefficient`: stiffness or damping.
+Eigen::MatrixXd assemble(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient);
+
+// Orthonormal columns that span the same, but for what is shorter than `least`.
+Eigen::MatrixXd basisOf(const Eigen::MatrixXd& columns, double least);
+
+// Rigid motions of the whole that hold every pinned vertex still, an orthonormal basis of them scaled by the
+// roots of the masses, as eigenvectors of A are.
+Eigen::MatrixXd rigidMotions(const Molecule& molecule, const Freedom& freedom);
+
+}  // namespace shoal
