@@ -32,4 +32,8 @@ std::string moleculeFolder() {
     return (fs::path(shaderRoot()).parent_path() / "molecules").string();
 }
 
+std::string modelFolder() {
+    return (fs::path(shaderRoot()).parent_path() / "models").string();
+}
+
 }  // namespace shoal::app

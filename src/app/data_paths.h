@@ -7,6 +7,8 @@ namespace shoal::app {
 
 // Error: neither holds the shaders; says where was looked. SHOAL_DATA in the environment goes first.
 std::string shaderRoot();
-std::string moleculeFolder();  // of the molecules that ship, beside the shaders
+// Of what ships, beside the shaders.
+std::string moleculeFolder();
+std::string modelFolder();  // with the scenes
 
 }  // namespace shoal::app

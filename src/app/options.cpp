@@ -93,7 +93,10 @@ void addError(CLI::App& command, Options& options) {
 }
 
 void addRun(CLI::App& command, Options& options, Texts& texts) {
-    addScene(command, options);
+    command
+        .add_option("scene", options.files,
+                    "Scene file (.scene.json); nothing, or a folder: a window lists those to choose from")
+        ->expected(0, 1);
     addError(command, options);
     addOverrides(command, options, texts);
     addPath(command, options, texts);

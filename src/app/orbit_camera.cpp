@@ -17,6 +17,12 @@ void OrbitCamera::reset() {
     elevation_ = std::asin(std::clamp(arm.y / distance_, -1.0, 1.0));
 }
 
+void OrbitCamera::start(const View& view) {
+    const bool moved = view.eye != start_.eye || view.target != start_.target;
+    start_ = view;
+    if (moved) reset();
+}
+
 void OrbitCamera::turn(double dx, double dy) {
     azimuth_ -= 4 * dx;
     elevation_ = std::clamp(elevation_ + 4 * dy, -1.55, 1.55);  // short of the poles, where up is undefined

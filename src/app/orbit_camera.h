@@ -13,6 +13,7 @@ class OrbitCamera {
     void pan(double dx, double dy);   // in window heights
     void zoom(double steps);          // of the wheel, towards the target
     void reset();
+    void start(const View& view);  // where reset() goes; goes there when it is another place than before
     View view() const;
 
   private:

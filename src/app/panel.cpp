@@ -6,12 +6,28 @@
 #include <cmath>
 #include <filesystem>
 
+#include "app/data_paths.h"
 #include "app/interface.h"
 
 namespace shoal::app {
 
+static std::vector<std::string> shippedMolecules() {
+    std::vector<std::string> files;
+    std::error_code code;
+    for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
+            files.push_back(entry.path().string());
+    }
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
 Controls::Controls(const Plan& plan)
-    : gravity(plan.gravity), forces(plan.forces.size(), 1.0f), substeps(plan.substeps) {}
+    : gravity(plan.gravity),
+      forces(plan.forces.size(), 1.0f),
+      substeps(plan.substeps),
+      plannedSubsteps(plan.substeps) {}
 
 void Controls::follow(const Parameters& parameters) {
     gravity = parameters.gravity;
@@ -22,6 +38,13 @@ void Controls::follow(const Parameters& parameters) {
     for (size_t i = 0; i < forces.size(); ++i)
         forces[i] = float(parameters.forces[i].factor);
     substeps = parameters.substeps;
+}
+
+void Controls::follow(const Plan& plan) {
+    gravity = plan.gravity;
+    forces.resize(plan.forces.size(), 1.0f);
+    if (substeps == plannedSubsteps) substeps = plan.substeps;
+    plannedSubsteps = plan.substeps;
 }
 
 void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) const {
@@ -39,16 +62,30 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
                                          parameters.drag, substeps);
 }
 
-Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
-    : molecules(std::move(moleculeFiles)), sceneName_(scene.name) {
+Panel::Panel(const Scene& scene) : molecules_(shippedMolecules()) {
+    follow(scene);
+}
+
+void Panel::follow(const Scene& scene) {
+    sceneName_ = scene.name;
+    std::vector<Listed> before = std::move(groups_);
+    groups_.clear();
     for (const Group& group : scene.groups) {
-        groupNames_.push_back(group.name.empty() ? group.molecule.name : group.name);
-        groupCounts_.push_back(group.count);
-        particles_.push_back(group.particle.has_value());
-        fixedCount_.push_back(group.count == 0 || group.place.kind == Placement::Kind::grid ||
-                              group.place.kind == Placement::Kind::list);
+        Listed listed;
+        listed.name = group.name;
+        listed.count = listed.chosen = group.count;
+        listed.particles = group.particle.has_value();
+        listed.fixed = group.count == 0 || group.place.kind == Placement::Kind::grid ||
+                       group.place.kind == Placement::Kind::list;
+        for (const Listed& old : before) {
+            if (old.name != listed.name) continue;
+            listed.molecule = old.molecule;
+            if (old.chosen != old.count) listed.chosen = old.chosen;
+        }
+        groups_.push_back(std::move(listed));
     }
-    choice.count = groupCounts_.front();
+    group_ = std::min(group_, int(groups_.size()) - 1);
+    forceNames_.clear();
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Force& force = scene.forces[i];
         const std::string name = force.name.empty() ? concat(kindName(force.shape), " ", i + 1) : force.name;
@@ -56,10 +93,21 @@ Panel::Panel(const Scene& scene, std::vector<std::string> moleculeFiles)
     }
 }
 
-static void heading(const char* text) {
-    ImGui::Dummy(ImVec2(0, points(4)));
-    ImGui::TextColored(ImVec4(0.62f, 0.78f, 0.45f, 1), "%s", text);
-    ImGui::Separator();
+void Panel::apply(Choices& choices) const {
+    for (const Listed& group : groups_) {
+        GroupChoice& choice = choices.groups[group.name];
+        choice.count.reset();
+        if (group.chosen != group.count) choice.count = group.chosen;
+        choice.molecule = group.molecule;
+    }
+    choices.solver.reset();
+    if (solver_) choices.solver = solverOf(solverWords()[size_t(*solver_)]);
+}
+
+// A part of the panel that folds away.
+static bool section(const char* title, bool open) {
+    ImGui::Dummy(ImVec2(0, points(1)));
+    return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
 Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
@@ -70,19 +118,25 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
                                         ImVec2(width, ImGui::GetIO().DisplaySize.y - 2 * edge));
     ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(points(150));
-    if (!sceneName_.empty()) ImGui::TextWrapped("%s", sceneName_.c_str());
-    Action action = drawClock(controls, simulation);
+    std::vector<Action> asked{drawClock(controls, simulation)};
     drawForces(controls, simulation);
-    const Action groupAction = drawGroups(simulation);
-    const Action pathAction = drawPath(simulation);
+    asked.push_back(drawGroups(simulation));
+    asked.push_back(drawMethod(controls, simulation));
     drawCost(simulation, renderer, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
-    return action != Action::none ? action : groupAction != Action::none ? groupAction : pathAction;
+    for (const Action action : asked)
+        if (action != Action::none) return action;
+    return Action::none;
 }
 
 Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
     Action action = Action::none;
+    if (ImGui::Button("Scenes")) action = Action::scenes;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Choose another scene (O).");
+    ImGui::SameLine();
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(sceneName_.c_str());
     ImGui::Text("%.2f s, frame %d", simulation.time(), simulation.frames());
     if (ImGui::Button(controls.paused ? "Run" : "Pause")) controls.paused = !controls.paused;
     ImGui::SameLine();
@@ -98,7 +152,7 @@ Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation)
 }
 
 void Panel::drawForces(Controls& controls, const Simulation& simulation) {
-    heading("Forces");
+    if (!section("Forces", true)) return;
     const auto any = [&](bool Needs::*need) {
         return std::any_of(simulation.plan().groups.begin(), simulation.plan().groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
@@ -119,47 +173,55 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
         slider(true, forceNames_[i].c_str(), controls.forces[i], -4, 4);
         ImGui::PopID();
     }
-    ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);
-    if (simulation.parameters.substeps > controls.substeps)
-        ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);
 }
 
-Panel::Action Panel::drawGroups(const Simulation& simulation) {
-    heading("Molecules");
+Panel::Action Panel::drawGroups(const Simulation&) {
+    if (!section("Molecules", true)) return Action::none;
     bool changed = false;
-    const auto groupName = [](void* names, int index, const char** out) {
-        *out = (*static_cast<std::vector<std::string>*>(names))[size_t(index)].c_str();
-        return true;
-    };
-    if (groupNames_.size() > 1 &&
-        ImGui::Combo("Group", &choice.group, groupName, &groupNames_, int(groupNames_.size()))) {
-        choice.count = simulation.plan().groups[size_t(choice.group)].count;
-        choice.molecule = -1;
+    Listed& group = groups_[size_t(group_)];
+    if (groups_.size() > 1 && ImGui::BeginCombo("Group", group.name.c_str())) {
+        for (int g = 0; g < int(groups_.size()); ++g)
+            if (ImGui::Selectable(concat(groups_[size_t(g)].name, "##", g).c_str(), g == group_)) group_ = g;
+        ImGui::EndCombo();
     }
-    const bool fixed = fixedCount_[size_t(choice.group)];
-    if (fixed) ImGui::BeginDisabled();
-    ImGui::SliderInt("Number", &choice.count, 1, std::max(20000, 2 * groupCounts_[size_t(choice.group)]),
-                     "%d", ImGuiSliderFlags_Logarithmic);
+    if (group.fixed) ImGui::BeginDisabled();
+    ImGui::SliderInt("Number", &group.chosen, 1, std::max(20000, 2 * group.count), "%d",
+                     ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     changed |= ImGui::IsItemDeactivatedAfterEdit();
-    if (fixed) ImGui::EndDisabled();
-    const auto name = [&](int index) {
-        return index < 0 ? std::string("as in the scene")
-                         : std::filesystem::path(molecules[size_t(index)]).stem().string();
+    if (group.fixed) ImGui::EndDisabled();
+    const auto name = [](const std::string& file) {
+        return file.empty() ? std::string("as in the scene") : std::filesystem::path(file).stem().string();
     };
-    if (!particles_[size_t(choice.group)] && ImGui::BeginCombo("Kind", name(choice.molecule).c_str())) {
-        for (int i = -1; i < int(molecules.size()); ++i) {
-            if (!ImGui::Selectable(name(i).c_str(), i == choice.molecule)) continue;
-            choice.molecule = i;
+    if (!group.particles && ImGui::BeginCombo("Kind", name(group.molecule).c_str())) {
+        const auto choose = [&](const std::string& file) {
+            if (!ImGui::Selectable(name(file).c_str(), file == group.molecule)) return;
+            group.molecule = file;
             changed = true;
-        }
+        };
+        choose({});
+        for (const std::string& file : molecules_)
+            choose(file);
         ImGui::EndCombo();
     }
     return changed ? Action::rebuild : Action::none;
 }
 
-// Both go on from the same state.
-Panel::Action Panel::drawPath(const Simulation& simulation) {
-    heading("Path");
+// Whatever is chosen goes on from the same state.
+Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation) {
+    if (!section("Method", true)) return Action::none;
+    Action action = Action::none;
+    const std::vector<std::string> words = solverWords();
+    const char* shown = solver_ ? words[size_t(*solver_)].c_str() : "as in the scene";
+    if (ImGui::BeginCombo("Solver", shown)) {
+        if (ImGui::Selectable("as in the scene", !solver_)) solver_.reset(), action = Action::rebuild;
+        for (int i = 0; i < int(words.size()); ++i)
+            if (ImGui::Selectable(words[size_t(i)].c_str(), solver_ == i))
+                solver_ = i, action = Action::rebuild;
+        ImGui::EndCombo();
+    }
+    ImGui::SliderInt("Substeps", &controls.substeps, 1, 32);
+    if (simulation.parameters.substeps > controls.substeps)
+        ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);
     const Path now = simulation.path().path;
     path = now;
     const bool compute = simulation.context().info().computeShaders;
@@ -169,12 +231,12 @@ Panel::Action Panel::drawPath(const Simulation& simulation) {
     ImGui::SameLine();
     if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
     if (!compute) ImGui::TextDisabled("fused needs OpenGL 4.3");
-    return path != now ? Action::switchPath : Action::none;
+    return path != now ? Action::switchPath : action;
 }
 
 void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                      const gpu::Traffic& lastFrame) {
-    heading("Cost");
+    if (!section("Cost", true)) return;
     ImGui::Text("%.1f frames/s, %s, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
                 name(simulation.path().path), name(simulation.plan().groups.front().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());

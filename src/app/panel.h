@@ -1,9 +1,12 @@
-// The panel: Decker's interface (forces, number and kind of molecules), the clock, and what a frame costs.
+// The panel: Decker's interface (forces, number and kind of molecules), the clock, how it is solved, and what
+// a frame costs.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "app/running_scene.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 
@@ -14,48 +17,51 @@ namespace shoal::app {
 struct Controls {
     glm::dvec3 gravity{0};
     float gravityFactor = 1, wind = 1, drag = 1, stiffness = 1, damping = 1;
-    std::vector<float> forces;  // factors on the strengths of the scene's
-    int substeps = 4;
+    std::vector<float> forces;              // factors on the strengths of the scene's
+    int substeps = 4, plannedSubsteps = 4;  // the plan's own
     bool paused = false;
 
     explicit Controls(const Plan& plan);
     void follow(const Parameters& parameters);  // as a run that was resumed has them
+    void follow(const Plan& plan);              // of a scene that was built anew: what the user moved stays
     void lead(Parameters& parameters, const Plan& plan, double seconds) const;
-};
-
-// The group that the panel edits: applied when the user lets go, because it makes a new simulation.
-struct GroupChoice {
-    int group = 0;
-    int count = 0;
-    int molecule = -1;  // index of `Panel::molecules`; -1: as in the scene
 };
 
 class Panel {
   public:
-    enum class Action { none, step, restart, rebuild, switchPath, resetCamera };
+    enum class Action { none, step, restart, rebuild, switchPath, resetCamera, scenes };
 
-    Panel(const Scene& scene, std::vector<std::string> moleculeFiles);
+    explicit Panel(const Scene& scene);
+    void follow(const Scene& scene);  // that was built anew
 
     // Draws the panel and returns what the user asked for in this frame.
     Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
                 const gpu::Traffic& lastFrame);
 
-    GroupChoice choice;
-    Path path = Path::automatic;         // that runs, and after switchPath the one to go on with
-    std::vector<std::string> molecules;  // files
+    // What rebuild asks for.
+    void apply(Choices& choices) const;
+    Path path = Path::automatic;  // that runs, and after switchPath the one to go on with
 
   private:
     Action drawClock(Controls& controls, const Simulation& simulation);
     void drawForces(Controls& controls, const Simulation& simulation);
     Action drawGroups(const Simulation& simulation);
-    Action drawPath(const Simulation& simulation);
+    Action drawMethod(Controls& controls, const Simulation& simulation);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                   const gpu::Traffic& lastFrame);
 
-    std::vector<std::string> groupNames_;
-    std::vector<int> groupCounts_;
-    std::vector<bool> fixedCount_;  // placed one by one, or none at the start: the number cannot be changed
-    std::vector<bool> particles_;   // which are of no other kind
+    struct Listed {
+        std::string name;
+        int count = 0;           // as in the scene
+        bool fixed = false;      // placed one by one, or none at the start: the number cannot be changed
+        bool particles = false;  // which are of no other kind
+        std::string molecule;    // chosen file; empty: as in the scene
+        int chosen = 0;          // count
+    };
+    std::vector<Listed> groups_;
+    std::vector<std::string> molecules_;  // files to choose from
+    int group_ = 0;                       // of groups_, that is shown
+    std::optional<int> solver_;           // chosen: of solverWords()
     std::vector<std::string> forceNames_;
     std::string sceneName_;
 };

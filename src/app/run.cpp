@@ -239,17 +239,25 @@ int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // mistakes in the files are told before any context is made; what the context can hold, once it is there
-    Loaded loaded = load(options);
+    const bool chooses = options.files.empty() || std::filesystem::is_directory(options.files.front());
+    if (chooses && !window)
+        throw Error(options.files.empty()
+                        ? "scene is required: only a window, with a display, lists those to choose from"
+                        : concat(options.files.front(), ": expected a scene file, found a folder"));
+    std::optional<Loaded> loaded;
+    if (!chooses) loaded = load(options);
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.preferWindow = window;
     wanted.width = options.width;
     wanted.height = options.height;
-    wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
+    wanted.title = "Shoal";
+    if (loaded) wanted.title += " - " + std::filesystem::path(options.files.front()).filename().string();
     gpu::Context context(wanted);
-    if (options.error) std::cerr << oneLine(calibrated(options, context, loaded)) << "\n";
-    return context.window() ? runWindow(options, context, std::move(loaded))
-                            : runHeadless(options, context, std::move(loaded));
+    if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
+    if (context.window()) return runWindow(options, context, std::move(loaded));
+    if (!loaded) throw Error("scene is required: there is no window to list those to choose from");
+    return runHeadless(options, context, std::move(*loaded));
 }
 
 }  // namespace shoal::app

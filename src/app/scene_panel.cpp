@@ -136,24 +136,4 @@ void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planG
         ImGui::SetTooltip("So far; lost are those that found no place, or whose place was taken.");
 }
 
-ScenePanel::Answer ScenePanel::askBeforeClosing(const std::string& file) {
-    Answer answer = Answer::none;
-    if (!ImGui::IsPopupOpen("Close")) ImGui::OpenPopup("Close");
-    const ImVec2 middle = ImGui::GetMainViewport()->GetCenter();
-    ImGui::SetNextWindowPos(middle, ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    if (!ImGui::BeginPopupModal("Close", nullptr,
-                                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar))
-        return answer;
-    ImGui::Text("What you changed is not saved in %s.",
-                std::filesystem::path(file).filename().string().c_str());
-    if (ImGui::Button("Save and close")) answer = Answer::save;
-    ImGui::SameLine();
-    if (ImGui::Button("Close without saving")) answer = Answer::discard;
-    ImGui::SameLine();
-    if (ImGui::Button("Stay")) answer = Answer::stay;
-    if (answer != Answer::none) ImGui::CloseCurrentPopup();
-    ImGui::EndPopup();
-    return answer;
-}
-
 }  // namespace shoal::app

@@ -26,10 +26,6 @@ class ScenePanel {
     bool pending() const { return pending_; }  // something was edited that does not run yet
     // Edits `scene`, which the simulation runs. `unsaved`: it is not as its file.
     Action draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved);
-    // Of the question whether to save, before the window closes.
-    enum class Answer { none, save, discard, stay };
-    Answer askBeforeClosing(const std::string& file);
-
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
     void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes

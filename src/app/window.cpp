@@ -1,4 +1,4 @@
-// The window: a scene that runs, a camera to move, and the panel.
+// The window: a scene that runs, a camera to move, and the panels; or a list of scenes to choose from.
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -7,66 +7,50 @@
 #include <chrono>
 #include <filesystem>
 #include <iostream>
-#include <map>
 #include <memory>
 #include <utility>
 
 #include "app/checkpoints.h"
 #include "app/data_paths.h"
 #include "app/interface.h"
-#include "app/orbit_camera.h"
-#include "app/panel.h"
+#include "app/keys.h"
+#include "app/notices.h"
+#include "app/open_scene.h"
 #include "app/run.h"
-#include "app/scene_panel.h"
+#include "app/scene_list.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
 #include "gpu/gl.h"
-#include "molecule/molecule_file.h"
-#include "render/renderer.h"
-#include "scene/scene_saver.h"
-#include "simulate/carry_over.h"
-#include "simulate/simulation.h"
 
 namespace shoal::app {
 
 namespace {
 
-std::vector<std::string> shippedMolecules() {
-    const std::filesystem::path folder = std::filesystem::path(shaderRoot()).parent_path() / "molecules";
-    std::vector<std::string> files;
-    std::error_code code;
-    for (const auto& entry : std::filesystem::directory_iterator(folder, code)) {
-        const std::string name = entry.path().filename().string();
-        if (entry.path().extension() == ".json" && name.find(".schema.") == std::string::npos)
-            files.push_back(entry.path().string());
-    }
-    std::sort(files.begin(), files.end());
-    return files;
-}
+// What the user asked for in a frame, done at its end.
+struct Wish {
+    Panel::Action panel = Panel::Action::none;
+    ScenePanel::Action scene = ScenePanel::Action::none;
+    std::string open;  // a scene's file
+    bool close = false;
+};
 
 class WindowRun {
   public:
-    WindowRun(const Options& options, gpu::Context& context, Loaded loaded)
+    WindowRun(const Options& options, gpu::Context& context, std::optional<Loaded> loaded)
         : options_(options),
           context_(context),
           window_(context.window()),
-          original_(loaded.scene),
-          scene_(std::move(loaded.scene)),
-          controls_(loaded.plan),
-          panel_(scene_, shippedMolecules()),
-          scenePanel_(scene_),
-          running_(scene_.groups),
-          camera_(View::of(scene_.camera)),
           interface_(window_, options.scale),
-          cache_(context, cacheFolder()),
-          path_(options.path) {
+          keys_(window_),
+          cache_(context, cacheFolder()) {
         glfwSwapInterval(1);
         glfwGetFramebufferSize(window_, &width_, &height_);
-        build(std::move(loaded.plan));
-        checkSave(options);
-        if (options.resume.empty()) return;
-        resume(options, *simulation_);
-        controls_.follow(simulation_->parameters);
+        if (loaded) {
+            open_ =
+                std::make_unique<OpenScene>(options, context, cache_, std::move(*loaded), width_, height_);
+            return;
+        }
+        listScenes();
     }
 
     void go() {
@@ -80,55 +64,22 @@ class WindowRun {
             if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
             if (!showFrame()) break;
         }
+        if (!open_) return;
         saveIfAsked(true);
-        if (unsaved())
-            std::cerr << "shoal: warning: what was changed in the window was not saved in " << scene_.file
-                      << "\n";
+        if (open_->running.unsaved())
+            std::cerr << "shoal: warning: what was changed in the window was not saved in "
+                      << open_->running.scene.file << "\n";
     }
 
   private:
     // Not before the user has said what becomes of what is not saved.
     bool closes() {
         if (!glfwWindowShouldClose(window_)) return false;
-        asksToClose_ = unsaved() && !discards_;
-        if (asksToClose_) glfwSetWindowShouldClose(window_, GLFW_FALSE);
-        return !asksToClose_;
-    }
-
-    void build(Plan plan) {
-        simulation_.reset();
-        renderer_.reset();
-        SimulationOptions wanted;
-        wanted.timing = gpu::PassTimers::suitedTo(context_.info());
-        wanted.path = path_;
-        // what was asked of the fused path does not bind the other
-        if (path_ != Path::pingPong) wanted.inPlace = options_.inPlace, wanted.lanes = options_.lanes;
-        wanted.cache = &cache_;
-        simulation_ = std::make_unique<Simulation>(context_, shaderRoot(), std::move(plan), wanted);
-        tellWarnings(*simulation_, cache_);
-        RenderOptions size;
-        size.width = width_;
-        size.height = height_;
-        size.timing = wanted.timing;
-        renderer_ = std::make_unique<Renderer>(context_, shaderRoot(), scene_, simulation_->plan(), size);
-        controls_.lead(simulation_->parameters, simulation_->plan(), 1e3);  // as the sliders stand, at once
-    }
-
-    // The other path goes on from the same state; where it cannot, that is said and the old one stays.
-    void switchPath() {
-        const Path old = path_;
-        const SavedState saved = simulation_->save();
-        const Plan plan = simulation_->plan();
-        try {
-            path_ = panel_.path;
-            build(plan);
-            message_.clear();
-        } catch (const Error& error) {
-            message_ = error.what();
-            path_ = old;
-            build(plan);
-        }
-        simulation_->load(saved);
+        if (!open_ || discards_ || !open_->running.unsaved()) return true;
+        asked_ = Wish();
+        asked_->close = true;
+        glfwSetWindowShouldClose(window_, GLFW_FALSE);
+        return false;
     }
 
     // One frame of simulation and picture; false after the last of --frames.
@@ -138,201 +89,263 @@ class WindowRun {
             glfwWaitEventsTimeout(0.1);
             return true;
         }
-        const gpu::Traffic before = context_.traffic();
-        holdForces();
-        if (!controls_.paused || action_ == Panel::Action::step) {
-            controls_.lead(simulation_->parameters, simulation_->plan(), simulation_->parameters.frameTime);
-            advance();
+        if (open_) {
+            if (open_->reload.update(open_->running, glfwGetTime())) open_->follow();
+            drawScene();
+        } else {
+            gpu::Framebuffer::bindDefault(width_, height_);
+            glClearColor(0.1f, 0.13f, 0.12f, 1);
+            glClear(GL_COLOR_BUFFER_BIT);
         }
-        if (width_ != renderer_->width() || height_ != renderer_->height())
-            renderer_->resize(width_, height_);
-        View view = camera_.view();
-        view.time = simulation_->time();
-        renderer_->draw(simulation_->state(), view);
-        renderer_->present(width_, height_);
-        lastFrame_ = context_.traffic() - before;
-
         interface_.begin();
-        action_ = panel_.draw(controls_, *simulation_, *renderer_, frameSeconds_, lastFrame_);
-        drawScenePanel();
-        moveCamera();
-        pressKeys();
-        if (!message_.empty()) showMessage();
+        wish_ = Wish();
+        drawInterface();
         interface_.end();
 
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot();
+        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot);
         glfwSwapBuffers(window_);
         obey();
         return !last;
     }
 
+    void drawScene() {
+        OpenScene& open = *open_;
+        const gpu::Traffic before = context_.traffic();
+        holdForces();
+        if (!open.controls.paused || steps_) {
+            Simulation& simulation = open.simulation();
+            open.controls.lead(simulation.parameters, simulation.plan(), simulation.parameters.frameTime);
+            advance();
+        }
+        steps_ = false;
+        Renderer& renderer = open.running.renderer();
+        if (width_ != renderer.width() || height_ != renderer.height()) renderer.resize(width_, height_);
+        View view = open.camera.view();
+        view.time = open.simulation().time();
+        try {
+            renderer.draw(open.simulation().state(), view);
+        } catch (const Error& error) {  // a program is made when it is needed first
+            message_ = error.what();
+        }
+        renderer.present(width_, height_);
+        lastFrame_ = context_.traffic() - before;
+    }
+
+    void drawInterface() {
+        if (open_) {
+            Simulation& simulation = open_->simulation();
+            wish_.panel = open_->panel.draw(open_->controls, simulation, open_->running.renderer(),
+                                            frameSeconds_, lastFrame_);
+            drawScenePanel();
+            moveCamera();
+            drawNotices();
+        }
+        if (!opening_.empty()) {
+            drawOpening(opening_);
+        } else if (chooser_.open) {
+            wish_.open = chooser_.draw(!open_, open_ ? std::string() : message_);
+        }
+        pressKeys();
+    }
+
     // What runs away stands still, to be looked at and restarted.
     void advance() {
         try {
-            simulation_->frame();
+            open_->simulation().frame();
         } catch (const Runaway& runaway) {
-            controls_.paused = true;
-            message_ = concat(runaway.what(), ". ", saveForInspection(options_, *simulation_, runaway));
-            std::cerr << "shoal: warning: " << message_ << "\n";
+            pauseWith(concat(runaway.what(), ". ",
+                             saveForInspection(open_->options, open_->simulation(), runaway)));
+            return;
+        } catch (const Error& error) {
+            pauseWith(error.what());
             return;
         }
         saveIfAsked(false);
     }
 
+    void pauseWith(const std::string& message) {
+        open_->controls.paused = true;
+        message_ = message;
+        std::cerr << "shoal: warning: " << message_ << "\n";
+    }
+
     // --save-frames as the run passes them, else once at the end.
     void saveIfAsked(bool end) {
-        const bool now = options_.saveFrames.empty()
-                             ? end
-                             : !end && asksFor(options_.saveFrames, simulation_->frames(), -1);
-        if (options_.save.empty() || !now) return;
-        const std::string file =
-            numbered(options_.save, simulation_->frames(), options_.saveFrames.size() > 1);
-        saveState(file, *simulation_);
+        const Options& options = open_->options;
+        const Simulation& simulation = open_->simulation();
+        const bool now =
+            options.saveFrames.empty() ? end : !end && asksFor(options.saveFrames, simulation.frames(), -1);
+        if (options.save.empty() || !now) return;
+        const std::string file = numbered(options.save, simulation.frames(), options.saveFrames.size() > 1);
+        saveState(file, simulation);
         std::cout << "saved: " << file << "\n";
     }
 
-    void obey() {
-        if (action_ == Panel::Action::restart) simulation_->restart();
-        if (action_ == Panel::Action::resetCamera) camera_.reset();
-        if (action_ == Panel::Action::rebuild) rebuild();
-        if (action_ == Panel::Action::switchPath) switchPath();
-        if (sceneAction_ == ScenePanel::Action::save) saveScene();
-        if (sceneAction_ == ScenePanel::Action::revert) revert();
-        if (sceneAction_ == ScenePanel::Action::rebuild) rebuildEdited();
+    // ---- What was asked for
+
+    // What needs another simulation or may fail; what cannot be had is said, and what ran runs on.
+    template <typename Work>
+    void change(const Work& work) {
+        try {
+            work();
+            message_.clear();
+        } catch (const Error& error) {
+            message_ = error.what();
+        }
+        open_->follow();
     }
 
-    // ---- What is edited: scene_ runs, original_ is as the file, running_ was accepted last
+    void obey() {
+        if (!opening_.empty()) return openNow();
+        if (open_) obeyPanels();
+        if (!wish_.open.empty()) askToOpen(wish_.open);
+    }
 
-    bool unsaved() const { return differ(original_, scene_); }
+    void obeyPanels() {
+        RunningScene& running = open_->running;
+        switch (wish_.panel) {
+        case Panel::Action::none:
+            break;
+        case Panel::Action::step:
+            steps_ = true;
+            break;
+        case Panel::Action::restart:
+            running.simulation().restart();
+            break;
+        case Panel::Action::resetCamera:
+            open_->camera.reset();
+            break;
+        case Panel::Action::rebuild:
+            change([&] {
+                open_->panel.apply(running.choices);
+                running.choose();
+            });
+            break;
+        case Panel::Action::switchPath:
+            change([&] { running.switchPath(open_->panel.path); });
+            break;
+        case Panel::Action::scenes:
+            listScenes();
+            break;
+        }
+        if (wish_.scene == ScenePanel::Action::save) saveScene();
+        if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
+        if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
+    }
+
+    // ---- Opening
+
+    void listScenes() {
+        chooser_.folder = !options_.files.empty() && std::filesystem::is_directory(options_.files.front())
+                              ? options_.files.front()
+                              : modelFolder();
+        chooser_.scenes = scenesBelow(chooser_.folder);
+        chooser_.open = true;
+    }
+
+    void askToOpen(const std::string& file) {
+        if (open_ && open_->running.unsaved()) {
+            asked_ = Wish();
+            asked_->open = file;
+        } else {
+            opening_ = file;
+        }
+    }
+
+    // After a frame that says so, because it may take a while.
+    void openNow() {
+        if (std::exchange(saidOpening_, !saidOpening_) == false) return;
+        Options options = optionsOf(std::exchange(opening_, {}));
+        try {
+            Loaded loaded = load(options);
+            auto next = std::make_unique<OpenScene>(std::move(options), context_, cache_, std::move(loaded),
+                                                    width_, height_);
+            open_ = std::move(next);
+            message_.clear();
+            chooser_.open = discards_ = shownUnsaved_ = false;
+            std::cout << "opened: " << open_->running.scene.file << std::endl;
+            glfwSetWindowTitle(window_, title().c_str());
+        } catch (const Error& error) {
+            message_ = error.what();
+            std::cerr << "shoal: warning: not opened: " << message_ << std::endl;
+            chooser_.open = true;
+        }
+    }
+
+    // What was asked of the first scene does not bind the others.
+    Options optionsOf(const std::string& file) const {
+        Options out;
+        out.files = {file};
+        out.path = options_.path;
+        out.lanes = options_.lanes;
+        out.inPlace = options_.inPlace;
+        return out;
+    }
+
+    std::string title() const {
+        return "Shoal - " + std::filesystem::path(open_->running.scene.file).filename().string();
+    }
+
+    // ---- What is edited and saved
 
     void drawScenePanel() {
-        sceneAction_ = ScenePanel::Action::none;
-        if (scenePanel_.empty()) return;
-        const bool changed = unsaved();
-        sceneAction_ = scenePanel_.draw(scene_, *simulation_, *renderer_, changed);
-        if (scenePanel_.changed() && !scenePanel_.pending()) running_ = scene_.groups;
+        OpenScene& open = *open_;
+        const bool changed = open.running.unsaved();
+        if (!open.scenePanel.empty()) {
+            wish_.scene =
+                open.scenePanel.draw(open.running.scene, open.simulation(), open.running.renderer(), changed);
+            if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
+        }
         if (std::exchange(shownUnsaved_, changed) != changed)
             glfwSetWindowTitle(window_, (title() + (changed ? " *" : "")).c_str());
-        if (!asksToClose_) return;
-        const ScenePanel::Answer answer = scenePanel_.askBeforeClosing(scene_.file);
-        if (answer == ScenePanel::Answer::none) return;
-        asksToClose_ = false;
-        discards_ = answer == ScenePanel::Answer::discard;
-        const bool saved = answer == ScenePanel::Answer::save && saveScene();
-        if (discards_ || saved) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+        if (asked_) askAboutUnsaved();
     }
 
-    std::string title() const { return "Shoal - " + std::filesystem::path(scene_.file).filename().string(); }
+    void askAboutUnsaved() {
+        const Wish wanted = *asked_;
+        const Answer answer =
+            askBeforeLeaving(open_->running.scene.file, wanted.close ? "close" : "open another scene");
+        if (answer == Answer::none) return;
+        asked_.reset();
+        if (answer == Answer::stay || (answer == Answer::save && !saveScene())) return;
+        discards_ = answer == Answer::discard;
+        if (wanted.close) glfwSetWindowShouldClose(window_, GLFW_TRUE);
+        if (!wanted.close) opening_ = wanted.open;
+    }
 
     bool saveScene() {
         try {
-            saveEdits(original_, scene_);
+            open_->running.save();
         } catch (const Error& error) {
             message_ = concat("Not saved: ", error.what());
             std::cerr << "shoal: warning: not saved: " << error.what() << "\n";
             return false;
         }
-        copyEdits(scene_.groups, original_.groups);
+        open_->reload.accept(open_->running.scene.file);
         message_.clear();
-        scenePanel_.say(", saved");
+        open_->scenePanel.say(", saved");
         return true;
     }
 
-    void revert() {
-        copyEdits(original_.groups, scene_.groups);
-        rebuildEdited();
+    void drawNotices() {
+        HotReload& reload = open_->reload;
+        const float right = open_->scenePanel.empty() ? points(12) : points(392);
+        const bool closed = showNotices(reload.problem(), message_, points(328), right);
+        if (closed) message_.clear();
+        if (reload.conflicts().empty() || asked_) return;
+        const std::optional<Prefer> answer = askWhoWins(reload.conflicts());
+        if (answer && reload.settle(open_->running, *answer)) open_->follow();
     }
 
-    // What the scene panel edits.
-    static void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
-        for (size_t g = 0; g < from.size(); ++g) {
-            to[g].life = from[g].life;
-            to[g].particle = from[g].particle;
-        }
-    }
-
-    Plan compileEdited() {
-        for (Group& group : scene_.groups)
-            if (group.particle) group.molecule = moleculeOf(*group.particle);
-        scene_.solver.substeps = original_.solver.substeps;
-        return compileStably();
-    }
-
-    // Goes on from where it is, where that is possible. What cannot be had is said, and what ran runs on.
-    void rebuildEdited() {
-        const SavedState saved = simulation_->save();
-        const Plan old = simulation_->plan();
-        const Parameters parameters = simulation_->parameters;
-        try {
-            build(compileEdited());
-            message_.clear();
-        } catch (const Error& error) {
-            message_ = error.what();
-            copyEdits(running_, scene_.groups);
-            build(compileEdited());
-        }
-        if (const std::optional<SavedState> carried = carryOver(saved, old, simulation_->plan()))
-            simulation_->load(*carried);
-        simulation_->parameters = parameters;
-        running_ = scene_.groups;
-        scenePanel_.follow(scene_);
-    }
-
-    // Another number or kind of molecules; what cannot be had is said and the old scene runs on.
-    void rebuild() {
-        const Scene old = scene_;
-        scene_.solver.substeps = original_.solver.substeps;
-        try {
-            Group& group = scene_.groups[size_t(panel_.choice.group)];
-            group.count = panel_.choice.count;
-            if (group.life) group.life->capacity = std::max(group.life->capacity, group.count);
-            group.molecule = panel_.choice.molecule < 0
-                                 ? original_.groups[size_t(panel_.choice.group)].molecule
-                                 : readMolecule(panel_.molecules[size_t(panel_.choice.molecule)]);
-            build(compileStably());
-            message_.clear();
-            shownMolecule_ = panel_.choice.molecule;
-            running_ = scene_.groups;
-            scenePanel_.follow(scene_);
-        } catch (const Error& error) {
-            message_ = error.what();
-            scene_ = old;
-            panel_.choice.count = old.groups[size_t(panel_.choice.group)].count;
-            panel_.choice.molecule = shownMolecule_;
-            build(compile(scene_));
-        }
-    }
-
-    // A stiffer molecule takes more substeps instead of being refused.
-    Plan compileStably() {
-        for (int tries = 0; tries < 12; ++tries) {
-            try {
-                return compile(scene_);
-            } catch (const Error&) {
-                if (scene_.solver.substeps >= 256) throw;
-                scene_.solver.substeps *= 2;
-            }
-        }
-        return compile(scene_);
-    }
-
-    void showMessage() {
-        ImGui::SetNextWindowPos(ImVec2(points(330), points(12)), ImGuiCond_Always);
-        const float panels = points(scenePanel_.empty() ? 350 : 730);  // to its left and right
-        ImGui::SetNextWindowSize(ImVec2(std::max(points(200), ImGui::GetIO().DisplaySize.x - panels), 0));
-        ImGui::Begin("Message", nullptr, ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_AlwaysAutoResize);
-        ImGui::TextWrapped("%s", message_.c_str());
-        if (ImGui::Button("Close")) message_.clear();
-        ImGui::End();
-    }
+    // ---- The mouse and the keys
 
     // Forces of the mouse act while Shift and the left button are held: where the pointer is, at the distance
     // of what the camera looks at.
     bool holdsForces() const {
         const ImGuiIO& io = ImGui::GetIO();
-        const auto& forces = simulation_->plan().forces;
+        const auto& forces = open_->simulation().plan().forces;
         return !io.WantCaptureMouse && io.KeyShift && ImGui::IsMouseDown(ImGuiMouseButton_Left) &&
                std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.mouse; });
     }
@@ -340,50 +353,56 @@ class WindowRun {
     void holdForces() {
         const ImGuiIO& io = ImGui::GetIO();
         const bool held = shown_ > 0 && holdsForces();
-        const std::vector<Force>& forces = simulation_->plan().forces;
+        const std::vector<Force>& forces = open_->simulation().plan().forces;
         for (size_t i = 0; i < forces.size(); ++i) {
             if (!forces[i].mouse) continue;
-            ForceControl& control = simulation_->parameters.forces[i];
+            ForceControl& control = open_->simulation().parameters.forces[i];
             control.on = held;
             if (!held) continue;
             const glm::dvec2 place(io.MousePos.x / io.DisplaySize.x, io.MousePos.y / io.DisplaySize.y);
-            control.position = onTargetPlane(camera_.view(), place, double(width_) / height_);
+            control.position = onTargetPlane(open_->camera.view(), place, double(width_) / height_);
         }
     }
 
     void moveCamera() {
         const ImGuiIO& io = ImGui::GetIO();
         if (io.WantCaptureMouse || holdsForces()) return;
+        OrbitCamera& camera = open_->camera;
         const double dx = double(io.MouseDelta.x / io.DisplaySize.y),
                      dy = double(io.MouseDelta.y / io.DisplaySize.y);
-        if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera_.turn(dx, dy);
+        if (ImGui::IsMouseDown(ImGuiMouseButton_Left)) camera.turn(dx, dy);
         if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
-            camera_.pan(dx, dy);
-        if (io.MouseWheel != 0) camera_.zoom(double(io.MouseWheel));
+            camera.pan(dx, dy);
+        if (io.MouseWheel != 0) camera.zoom(double(io.MouseWheel));
     }
 
     void pressKeys() {
-        if (ImGui::GetIO().WantCaptureKeyboard) return;
-        // by the window, not by ImGui, whose key codes changed their type in 1.89
-        const auto pressed = [this](int key) {
-            const bool down = glfwGetKey(window_, key) == GLFW_PRESS;
-            return down && !std::exchange(keysDown_[key], down) ? true : (keysDown_[key] = down, false);
-        };
-        if (pressed(GLFW_KEY_SPACE)) controls_.paused = !controls_.paused;
-        const bool control = glfwGetKey(window_, GLFW_KEY_LEFT_CONTROL) == GLFW_PRESS ||
-                             glfwGetKey(window_, GLFW_KEY_RIGHT_CONTROL) == GLFW_PRESS;
-        if (pressed(GLFW_KEY_S) && control && !scenePanel_.empty()) sceneAction_ = ScenePanel::Action::save;
-        if (pressed(GLFW_KEY_R)) action_ = Panel::Action::restart;
-        if (pressed(GLFW_KEY_C)) action_ = Panel::Action::resetCamera;
-        if (pressed(GLFW_KEY_ESCAPE)) glfwSetWindowShouldClose(window_, GLFW_TRUE);
-        if (pressed(GLFW_KEY_PERIOD)) {
-            controls_.paused = true;
-            action_ = Panel::Action::step;
+        keys_.look(!ImGui::GetIO().WantCaptureKeyboard);
+        if (keys_.pressed(GLFW_KEY_O) && !asked_ && opening_.empty()) listScenes();
+        if (keys_.pressed(GLFW_KEY_ESCAPE)) escape();
+        if (!open_) return;
+        Controls& controls = open_->controls;
+        if (keys_.pressed(GLFW_KEY_SPACE)) controls.paused = !controls.paused;
+        if (keys_.pressed(GLFW_KEY_S) && keys_.control() && !open_->scenePanel.empty())
+            wish_.scene = ScenePanel::Action::save;
+        if (keys_.pressed(GLFW_KEY_R)) wish_.panel = Panel::Action::restart;
+        if (keys_.pressed(GLFW_KEY_C)) wish_.panel = Panel::Action::resetCamera;
+        if (keys_.pressed(GLFW_KEY_PERIOD)) {
+            controls.paused = true;
+            wish_.panel = Panel::Action::step;
         }
     }
 
+    // What lies on top goes first, the window last.
+    void escape() {
+        if (chooser_.open && open_)
+            chooser_.open = false;
+        else
+            glfwSetWindowShouldClose(window_, GLFW_TRUE);
+    }
+
     // The window as the user sees it, panel and all.
-    void saveScreenshot() {
+    void saveScreenshot(const std::string& file) {
         Image image{width_, height_, 4, std::vector<uint8_t>(size_t(width_) * size_t(height_) * 4)};
         const size_t row = size_t(width_) * 4;
         glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -395,38 +414,31 @@ class WindowRun {
                         image.pixels.begin() + std::ptrdiff_t(y * row));
         for (size_t i = 3; i < image.pixels.size(); i += 4)
             image.pixels[i] = 255;
-        writePng(options_.screenshot, image);
-        std::cout << "screenshot: " << options_.screenshot << "\n";
+        writePng(file, image);
+        std::cout << "screenshot: " << file << "\n";
     }
 
     const Options& options_;
     gpu::Context& context_;
     GLFWwindow* window_;
-    Scene original_, scene_;
-    Controls controls_;
-    Panel panel_;
-    ScenePanel scenePanel_;
-    std::vector<Group> running_;  // of scene_, as they run
-    OrbitCamera camera_;
     Interface interface_;
+    Keys keys_;
     gpu::ProgramCache cache_;
-    Path path_;
-    std::unique_ptr<Simulation> simulation_;
-    std::unique_ptr<Renderer> renderer_;
-    Panel::Action action_ = Panel::Action::none;
-    ScenePanel::Action sceneAction_ = ScenePanel::Action::none;
-    bool asksToClose_ = false, discards_ = false, shownUnsaved_ = false;
+    SceneChooser chooser_;
+    std::unique_ptr<OpenScene> open_;  // null: nothing was chosen yet
+    std::string opening_;              // a scene's file
+    Wish wish_;
+    std::optional<Wish> asked_;  // to close or open, while something is not saved
+    bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
     gpu::Traffic lastFrame_;
     std::string message_;
-    std::map<int, bool> keysDown_;  // as seen last, by GLFW's key
-    int shownMolecule_ = -1;        // the panel's choice that is on show
-    double frameSeconds_ = 0;       // s, wall clock, smoothed
+    double frameSeconds_ = 0;  // s, wall clock, smoothed
     int width_ = 0, height_ = 0, shown_ = 0;
 };
 
 }  // namespace
 
-int runWindow(const Options& options, gpu::Context& context, Loaded loaded) {
+int runWindow(const Options& options, gpu::Context& context, std::optional<Loaded> loaded) {
     WindowRun(options, context, std::move(loaded)).go();
     return 0;
 }

@@ -16,6 +16,7 @@ struct Context::State {
     std::unique_ptr<Platform> platform;
     ContextInfo info;
     Traffic traffic;
+    std::set<std::string> shaderFiles;
     ~State();
 };
 
@@ -242,6 +243,12 @@ Traffic& Context::traffic() {
 }
 const Traffic& Context::traffic() const {
     return state_->traffic;
+}
+const std::set<std::string>& Context::shaderFiles() const {
+    return state_->shaderFiles;
+}
+void Context::noteShaderFile(const std::string& file) {
+    state_->shaderFiles.insert(file);
 }
 GLFWwindow* Context::window() const {
     return state_->platform->window();

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "gpu/traffic.h"
@@ -73,6 +74,9 @@ class Context {
     const ContextInfo& info() const;
     Traffic& traffic();
     const Traffic& traffic() const;
+    // Files on disk that programs of this context were made of.
+    const std::set<std::string>& shaderFiles() const;
+    void noteShaderFile(const std::string& file);
     GLFWwindow* window() const;  // null unless this is a window
     // Error: OpenGL reports a mistake since the last call; `where` names the work that was done.
     void checkErrors(const char* where);

@@ -127,6 +127,9 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
     }
     const std::vector<Stage> stages = readStages(shaderRoot, options);
+    for (const Stage& stage : stages)
+        for (const std::string& file : stage.source.files)
+            if (file.rfind(shaderRoot, 0) == 0) context.noteShaderFile(file);
     handle_ = Handle<deleteProgram>(glCreateProgram());
     if (options.cache == nullptr) {
         compileAndLink(id(), stages, options, label_);

@@ -1,9 +1,11 @@
-// Saves what was edited in a running scene: "particle", "life" and "emitters" of its groups. The rest of the
-// file, its layout and every number that was not edited stay as they are, whoever wrote them and when.
+// Saves what was edited in a running scene: "particle", "color", "secondColor", "life" and "emitters" of its
+// groups. The rest of the file, its layout and every number that was not edited stay as they are, whoever wrote them and when.
 #pragma once
 
 #include <string>
+#include <vector>
 
+#include "core/json_merge.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -17,5 +19,15 @@ bool differ(const Scene& before, const Scene& after);
 
 // In the file before.file. Error: withEdits'; the file cannot be read or written, and is as it was then.
 void saveEdits(const Scene& before, const Scene& after);
+
+// Of a file that changed while edits of what was read from it are not saved.
+struct MergedEdits {
+    std::vector<Group> groups;           // of `theirs`, with the edits
+    std::vector<std::string> conflicts;  // paths of what both changed, each its own way, or what is gone
+    bool possible = true;                // false: a group that was edited is not there any more
+};
+// `text`: of the file as it is now, which was read as `theirs`. Error: the two together do not read back.
+MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& theirs, const std::string& text,
+                       Prefer prefer);
 
 }  // namespace shoal

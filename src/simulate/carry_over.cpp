@@ -32,16 +32,24 @@ void carryBook(const GroupState& saved, double time, GroupState& out) {
         out.freed.clear();
 }
 
-// Beginning with the other plan's start, for the places that are new.
-GroupState carried(const GroupState& saved, double time, const GroupPlan& from, const GroupPlan& to) {
-    if (from.count == to.count && !to.life) return saved;
+// What every molecule has, whatever the solvers of the two; a solver with history begins it anew after
+// another.
+GroupState moved(const GroupState& saved, const GroupPlan& from, const GroupPlan& to) {
     GroupState out = to.start;
     overwrite(out.positions, saved.positions);
     overwrite(out.velocities, saved.velocities);
     overwrite(out.anchors, saved.anchors);
     overwrite(out.released, saved.released);
-    overwrite(out.displacements, saved.displacements);
-    overwrite(out.velocityChanges, saved.velocityChanges);
+    if (from.solver != to.solver || from.count != to.count) return out;
+    out.displacements = saved.displacements;
+    out.velocityChanges = saved.velocityChanges;
+    return out;
+}
+
+// Beginning with the other plan's start, for the places that are new.
+GroupState carried(const GroupState& saved, double time, const GroupPlan& from, const GroupPlan& to) {
+    GroupState out = moved(saved, from, to);
+    if (!to.life) return out;
     std::fill(out.lives.begin(), out.lives.end(), glm::vec2(0));
     overwrite(out.lives, saved.lives);
     overwrite(out.seeds, saved.seeds);
@@ -54,6 +62,13 @@ GroupState carried(const GroupState& saved, double time, const GroupPlan& from, 
     return out;
 }
 
+const GroupPlan* sameGroup(const Plan& among, const GroupPlan& group) {
+    for (const GroupPlan& other : among.groups)
+        if (group.name.empty() ? other.index == group.index && other.name.empty() : other.name == group.name)
+            return &other;
+    return nullptr;
+}
+
 }  // namespace
 
 std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to) {
@@ -62,6 +77,22 @@ std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, c
     for (size_t g = 0; g < to.groups.size(); ++g) {
         if (!sameKind(from.groups[g], to.groups[g])) return {};
         out.groups[g] = carried(saved.groups[g], saved.time, from.groups[g], to.groups[g]);
+    }
+    return out;
+}
+
+GoneOn goOn(const SavedState& saved, const Plan& from, const Plan& to) {
+    GoneOn out{{saved.time, saved.frames, {}, saved.step}, {}};
+    for (const GroupPlan& group : to.groups) {
+        const GroupPlan* before = sameGroup(from, group);
+        if (before && before->vertexCount == group.vertexCount &&
+            before->life.has_value() == group.life.has_value()) {
+            const size_t index = size_t(before - from.groups.data());
+            out.state.groups.push_back(carried(saved.groups[index], saved.time, *before, group));
+        } else {
+            out.state.groups.push_back(group.start);
+            out.restarted.push_back(group.name);
+        }
     }
     return out;
 }

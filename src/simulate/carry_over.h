@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "simulate/simulation.h"
 
@@ -11,5 +13,14 @@ namespace shoal {
 // The state of a run of `from` as `to` can load it. What is in places that are no more is gone, places that
 // are new are free. Nothing where the groups are not the same molecules, or as many that live for ever.
 std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to);
+
+// The same group by group, of files that changed: each group of `to` goes on where `from` has it (by name,
+// else by number) with as many vertices a molecule and a life of the same kind. As many molecules as both
+// have go on; the others, and other groups, are as at the start.
+struct GoneOn {
+    SavedState state;
+    std::vector<std::string> restarted;  // names of the groups that begin anew
+};
+GoneOn goOn(const SavedState& saved, const Plan& from, const Plan& to);
 
 }  // namespace shoal

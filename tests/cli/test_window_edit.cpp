@@ -58,7 +58,7 @@ const JsonValue& emittersIn(const JsonValue& root) {
 // In the right panel, with one group and one emitter, whose rate is the first slider.
 constexpr const char* places =
     "rate() { drag 700 159 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
-    "addEmitter() { press 580 437; }\nabandon() { press 460 329; }\n";
+    "addEmitter() { press 580 437; }\nabandon() { press 390 329; }\n";
 
 }  // namespace
 

@@ -1,0 +1,25 @@
+// What the window has to say or to ask, over the picture.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json_merge.h"
+
+namespace shoal::app {
+
+// At the top, between `left` and `right` (from the window's right edge): why changed files do not run, as
+// long as that is so, and a message until the user closes it, which is returned. Empty: nothing is shown.
+bool showNotices(const std::string& problem, const std::string& message, float left, float right);
+
+void drawOpening(const std::string& file);  // that a scene is being opened
+
+// Of the question whether to save, before something goes on ("close").
+enum class Answer { none, save, discard, stay };
+Answer askBeforeLeaving(const std::string& file, const char* what);
+
+// Of what was edited in the window and changed in the file, too. Nothing: not answered yet.
+std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts);
+
+}  // namespace shoal::app

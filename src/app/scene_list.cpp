@@ -1,0 +1,98 @@
+#include "app/scene_list.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "app/interface.h"
+#include "core/json.h"
+
+namespace shoal::app {
+
+namespace fs = std::filesystem;
+
+static ListedScene listed(const std::string& file) {
+    ListedScene out{file, {}, {}};
+    try {
+        const JsonValue root = readJson(file);
+        const JsonValue *name = root.find("name"), *comment = root.find("comment");
+        if (name) out.name = name->text;
+        if (comment) out.comment = comment->text;
+    } catch (const Error& error) {
+        out.comment = error.what();
+    }
+    if (!out.name.empty()) return out;
+    const std::string stem = fs::path(file).filename().string();
+    out.name = stem.substr(0, stem.find('.'));
+    return out;
+}
+
+std::vector<ListedScene> scenesBelow(const std::string& folder) {
+    std::vector<ListedScene> out;
+    std::error_code code;
+    const auto skip = fs::directory_options::skip_permission_denied;
+    constexpr int mostFiles = 100000;  // a folder such as / is not worth a search without end
+    int seen = 0;
+    for (fs::recursive_directory_iterator at(folder, skip, code), end; !code && at != end;
+         at.increment(code)) {
+        if (++seen > mostFiles) break;
+        const std::string name = at->path().filename().string();
+        constexpr std::string_view ending = ".scene.json";
+        if (name.size() > ending.size() && std::string_view(name).ends_with(ending))
+            out.push_back(listed(at->path().string()));
+    }
+    std::sort(out.begin(), out.end(), [](const ListedScene& a, const ListedScene& b) {
+        return std::tie(a.name, a.file) < std::tie(b.name, b.file);
+    });
+    return out;
+}
+
+// The beginning of a text, as much as fits into the rest of the line; the font's letters are all as wide.
+static std::string fitting(const std::string& text) {
+    const size_t letters =
+        size_t(std::max(8.0f, ImGui::GetContentRegionAvail().x / ImGui::CalcTextSize("m").x));
+    return text.size() <= letters ? text : text.substr(0, letters - 3) + "...";
+}
+
+std::string SceneChooser::draw(bool mustChoose, const std::string& message) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = std::min(points(560), screen.x - points(24));
+    ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - points(24)));
+    bool stays = true;
+    ImGui::Begin("Scenes", mustChoose ? nullptr : &stays,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
+    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    if (!message.empty()) {
+        ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.62f, 0.5f, 1));
+        ImGui::TextWrapped("%s", message.c_str());
+        ImGui::PopStyleColor();
+        ImGui::Separator();
+    }
+    std::string chosen;
+    if (scenes.empty()) ImGui::TextWrapped("There is no scene (*.scene.json) below %s.", folder.c_str());
+    for (const ListedScene& scene : scenes) {
+        ImGui::PushID(scene.file.c_str());
+        if (ImGui::Button(scene.name.c_str(), ImVec2(points(190), 0))) chosen = scene.file;
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", scene.file.c_str());
+        ImGui::SameLine();
+        ImGui::AlignTextToFramePadding();
+        const std::string shown =
+            scene.comment.empty() ? fs::path(scene.file).lexically_relative(folder).string() : scene.comment;
+        ImGui::TextDisabled("%s", fitting(shown).c_str());
+        if (ImGui::IsItemHovered() && !scene.comment.empty()) {
+            ImGui::BeginTooltip();
+            ImGui::PushTextWrapPos(points(420));
+            ImGui::TextUnformatted(scene.comment.c_str());
+            ImGui::PopTextWrapPos();
+            ImGui::EndTooltip();
+        }
+        ImGui::PopID();
+    }
+    ImGui::End();
+    open = stays && chosen.empty();
+    return chosen;
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,27 @@
+// The scenes to choose from in the window.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace shoal::app {
+
+struct ListedScene {
+    std::string file, name, comment;  // as the scene calls itself; without a name, the file's
+};
+
+// Every *.scene.json in the folder and those below it, by their names. Files that cannot be read are listed
+// by their file's name: opening one tells what is wrong.
+std::vector<ListedScene> scenesBelow(const std::string& folder);
+
+// A list of scenes as buttons, in the middle of the window. Says which was chosen; empty: none.
+struct SceneChooser {
+    std::vector<ListedScene> scenes;
+    std::string folder;
+    bool open = false;
+
+    // `mustChoose`: nothing runs yet, so that it cannot be closed. `message`: above the list.
+    std::string draw(bool mustChoose, const std::string& message);
+};
+
+}  // namespace shoal::app

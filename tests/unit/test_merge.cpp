@@ -1,0 +1,133 @@
+// A file that changed on disk while edits of it are not saved: both are kept, or the conflict is said.
+#include "core/json_edit.h"
+#include "core/json_merge.h"
+#include "scene/scene_file.h"
+#include "scene/scene_saver.h"
+#include "simulate/carry_over.h"
+#include "support/catch.h"
+#include "support/small_scene.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+std::string scene(const std::string& rate, const std::string& span, const std::string& name = "sparks",
+                  const std::string& gravity = "-9.81") {
+    return concat(R"({
+  "format": "shoal-scene-1", "comment": "kept", "gravity": [0, )",
+                  gravity, R"(, 0],
+  "groups": [{"name": ")",
+                  name, R"(", "molecule": "blade.json",
+    "emitters": [{"from": "point", "rate": )",
+                  rate, R"(}], "life": {"capacity": 500, "span": )", span, "}}]\n}\n");
+}
+
+struct Three {
+    Scene before, mine, theirs;
+    std::string text;
+};
+
+Three three(const Scratch& scratch, const std::string& theirs) {
+    const std::string file = writeSmallScene(scratch, scene("100", "2"));
+    Three out;
+    out.before = out.mine = parseScene(scene("100", "2"), file);
+    out.text = theirs;
+    out.theirs = parseScene(theirs, file);
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("JSON changed in two ways is put together value by value", "[merge]") {
+    const auto parse = [](const char* text) { return parseJson(text, "test"); };
+    const auto both = [&](const char* base, const char* mine, const char* theirs, const char* expected,
+                          const std::vector<std::string>& conflicts, Prefer prefer = Prefer::mine) {
+        std::vector<std::string> found;
+        const JsonValue out = merged(parse(base), parse(mine), parse(theirs), prefer, "$", found);
+        INFO(base << " " << mine << " " << theirs << " gave " << writeJsonLine(out));
+        CHECK(sameJson(out, parse(expected)));
+        CHECK(found == conflicts);
+    };
+    const char* base = R"({"a": 1, "b": [1, 2], "c": [{"x": 1}, {"x": 2}]})";
+    both(base, R"({"a": 5, "b": [1, 2], "c": [{"x": 1}, {"x": 2}]})",
+         R"({"a": 1, "b": [1, 2], "c": [{"x": 1}, {"x": 7}], "d": true})",
+         R"({"a": 5, "b": [1, 2], "c": [{"x": 1}, {"x": 7}], "d": true})", {});
+    both(R"({"a": 1})", R"({"a": 2})", R"({"a": 3})", R"({"a": 2})", {"$.a"});
+    both(R"({"a": 1})", R"({"a": 2})", R"({"a": 3})", R"({"a": 3})", {"$.a"}, Prefer::theirs);
+    both(R"({"a": 1})", R"({"a": 2})", R"({"a": 2})", R"({"a": 2})", {});
+    // taken away by one, changed by the other; put in by both
+    both(R"({"a": 1})", "{}", R"({"a": 3})", "{}", {"$.a"});
+    both(R"({"a": 1})", "{}", R"({"a": 1})", "{}", {});
+    both("{}", R"({"a": 2})", R"({"a": 3})", R"({"a": 3})", {"$.a"}, Prefer::theirs);
+    // arrays of another length are one value
+    both(R"({"c": [{"x": 1}]})", R"({"c": [{"x": 2}]})", R"({"c": []})", R"({"c": [{"x": 2}]})", {"$.c"});
+}
+
+TEST_CASE("unsaved edits and a file that changed elsewhere are both kept", "[merge]") {
+    const Scratch scratch;
+    Three t = three(scratch, scene("100", "3", "sparks", "-1.62"));
+    t.mine.groups[0].life->emitters[0].rate = 250;
+    const MergedEdits merged = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
+    CHECK(merged.conflicts.empty());
+    CHECK(merged.possible);
+    REQUIRE(merged.groups.size() == 1);
+    CHECK(merged.groups[0].life->emitters[0].rate == 250);
+    CHECK(merged.groups[0].life->life == glm::dvec2(3));
+    CHECK(t.theirs.gravity.y == -1.62);
+}
+
+TEST_CASE("what was edited and changed on disk, too, is a conflict", "[merge]") {
+    const Scratch scratch;
+    Three t = three(scratch, scene("400", "3"));
+    t.mine.groups[0].life->emitters[0].rate = 250;
+    const MergedEdits mine = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
+    CHECK(mine.conflicts == std::vector<std::string>{"$.groups[0].emitters[0].rate"});
+    CHECK(mine.groups[0].life->emitters[0].rate == 250);
+    const MergedEdits theirs = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::theirs);
+    CHECK(theirs.groups[0].life->emitters[0].rate == 400);
+    CHECK(theirs.groups[0].life->life == glm::dvec2(3));
+}
+
+TEST_CASE("edits of a group that is gone from the file are not dropped in silence", "[merge]") {
+    const Scratch scratch;
+    Three t = three(scratch, scene("100", "2", "flames"));
+    CHECK(mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine).conflicts.empty());
+    t.mine.groups[0].life->emitters[0].rate = 250;
+    const MergedEdits merged = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
+    CHECK(!merged.possible);
+    CHECK(merged.conflicts == std::vector<std::string>{"the group \"sparks\""});
+}
+
+TEST_CASE("groups of a changed file go on, those of another shape begin anew", "[merge]") {
+    const Scratch scratch;
+    const auto group = [](const char* name, const char* molecule, int count) {
+        return concat(R"({"name": ")", name, R"(", "molecule": ")", molecule, R"(", "count": )", count,
+                      R"(, "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}})");
+    };
+    scratch.write("point.json",
+                  R"({"format": "shoal-molecule-1", "vertices": [{"position": [0, 0, 0], "mass": 1}],
+  "springs": [], "triangles": []})");
+    const auto plan = [&](const std::string& groups) {
+        const std::string text = concat(R"({"format": "shoal-scene-1", "groups": [)", groups, "]}");
+        return compile(parseScene(text, writeSmallScene(scratch, text)));
+    };
+    const Plan from = plan(group("a", "blade.json", 3) + ", " + group("b", "point.json", 2));
+    SavedState saved{2.5, 150, {from.groups[0].start, from.groups[1].start}, 0.01};
+    for (GroupState& state : saved.groups)
+        for (glm::vec3& velocity : state.velocities)
+            velocity = glm::vec3(7);
+    // "b" comes first now and has one more, "a" is made of something else, "c" is new
+    const Plan to = plan(group("b", "point.json", 3) + ", " + group("a", "point.json", 3) + ", " +
+                         group("c", "point.json", 1));
+    const GoneOn gone = goOn(saved, from, to);
+    CHECK(gone.restarted == std::vector<std::string>{"a", "c"});
+    CHECK(gone.state.time == 2.5);
+    CHECK(gone.state.frames == 150);
+    REQUIRE(gone.state.groups.size() == 3);
+    CHECK(gone.state.groups[0].velocities ==
+          std::vector<glm::vec3>{glm::vec3(7), glm::vec3(7), glm::vec3(0)});
+    CHECK(gone.state.groups[0].anchors[1] == saved.groups[1].anchors[1]);
+    CHECK(gone.state.groups[1] == to.groups[1].start);
+    CHECK(gone.state.groups[2] == to.groups[2].start);
+}
