@@ -16,6 +16,7 @@ int benchCollideCommand(const Options& options);    // shoal bench collide
 int benchParticlesCommand(const Options& options);  // shoal bench particles
 int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
+int editCommand(const Options& options);
 
 // A scene and its plan with the options applied; warnings go to standard error.
 struct Loaded {

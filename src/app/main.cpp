@@ -36,6 +36,9 @@ int main(int argc, char** argv) {
             case Options::Command::field:
                 code = fieldCommand(*options);
                 break;
+            case Options::Command::edit:
+                code = editCommand(*options);
+                break;
             }
         }
         std::cout.flush();

@@ -92,6 +92,16 @@ void addError(CLI::App& command, Options& options) {
         ->check(kindOf(isAll<double>, "an error such as 1e-3"));
 }
 
+void addEdit(CLI::App& command, Options& options, Texts& texts) {
+    command.add_option("molecule", options.files, "Molecule file")->required()->expected(1);
+    command.add_option("--size", texts.size, "Size of the window in pixels")->capture_default_str();
+    command
+        .add_option("--scale", options.scale, "Pixels a point of the panels; as the screen asks unless given")
+        ->check(kindOf(isAll<double>, "a number"));
+    command.add_option("--frames", options.frames, "Close after so many frames")->check(wholeNumber());
+    command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG");
+}
+
 void addRun(CLI::App& command, Options& options, Texts& texts) {
     command
         .add_option("scene", options.files,
@@ -409,7 +419,9 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     CLI::App* bench = app.add_subcommand("bench", "Measure speed, against the limit and the error");
     CLI::App* measure = app.add_subcommand("measure", "Measure a scene's error against what it costs");
     CLI::App* field = app.add_subcommand("field", "Bake a model's distance field: its error, and a slice");
+    CLI::App* edit = app.add_subcommand("edit", "Change a molecule in a window, while it moves");
     addRun(*run, options, texts);
+    addEdit(*edit, options, texts);
     check->add_option("files", options.files, "Molecule or scene files")->required();
     check->add_flag("--json", options.json, "Report as JSON on standard output");
     addScene(*explain, options);
@@ -439,6 +451,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : bench->parsed()   ? Options::Command::bench
                       : measure->parsed() ? Options::Command::measure
                       : field->parsed()   ? Options::Command::field
+                      : edit->parsed()    ? Options::Command::edit
                                           : Options::Command::info;
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);

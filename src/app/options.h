@@ -16,7 +16,7 @@ namespace shoal::app {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info, bench, measure, field };
+    enum class Command { run, check, explain, info, bench, measure, field, edit };
     Command command = Command::run;
     std::vector<std::string> files;
 

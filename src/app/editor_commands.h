@@ -1,0 +1,30 @@
+// What the editor does to a draft, and to its mirror image where symmetry is on. `axis`: of the plane of
+// symmetry (0 x, 1 y, 2 z), or -1 for none; the image of what is not mirrored is left alone.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "app/editor_view.h"
+#include "molecule/draft.h"
+
+namespace shoal::app {
+
+// With the images of what is selected.
+Selected withMirror(const Molecule& molecule, const Selected& selected, int axis);
+
+// Those that are selected by `shift`, their images by its mirror image; what lies on the plane stays on it.
+// Positions as they are in `before`, so that one drag does not add up.
+void moveVertices(Draft& draft, const Draft& before, const std::set<int>& vertices, const glm::dvec3& shift,
+                  int axis);
+// The new vertex; its image is there, too, unless it lies on the plane.
+int addVertexAt(Draft& draft, const glm::dvec3& position, int axis);
+int connect(Draft& draft, int a, int b, int axis);         // the spring; -1: none
+int addFace(Draft& draft, int a, int b, int c, int axis);  // the triangle; -1: none
+void removeSelected(Draft& draft, const Selected& selected, int axis);
+void flipTriangles(Draft& draft, const std::set<int>& triangles);
+
+// Springs whose two ends are selected, or that are selected themselves.
+std::set<int> springsOf(const Molecule& molecule, const Selected& selected);
+
+}  // namespace shoal::app

@@ -1,0 +1,210 @@
+#include "app/editor_document.h"
+
+#include <cstdlib>
+#include <utility>
+
+#include "core/cache_folder.h"
+#include "core/file.h"
+#include "core/json_edit.h"
+#include "molecule/molecule_file.h"
+#include "molecule/molecule_json.h"
+
+namespace shoal::app {
+
+namespace {
+
+constexpr size_t mostSteps = 500;
+
+std::filesystem::file_time_type timeOf(const std::string& file) {
+    std::error_code code;
+    const auto time = std::filesystem::last_write_time(file, code);
+    return code ? std::filesystem::file_time_type{} : time;
+}
+
+// Through a link, into what it points to.
+std::filesystem::path targetOf(const std::string& file) {
+    std::error_code code;
+    const std::filesystem::path target = std::filesystem::canonical(file, code);
+    return code ? std::filesystem::path(file) : target;
+}
+
+}  // namespace
+
+std::string unsavedFolder() {
+    const auto variable = [](const char* name) {
+        const char* value = std::getenv(name);
+        return std::string(value ? value : "");
+    };
+    if (const std::string state = variable("XDG_STATE_HOME"); !state.empty()) return state + "/shoal/unsaved";
+    const std::string home = variable("HOME");
+    return home.empty() ? home : home + "/.local/state/shoal/unsaved";
+}
+
+EditorDocument::EditorDocument(const std::string& file) : file_(file) {
+    text_ = readFile(file);
+    now_.draft = Draft(parseMolecule(text_, file));
+    saved_ = toJson(now_.draft.molecule, true);
+    written_ = timeOf(file);
+    changed();
+    std::error_code code;
+    if (keptFile().empty() || !std::filesystem::is_regular_file(keptFile(), code)) return;
+    const std::string kept = readFile(keptFile());
+    if (kept != text_) recovered_ = kept;
+}
+
+void EditorDocument::changed() {
+    ++version_;
+    problem_ = problemOf(now_.draft.molecule);
+    unsaved_ = !sameJson(toJson(now_.draft.molecule, true), saved_);
+}
+
+void EditorDocument::edit(const std::string& label, const std::function<void(Draft&)>& change, int gesture) {
+    const bool goesOn = gesture > 0 && gesture == std::exchange(lastGesture_, gesture);
+    if (!goesOn) {
+        past_.push_back({now_.draft, label});
+        if (past_.size() > mostSteps) past_.erase(past_.begin());
+    }
+    future_.clear();
+    change(now_.draft);
+    changed();
+}
+
+bool EditorDocument::undo() {
+    if (past_.empty()) return false;
+    future_.push_back({std::move(now_.draft), past_.back().label});
+    now_.draft = std::move(past_.back().draft);
+    past_.pop_back();
+    lastGesture_ = 0;
+    changed();
+    return true;
+}
+
+bool EditorDocument::redo() {
+    if (future_.empty()) return false;
+    past_.push_back({std::move(now_.draft), future_.back().label});
+    now_.draft = std::move(future_.back().draft);
+    future_.pop_back();
+    lastGesture_ = 0;
+    changed();
+    return true;
+}
+
+// The same molecule as its file has it now. What undo holds came from the file before: its elements are new
+// to this one.
+void EditorDocument::restart(Molecule molecule) {
+    now_.draft = Draft(std::move(molecule));
+    saved_ = toJson(now_.draft.molecule, true);
+    for (std::vector<Step>* steps : {&past_, &future_})
+        for (Step& step : *steps) {
+            Draft::Origins& origins = step.draft.origins;
+            for (std::vector<int>* list : {&origins.vertices, &origins.springs, &origins.triangles})
+                std::fill(list->begin(), list->end(), -1);
+        }
+    lastGesture_ = 0;
+}
+
+void EditorDocument::save() {
+    std::string there = readFile(file_);
+    if (there != text_)
+        throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
+    const std::string edited = withEdits(text_, now_.draft);
+    if (edited != text_) writeFile(targetOf(file_), edited);
+    // one state of the draft is the file's now; those before and after it keep their origins where the
+    // elements are the same ones
+    text_ = edited;
+    const Draft before = now_.draft;
+    restart(parseMolecule(text_, file_));
+    for (std::vector<Step>* steps : {&past_, &future_})
+        for (Step& step : *steps)
+            if (step.draft.molecule.vertices.size() == before.molecule.vertices.size() &&
+                step.draft.molecule.springs.size() == before.molecule.springs.size() &&
+                step.draft.molecule.triangles.size() == before.molecule.triangles.size())
+                step.draft.origins = now_.draft.origins;
+    written_ = timeOf(file_);
+    changed();
+    closeInOrder();
+}
+
+void EditorDocument::saveAs(const std::string& file) {
+    if (std::filesystem::exists(file))
+        throw Error(Location{file, 0, 0, {}}, "exists already: choose another name");
+    const std::string edited = withEdits(text_, now_.draft);
+    writeFile(file, edited);
+    closeInOrder();
+    file_ = file;
+    text_ = edited;
+    restart(parseMolecule(text_, file_));
+    written_ = timeOf(file_);
+    changed();
+}
+
+void EditorDocument::reload() {
+    const std::string text = readFile(file_);
+    Molecule molecule = parseMolecule(text, file_);
+    past_.push_back({now_.draft, "reload"});
+    future_.clear();
+    text_ = text;
+    restart(std::move(molecule));
+    written_ = timeOf(file_);
+    changed();
+}
+
+bool EditorDocument::changedOnDisk() const {
+    if (timeOf(file_) == written_) return false;
+    try {
+        return readFile(file_) != text_;
+    } catch (const Error&) {
+        return false;  // gone for a moment, while another program writes it
+    }
+}
+
+void EditorDocument::takeRecovered() {
+    Molecule molecule = parseMolecule(*recovered_, file_);
+    edit("recover", [&](Draft& draft) {
+        draft.molecule = std::move(molecule);
+        draft.origins.vertices.assign(draft.molecule.vertices.size(), -1);
+        draft.origins.springs.assign(draft.molecule.springs.size(), -1);
+        draft.origins.triangles.assign(draft.molecule.triangles.size(), -1);
+    });
+    recovered_.reset();
+}
+
+void EditorDocument::dropRecovered() {
+    recovered_.reset();
+    closeInOrder();
+}
+
+// One name for each file, whatever way leads to it.
+std::filesystem::path EditorDocument::keptFile() const {
+    const std::string folder = unsavedFolder();
+    if (folder.empty()) return {};
+    const std::filesystem::path whole = targetOf(std::filesystem::absolute(file_).string());
+    return std::filesystem::path(folder) /
+           concat(whole.stem().string(), "-", contentKey(whole.string()).substr(0, 16), ".json");
+}
+
+std::optional<std::string> EditorDocument::keep() {
+    if (keptVersion_ == version_ || recovered_) return std::nullopt;
+    if (!unsaved_ && keptVersion_ == 0) return std::nullopt;
+    keptVersion_ = version_;
+    if (!unsaved_) {
+        closeInOrder();
+        return std::nullopt;
+    }
+    try {
+        if (keptFile().empty()) throw Error("neither XDG_STATE_HOME nor HOME is set");
+        writeFile(keptFile(), writeMolecule(now_.draft.molecule, text_));
+    } catch (const Error& error) {
+        if (!std::exchange(toldOfKeeping_, true))
+            return concat("what is not saved would be lost in a crash: ", error.what());
+    }
+    return std::nullopt;
+}
+
+void EditorDocument::closeInOrder() {
+    if (recovered_) return;  // not decided yet: it stays
+    std::error_code code;
+    if (!keptFile().empty()) std::filesystem::remove(keptFile(), code);
+}
+
+}  // namespace shoal::app
