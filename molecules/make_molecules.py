@@ -170,6 +170,75 @@ def fish():
           {"color": [0.35, 0.45, 0.55], "secondColor": [0.55, 0.5, 0.3], "roughness": 0.35})
 
 
+def swimmer(name, comment, length, frequency, stiffness, damping, colors, plump=1.0):
+    """A fish whose muscles send a wave of bending from head to tail, along +Z with +Y up. All is for a length of 1 m.
+
+    Every spring that bending about y stretches is a muscle: a fibre at x of a body bent by the curvature c has the
+    length l (1 - c x (dz/l)^2). The curvature is that of the wave y(s) = a(s) sin(2 pi (f t - s)) of a swimming fish, s
+    from the snout, whose envelope grows from head to tail like a saithe's, a(s) ~ 0.02 - 0.083 s + 0.163 s^2 (Videler
+    1993). So the bent shape is at rest, and stiff springs do not hinder it; the stalk of the tail, which swings the fin
+    through the water, is stiffer. The masses are the fish's with the water that it carries along, most at the fin.
+    """
+    #          z   half width, half height, mass of a vertex, kg
+    rings = [(0.34, 0.055, 0.085, 0.6), (0.11, 0.075, 0.125, 0.7), (-0.13, 0.06, 0.095, 0.6), (-0.35, 0.035, 0.045, 0.6)]
+    scale = lambda x, y, z: (plump * length * x, length * y, length * z)
+    uv = lambda y, z: (0.5 - z, 0.5 + y / 0.3)
+    # a snout with two sides, whose normals look aside: one point's would look ahead, and brake
+    shape = [((x, 0, 0.5), 0.3) for x in (0.012, -0.012)]
+    for z, rx, ry, mass in rings:
+        shape += [((x, y, z), mass) for x, y in ((rx, 0), (0, ry), (-rx, 0), (0, -ry))]
+    shape += [((0, y, -0.5), 0.8) for y in (0.14, -0.14)]
+    vertices = [vertex(scale(*place), uv(*place[1:]), mass=float(f"{mass * length**3:.4g}")) for place, mass in shape]
+    ring = lambda r: [2 + 4 * r + k for k in range(4)]
+    tips, last, head = (18, 19), ring(3), ring(0)
+    pairs = [(0, 1)] + [(snout, k) for snout in (0, 1) for k in head] + [(0, ring(1)[0]), (1, ring(1)[2])]
+    triangles = [(0, head[0], head[1]), (0, head[1], 1), (1, head[1], head[2]),
+                 (1, head[2], head[3]), (1, head[3], 0), (0, head[3], head[0])]
+    for r in range(4):
+        here = ring(r)
+        pairs += [(here[k], here[(k + 1) % 4]) for k in range(4)] + [(here[0], here[2]), (here[1], here[3])]
+        for k in range(4 if r > 0 else 0):
+            before, after = ring(r - 1)[k], ring(r - 1)[(k + 1) % 4]
+            pairs += [(before, here[k]), (before, here[(k + 1) % 4]), (after, here[k])]
+            triangles += [(before, here[k], after), (after, here[k], here[(k + 1) % 4])]
+    pairs += [(tip, here) for tip in tips for here in last] + [tips]
+    pairs += [(tip, here) for tip in tips for here in (ring(2)[0], ring(2)[2])]
+    triangles += [(last[1], tips[0], last[3]), (last[3], tips[0], tips[1])]  # a sheet: its normals look aside
+
+    def curvature(z):
+        """Amplitude, and phase in rad, of the wave's curvature: its second derivative."""
+        s, k, tail = 0.5 - z, 2 * math.pi, 1.0
+        a, a1, a2 = (tail * f for f in (0.02 - 0.083 * s + 0.163 * s * s, -0.083 + 0.326 * s, 0.326))
+        sine, cosine = a2 - k * k * a, -2 * k * a1  # of (a sin(wt - ks))''
+        return math.hypot(sine, cosine), math.atan2(cosine, sine) - k * s
+
+    links = []
+    for link in springs(pairs):
+        a, b = (shape[link[end]][0] for end in "ab")
+        span = [q - p for p, q in zip(a, b)]
+        share = -0.5 * plump * (a[0] + b[0]) * span[2] ** 2 / sum(d * d for d in span)
+        if abs(share) > 1e-9:
+            size, phase = curvature(0.5 * (a[2] + b[2]))
+            phase = (phase + (math.pi if share < 0 else 0)) % (2 * math.pi)
+            link["actuation"] = {"amplitude": number(size * abs(share)), "frequency": frequency, "phase": number(phase)}
+        if max(link["a"], link["b"]) >= last[0]:
+            link["stiffness"] = number(2 * stiffness)
+        links.append(link)
+    write(name, comment, {"stiffness": stiffness, "damping": damping}, vertices, links, triangles,
+          {"color": colors[0], "secondColor": colors[1], "roughness": 0.25})
+
+
+def fry():
+    swimmer("fry", "A fish of 10 cm, to be had in thousands: a wave of bending runs from head to tail, along +Z. Give it "
+            "directional drag, some 40 1/s across and 1 1/s along, so that its flanks push the water.",
+            0.1, 4, 10, 0.004, ([0.62, 0.68, 0.72], [0.5, 0.58, 0.62]))
+
+
+def hunter():
+    swimmer("hunter", "A fish of 70 cm that hunts smaller ones; swims like a fry. Give it directional drag, some 20 1/s "
+            "across and 0.5 1/s along.", 0.7, 2, 900, 1.2, ([0.3, 0.36, 0.38], [0.34, 0.36, 0.32]), plump=1.15)
+
+
 def flake():
     """A hexagon 1.6 cm across whose corners stand up and down in turn, so that no bend is free."""
     radius, fold = 0.008, 0.0015
@@ -202,5 +271,5 @@ def snow():
 
 
 if __name__ == "__main__":
-    for make in (point, quad, leaf, cross, cross_braced, fish, flake, berry, snow):
+    for make in (point, quad, leaf, cross, cross_braced, fish, fry, hunter, flake, berry, snow):
         make()

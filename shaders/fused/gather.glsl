@@ -23,7 +23,11 @@ void springForces(float time)
             float restLength = spring.w * scale;
 #ifdef ACTUATION
             vec4 muscle = table(int(spans.x) + 2 * s + 1);
+#ifdef STEERED
+            restLength *= 1.0 + muscle.x * sin(muscle.y * swimClock(time) + muscle.z + phase) + muscle.w * curvature;
+#else
             restLength = actuatedLength(restLength, muscle.x, muscle.y * time + muscle.z + phase);
+#endif
 #endif
             float stiffness = spring.y * stiffnessFactor;
 #ifdef VERLET

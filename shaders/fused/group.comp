@@ -90,6 +90,9 @@ void main()
     loadColliderParameters();
 #endif
     loadRecord(molecule);
+#ifdef STEERED
+    loadSteering(molecule);
+#endif
     bool wasReleased = released;
     bool moved = false;
 #ifdef RECORDS

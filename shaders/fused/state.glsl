@@ -119,8 +119,8 @@ PER_VERTEX force[VERTICES];   // N, of the springs
 PER_VERTEX probe[VERTICES];   // m, where drag is taken
 PER_VERTEX fluid[VERTICES];   // m/s, the fields' velocity there
 PER_VERTEX normal[VERTICES];  // unit, of the surface there
-#ifdef FORCES
-PER_VERTEX pull[VERTICES];  // m/s^2, the forces' acceleration at the probe
+#if defined(FORCES) || defined(STEERED)
+PER_VERTEX pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
 #endif
 #ifdef COMING_KICK
 PER_VERTEX comingKick[VERTICES];  // m/s, what the springs still owe the velocity when contact looks at it

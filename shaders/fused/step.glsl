@@ -5,7 +5,7 @@
 #include "physics/random.glsl"
 
 // m/s^2 on vertex i beside drag and springs.
-#ifdef FORCES
+#if defined(FORCES) || defined(STEERED)
 #define FALL(i) (gravity + pull[i])
 #else
 #define FALL(i) gravity
@@ -80,6 +80,17 @@ void sampleSubstep(float time)
 #ifdef FORCES
     for (int j = 0; j < VERTICES; ++j) {
         pull[j] = forceAcceleration(anchor, probe[j]);
+    }
+#endif
+#ifdef STEERED
+    meet();
+    vec3 middle = steeredMiddle();
+    for (int i = 0; i < VERTICES; ++i) {
+#ifdef FORCES
+        pull[i] += steeringAt(probe[i] - middle);
+#else
+        pull[i] = steeringAt(probe[i] - middle);
+#endif
     }
 #endif
 #if defined(FIELDS) && defined(SAMPLE_SUBSTEPS)

@@ -34,6 +34,8 @@ struct GroupState {
     // as many zeros as there are places that are taken.
     std::vector<double> ends;
     std::vector<uint32_t> freed;
+    // Of schools, three a molecule (shaders/fused/steering.glsl); empty for the others.
+    std::vector<glm::vec4> steering;
 
     bool operator==(const GroupState&) const = default;
 };

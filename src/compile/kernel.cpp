@@ -5,6 +5,8 @@
 
 #include "compile/corotated.h"
 #include "compile/glsl_text.h"
+#include "compile/muscle_waves.h"
+#include "compile/school_plan.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -41,14 +43,21 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
     out += concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
-    if (!needs.thrust) return out;
+    if (!needs.thrust && !needs.steers) return out;
     double mass = 0;
     for (const Vertex& vertex : molecule.vertices)
         mass += vertex.mass;
-    out += "\n// Of w, by mass.\nvec3 meanVelocity()\n{\n    vec3 sum = vec3(0.0);\n";
-    for (size_t v = 0; v < count; ++v)
-        out += concat("    sum += w[", v, "] * ", glslLiteral(molecule.vertices[v].mass / mass), ";\n");
-    return out + "    return sum;\n}\n";
+    const auto mean = [&](const char* comment, const char* name, const char* array) {
+        std::string text =
+            concat("\n// ", comment, ", by mass.\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
+        for (size_t v = 0; v < count; ++v)
+            text += concat("    sum += ", array, "[", v, "] * ",
+                           glslLiteral(molecule.vertices[v].mass / mass), ";\n");
+        return text + "    return sum;\n}\n";
+    };
+    if (needs.thrust) out += mean("Of w", "meanVelocity", "w");
+    if (needs.steers) out += mean("Of the probes", "steeredMiddle", "probe");
+    return out;
 }
 
 // What a spring's line of the text says of its numbers: constants, or what springNumbers() holds.
@@ -58,20 +67,24 @@ struct SpringText {
     bool damped = true;
 };
 
-SpringText liveText(size_t index, const Needs& needs) {
+SpringText liveText(const Molecule& molecule, size_t index, const Needs& needs) {
     SpringText out;
     out.load = concat("    s = texelFetch(liveSprings, ", 2 * index, ");\n    m = texelFetch(liveSprings, ",
                       2 * index + 1, ");\n");
     out.stiffness = "s.x * stiffnessFactor";
     out.damping = "s.y * dampingFactor";
-    out.restLength = concat("actuatedLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * time + m.z",
-                            needs.phase ? " + phase)" : ")");
+    out.restLength =
+        concat("actuatedLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * ",
+               needs.steers ? "swimClock(time)" : "time", " + m.z", needs.phase ? " + phase)" : ")");
+    if (const double bend = bendOf(molecule, molecule.springs[index]); needs.steers && bend != 0)
+        out.restLength += concat(" * (1.0 + ", glslLiteral(bend), " * curvature)");
     return out;
 }
 
 std::string restLength(const Molecule& molecule, const Spring& spring, const Needs& needs) {
     std::string length = glslLiteral(molecule.restLength(spring));
     if (needs.scale) length += " * scale";
+    if (needs.steers) return MuscleWaves(molecule, needs).lengthOf(length, spring);
     if (!spring.actuation || spring.actuation->amplitude == 0) return length;
     const Actuation& muscle = *spring.actuation;
     return concat("actuatedLength(", length, ", ", glslLiteral(muscle.amplitude), ", ",
@@ -80,7 +93,7 @@ std::string restLength(const Molecule& molecule, const Spring& spring, const Nee
 }
 
 SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs) {
-    if (needs.liveSprings) return liveText(index, needs);
+    if (needs.liveSprings) return liveText(molecule, index, needs);
     const Spring& spring = molecule.springs[index];
     SpringText out;
     out.stiffness = concat(glslLiteral(spring.stiffness), " * stiffnessFactor");
@@ -106,7 +119,7 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
         "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
         "void springForces(float time)\n{\n"
         "    for (int i = 0; i < VERTICES; ++i) {\n        force[i] = vec3(0.0);\n    }\n    vec3 f;\n",
-        springVariables(needs));
+        springVariables(needs), MuscleWaves(molecule, needs).text());
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         const SpringText numbers = numbersOf(molecule, i, needs);
@@ -123,8 +136,9 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
 
 // One Gauss-Seidel sweep over the springs, in their order or against it.
 std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward) {
-    std::string out = concat("\nvoid relax", forward ? "Forward" : "Backward",
-                             "(float time, float inverseEta)\n{\n", springVariables(needs));
+    std::string out =
+        concat("\nvoid relax", forward ? "Forward" : "Backward", "(float time, float inverseEta)\n{\n",
+               springVariables(needs), MuscleWaves(molecule, needs).text());
     const size_t count = molecule.springs.size();
     const std::vector<size_t> order = sweepOrder(molecule);
     for (size_t i = 0; i < count; ++i) {
@@ -145,6 +159,7 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
     std::string out =
         "\n// Adds the springs' forces at x + q, with the stage's velocity.\n"
         "void stageForces(float time, float inverseEta)\n{\n    vec3 f;\n";
+    out += MuscleWaves(molecule, needs).text();
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         const SpringText numbers = numbersOf(molecule, i, needs);

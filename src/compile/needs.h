@@ -23,6 +23,8 @@ struct Needs {
     bool normals = false;       // the shape has triangles
     bool life = false;          // some are born or die
     bool liveSprings = false;   // their numbers may change while it runs (CompileOptions)
+    bool steers = false;        // they school
+    bool avoids = false;        // and turn from colliders
     bool acceleration = false;  // the solver keeps the springs' acceleration
 };
 

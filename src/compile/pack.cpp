@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "compile/school_plan.h"
 #include "core/random.h"
 
 namespace shoal {
@@ -47,6 +48,13 @@ static void packLives(const Group& source, GroupPlan& group) {
     start.totals.resize(2);
 }
 
+std::vector<glm::vec4> unsteered(size_t molecules) {
+    std::vector<glm::vec4> out;
+    for (size_t m = 0; m < molecules; ++m)
+        out.insert(out.end(), {glm::vec4(0), glm::vec4(0, 0, 0, 1), glm::vec4(0)});
+    return out;
+}
+
 double lifeOf(const glm::dvec2& life, uint32_t seed) {
     return glm::mix(life.x, life.y, double(hash(seed, bornLife) >> 8) / 16777216.0);
 }
@@ -80,6 +88,7 @@ void packStart(const Scene& scene, GroupPlan& group) {
         group.constants.phases.push_back(float(source.phaseSpread * double(instance.seed & 0xffff) / 65536));
     }
     if (group.needs.life) packLives(source, group);
+    if (group.needs.steers) start.steering = unsteered(size_t(group.count));
     const auto differs = [](const std::vector<float>& values, float from) {
         return std::any_of(values.begin(), values.end(), [from](float value) { return value != from; });
     };
@@ -105,7 +114,7 @@ int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& to
             topology.emplace_back(spring.a == int(v) ? spring.b : spring.a, spring.stiffness, spring.damping,
                                   molecule.restLength(spring));
             topology.emplace_back(actuation.amplitude, 2 * std::numbers::pi * actuation.frequency,
-                                  actuation.phase, 0);
+                                  actuation.phase, bendOf(molecule, spring));
             ++springs;
         }
         const size_t firstTriangle = topology.size();

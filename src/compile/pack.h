@@ -12,6 +12,9 @@ glm::dvec3 latticePoint(const glm::dvec3& position);
 constexpr uint32_t bornLife = 0xe0000006u, bornTime = 0xe000000fu;
 double lifeOf(const glm::dvec2& life, uint32_t seed);
 
+// What steers molecules that have not steered yet (shaders/fused/steering.glsl).
+std::vector<glm::vec4> unsteered(size_t molecules);
+
 // Fills the group's start state and constants: every molecule where it is placed.
 void packStart(const Scene& scene, GroupPlan& group);
 // Appends the molecule's tables and returns their base index.

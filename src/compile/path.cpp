@@ -65,6 +65,8 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
     for (const GroupPlan& group : plan.groups)
         if (group.needs.life)
             throw Error(group.life->cycle.location, "birth and death need the fused path (OpenGL 4.3)");
+    if (plan.school.any())
+        throw Error(plan.school.members[0].school.location, "schooling needs the fused path (OpenGL 4.3)");
     for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
             throw Error(group.location,
@@ -210,7 +212,8 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
         const size_t state = size_t(layout.stateElements()) * (inPlace ? 1 : 2);
         const size_t normals = drawn && group.needs.normals ? size_t(layout.positionElements()) : 0;
         const size_t constants = group.needs.scale || group.needs.phase ? 1 : 0;
-        elements += layout.padded(size_t(group.count)) * (state + normals + 1 + constants);
+        const size_t steering = group.needs.steers ? size_t(steeringElements) : 0;
+        elements += layout.padded(size_t(group.count)) * (state + normals + 1 + constants + steering);
     }
     return elements * sizeof(glm::vec4);
 }

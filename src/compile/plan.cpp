@@ -34,6 +34,8 @@ Needs findNeeds(const Scene& scene, const Group& group, const CompileOptions& op
     needs.records = !needs.pins || needs.release || needs.life;
     needs.collide = group.collide && !scene.colliders.empty();
     needs.normals = !molecule.triangles.empty();
+    needs.steers = group.school.has_value();
+    needs.avoids = needs.steers && group.school->walls > 0 && !scene.colliders.empty();
     return needs;
 }
 
@@ -48,6 +50,16 @@ std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     const bool taken = std::any_of(plan.groups.begin(), plan.groups.end(),
                                    [&](const GroupPlan& other) { return other.name == name; });
     return taken ? concat(name, " ", index + 1) : name;
+}
+
+double musclePeriod(const Molecule& molecule) {
+    double frequency = 0;
+    for (const Spring& spring : molecule.springs) {
+        if (!spring.actuation || spring.actuation->amplitude == 0) continue;
+        if (frequency != 0 && spring.actuation->frequency != frequency) return 0;
+        frequency = spring.actuation->frequency;
+    }
+    return frequency > 0 ? 1 / frequency : 0;
 }
 
 int placesOf(const Group& group) {
@@ -75,6 +87,7 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
         out.pinned.push_back(out.needs.pins && vertex.pinned);
     if (group.release) out.release = *group.release;
     out.phaseSpread = group.phaseSpread;
+    out.musclePeriod = musclePeriod(group.molecule);
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();
@@ -278,6 +291,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     }
     plan.topologyRows = tableRows(plan.topology);
     plan.contact = planContact(scene, plan.groups);
+    plan.school = planSchools(scene, plan.groups);
     warnOfGaps(scene, plan);
 
     const auto any = [&](bool Needs::*need) {
@@ -294,7 +308,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                std::holds_alternative<GridField>(field.shape);
     });
     if (any(&Needs::fields)) fields = generateFields(scene.fields, plan.samples);
-    if (any(&Needs::collide)) colliders = generateColliders(scene.colliders, plan.samples);
+    if (any(&Needs::collide) || any(&Needs::avoids))
+        colliders = generateColliders(scene.colliders, plan.samples);
     if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)
         throw Error(
             Location{scene.file, 0, 0, {}},
@@ -311,7 +326,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
-        if (group.needs.collide) group.colliderParameters = parametersOf(scene, group, colliders);
+        if (group.needs.collide || group.needs.avoids)
+            group.colliderParameters = parametersOf(scene, group, colliders);
     planLives(scene, plan);
     warnOfBooks(plan);
     plan.movingColliders = std::move(colliders.moving);

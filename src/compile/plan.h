@@ -10,7 +10,7 @@
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
 //   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), unused
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
-//                                  amplitude, 2 pi frequency, phase, unused
+//                                  amplitude, 2 pi frequency, phase, bend (compile/school_plan.h)
 //   triangle entries, one texel    the other two corners, anticlockwise after v
 #pragma once
 
@@ -27,6 +27,7 @@
 #include "compile/kernel.h"
 #include "compile/life_plan.h"
 #include "compile/moving_colliders.h"
+#include "compile/school_plan.h"
 #include "scene/scene.h"
 
 namespace shoal {
@@ -55,6 +56,7 @@ struct GroupPlan {
     Release release;
     double stiffness = 1, damping = 1;
     double phaseSpread = 0;        // rad
+    double musclePeriod = 0;       // s, of all its muscles; 0: they differ, or there are none
     double size = 1;               // m, of the molecule
     double highestFrequency = 0;   // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;         // s, largest substep of the solver; infinite without springs
@@ -93,6 +95,7 @@ struct Plan {
     std::vector<Force> forces;  // as in the scene
     std::vector<GroupPlan> groups;
     ContactPlan contact;           // of molecules with one another
+    SchoolPlan school;             // of those that steer by one another
     std::vector<PassPlan> passes;  // of the ping-pong path, in the order of a frame; substep passes repeat
 
     int rows = 0, recordRows = 0;  // of the ping-pong path's textures

@@ -184,6 +184,7 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
         throw Error(r.at("count"), "expected a \"place\" for those at the start");
     }
     readLife(r, group, models);
+    readSchool(r, group);
 
     readDrag(r, group.drag);
     readRelease(r, group, warnings);
@@ -249,6 +250,7 @@ std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& model
     }
     if (groups.empty()) throw Error(scene.at("groups"), "expected at least one group, found none");
     checkDeaths(groups);
+    checkSchools(groups);
     return groups;
 }
 

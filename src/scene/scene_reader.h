@@ -48,6 +48,8 @@ std::optional<Water> readWater(JsonReader& scene);
 void readLife(JsonReader& reader, Group& group, const std::vector<Model>& models);
 // Error, located at the emitter: from the deaths of no group, of one where none dies, or in a circle.
 void checkDeaths(const std::vector<Group>& groups);
+// "school" of a group. Error, located: a radius of 0, slowest above fastest, and more.
+void readSchool(JsonReader& reader, Group& group);
 Selection readSelection(JsonReader& reader, const Model& model);
 std::optional<ColliderPath> readPath(JsonReader& reader);  // "path"
 

@@ -1,5 +1,7 @@
 #include "simulate/buffer_state.h"
 
+#include "compile/pack.h"
+
 #include <algorithm>
 #include <cassert>
 #include <cmath>
@@ -125,6 +127,7 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
         constants_ = makeBuffer(context, group, molecules_, "constants");
         constants_.update(Traffic::Kind::parameters, 0, constants.data(), constants_.bytes());
     }
+    if (group.needs.steers) steering_ = makeBuffer(context, group, molecules_ * steeringElements, "steering");
     split(context, largestPart);
     parts_.back().count = group.count - parts_.back().first;
 }
@@ -160,6 +163,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
             part.state[side] = texture(state_[side], layout_.stateElements(), "state");
         part.record = texture(records_, 1, "records");
         if (constants_) part.constant = texture(constants_, 1, "constants");
+        if (steering_) part.steering = texture(steering_, steeringElements, "steering");
         if (normals_) part.normal = texture(normals_, layout_.positionElements(), "normals");
         parts_.push_back(std::move(part));
     }
@@ -207,6 +211,12 @@ void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {
     // a record is one element, and one element of a block of molecules lies as they are counted
     repeatLast(records, 1, size_t(group.count));
     records_.update(Traffic::Kind::state, 0, records.data(), records_.bytes());
+    if (steering_) {
+        // what another plan's state does not have
+        std::vector<glm::vec4> steering = unsteered(molecules_);
+        std::copy(state.steering.begin(), state.steering.end(), steering.begin());
+        steering_.update(Traffic::Kind::state, 0, steering.data(), steering_.bytes());
+    }
     if (constants_ && !state.looks.empty()) {
         std::vector<glm::vec4> looks(molecules_);
         for (size_t m = 0; m < state.looks.size(); ++m)
@@ -239,6 +249,10 @@ GroupState GroupBuffers::readSide(const GroupPlan& group, const Buffer& side) co
     for (size_t m = 0; m < count; ++m) {
         state.anchors.emplace_back(records[m]);
         state.released.push_back(std::signbit(records[m].w));
+    }
+    if (steering_) {
+        state.steering = download(steering_);
+        state.steering.resize(count * steeringElements);
     }
     if (layout_.life) {
         state.lives = unpackLives(layout_, packed, count);

@@ -36,7 +36,7 @@ class GroupBuffers {
     struct Part {
         int first = 0, count = 0;  // molecules
         std::array<gpu::BufferTexture, 2> state;
-        gpu::BufferTexture record, constant, normal;
+        gpu::BufferTexture record, constant, normal, steering;
     };
     const std::vector<Part>& parts() const { return parts_; }
     const gpu::BufferTexture& oldState(const Part& part) const { return part.state[size_t(current_)]; }
@@ -50,6 +50,7 @@ class GroupBuffers {
     Range records(const Part& part) const;
     Range constants(const Part& part) const;
     Range normals(const Part& part) const;
+    const gpu::Buffer& steering() const { return steering_; }  // of all parts
     void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
 
     const BufferLayout& layout() const { return layout_; }
@@ -66,7 +67,7 @@ class GroupBuffers {
     bool inPlace_ = false;
     int current_ = 0;
     std::array<gpu::Buffer, 2> state_;
-    gpu::Buffer records_, constants_, normals_;
+    gpu::Buffer records_, constants_, normals_, steering_;
     std::vector<uint32_t> seeds_;
     std::vector<Part> parts_;
 };

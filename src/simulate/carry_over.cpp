@@ -54,6 +54,7 @@ GroupState carried(const GroupState& saved, double time, const GroupPlan& from, 
     overwrite(out.lives, saved.lives);
     overwrite(out.seeds, saved.seeds);
     overwrite(out.looks, saved.looks);
+    overwrite(out.steering, saved.steering);
     out.clocks = saved.clocks;
     out.clocks.resize(to.life->cycle.emitters.size());
     out.totals = saved.totals;

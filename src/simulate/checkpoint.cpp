@@ -64,7 +64,7 @@ Head readHead(FileReader& file) {
 template <typename State, typename Visit>
 void forEachArray(State& state, Visit visit) {
     auto& [positions, velocities, anchors, released, displacements, velocityChanges, lives, seeds, looks,
-           clocks, totals, ends, freed] = state;
+           clocks, totals, ends, freed, steering] = state;
     visit(positions);
     visit(velocities);
     visit(anchors);
@@ -78,10 +78,12 @@ void forEachArray(State& state, Visit visit) {
     visit(totals);
     visit(ends);
     visit(freed);
+    visit(steering);
 }
 
-// Room for what the file holds; `history`: of a solver that remembers its last substep.
-GroupState emptyState(const GroupPlan& group, bool history) {
+// Room for what the file holds, by what its head says.
+GroupState emptyState(const GroupPlan& group, int32_t keeps) {
+    const bool history = (keeps & checkpoint::keepsHistory) != 0;
     const size_t molecules = size_t(group.count), vertices = molecules * size_t(group.vertexCount);
     GroupState state;
     state.positions.resize(vertices);
@@ -90,6 +92,7 @@ GroupState emptyState(const GroupPlan& group, bool history) {
     state.released.resize(molecules);
     state.displacements.resize(history ? vertices : 0);
     state.velocityChanges.resize(history ? vertices : 0);
+    if (keeps & checkpoint::keepsSteering) state.steering.resize(molecules * steeringElements);
     if (!group.life) return state;
     const Lifecycle& life = group.life->cycle;
     state.lives.resize(molecules);
@@ -107,7 +110,7 @@ std::vector<GroupState> readBody(FileReader& file, const Head& head, const Plan&
     Checksum sum;
     std::vector<GroupState> groups;
     for (size_t g = 0; g < plan.groups.size(); ++g) {
-        GroupState& state = groups.emplace_back(emptyState(plan.groups[g], head.groups[g].history != 0));
+        GroupState& state = groups.emplace_back(emptyState(plan.groups[g], head.groups[g].keeps));
         forEachArray(state, [&](auto& values) {
             const size_t bytes = values.size() * sizeof values[0];
             readAll(file, values.data(), bytes);
@@ -160,6 +163,8 @@ void checkState(const GroupState& state, const GroupPlan& group, const Location&
     const auto any = [](const auto& values, auto wrong) {
         return std::any_of(values.begin(), values.end(), wrong);
     };
+    if (any(state.steering, [](const glm::vec4& value) { return !finite(value) || !std::isfinite(value.w); }))
+        refuse(" steers by numbers that are not finite");
     const auto places = uint32_t(group.count);
     if (any(state.lives,
             [](const glm::vec2& life) {
@@ -207,7 +212,8 @@ void writeCheckpoint(const std::filesystem::path& path, const Plan& plan, const 
     Head content{state.time,       state.step,         state.frames,
                  saved.parameters, parametersOf(plan), checkpoint::groupsOf(plan)};
     for (size_t g = 0; g < state.groups.size(); ++g)
-        content.groups[g].history = state.groups[g].displacements.empty() ? 0 : 1;
+        content.groups[g].keeps = (state.groups[g].displacements.empty() ? 0 : checkpoint::keepsHistory) |
+                                  (state.groups[g].steering.empty() ? 0 : checkpoint::keepsSteering);
     const std::string head = checkpoint::pack(content);
     FileWriter file(path);
     Checksum sum;

@@ -3,12 +3,13 @@
 //   head   8 bytes of magic; u32 byte order; u32 version; u64 bytes of what follows up to the checksum
 //          f64 time, s; f64 last substep, s; i32 frames; u32 groups
 //          the parameters as they stood; the parameters as the scene had them
-//          a group: name, molecules, vertices, springs, two fingerprints, whether it has a history
+//          a group: name, molecules, vertices, springs, two fingerprints, whether it has a history and steers
 //          u64 checksum of the head
 //   body   a group: positions, velocities (3 f32 a vertex), anchors (3 f32 a molecule), released (u8)
 //          with a history: displacements, changes of velocity of the last substep (3 f32 a vertex)
 //          with life: age and length of life (2 f32), seeds (u32), scale and phase (2 f32) a place;
 //          emitters' clocks (f64, u64); born, lost (u64); allocators on the CPU: their books
+//          of a school: what steers (12 f32 a molecule)
 //          u64 checksum of the body
 //
 // Numbers are in the byte order of the machine that wrote them. The head is checked before anything of the

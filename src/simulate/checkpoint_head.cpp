@@ -141,7 +141,7 @@ std::string pack(const Head& head) {
         out.add(group.springCount);
         out.add(group.shape);
         out.add(group.instances);
-        out.add(group.history);
+        out.add(group.keeps);
     }
     return out.bytes;
 }
@@ -164,7 +164,7 @@ Head unpack(const std::string& bytes, const Location& location) {
         in.take(group.springCount);
         in.take(group.shape);
         in.take(group.instances);
-        in.take(group.history);
+        in.take(group.keeps);
     }
     if (!in.atEnd()) throw Error(location, "is damaged: its head does not fit together");
     return head;

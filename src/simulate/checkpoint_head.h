@@ -40,11 +40,13 @@ class Checksum {
     uint64_t sum_ = 14695981039346656037ull;
 };
 
+constexpr int32_t keepsHistory = 1, keepsSteering = 2;
+
 struct GroupHead {
     std::string name;
     int32_t count = 0, vertexCount = 0, springCount = 0;
     uint64_t shape = 0, instances = 0;
-    int32_t history = 0;  // 1: the solver's memory of its last substep is there; never compared
+    int32_t keeps = 0;  // the solver's memory of its last substep; what steers: never compared
 };
 
 struct Head {

@@ -9,7 +9,8 @@ using gpu::Program;
 namespace {
 
 namespace unit {
-constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4, springs = 5;
+constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4, springs = 5,
+              steering = 6;
 }
 namespace binding {
 constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
@@ -85,6 +86,8 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     }
     if (plan.contact.any())
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options.cache);
+    if (plan.school.any())
+        school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
 }
 
 void Fused::makeStep(size_t index) {
@@ -145,6 +148,8 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
         program.texture("samples", unit::samples, tables_->sampleTexels);
     if (group.needs.liveSprings && kernels_[index].options.lanes == Lanes::molecule)
         program.texture("liveSprings", unit::springs, kernels_[index].springTexels);
+    if (group.needs.steers && !kernels_[index].options.onlyNormals)
+        program.texture("steering", unit::steering, part.steering);
     if (kernels_[index].options.lanes == Lanes::vertex) {
         program.texture("topology", unit::topology, tables_->topology);
         program.set("topologyBase", group.topologyBase);
@@ -168,6 +173,8 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
 }
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
+    steeringEnd_ = frame.end;
+    if (school_) school_->step(frame, state, timers);
     if (!contact_) {
         run(frame, timers);
         if (births_) births_->step(frame, state, timers);
@@ -193,6 +200,7 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         const Program& program = kernels_[g].step;
         program.use();
         setStepUniforms(program, *plan_, plan_->groups[g], frame);
+        if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_));
         if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);

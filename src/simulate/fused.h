@@ -16,6 +16,7 @@
 #include "simulate/buffer_state.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/molecule_contact.h"
+#include "simulate/school.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 
@@ -45,6 +46,7 @@ class Fused {
     Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
     const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
     Births* births() const { return births_.get(); }                   // null: none is born and none dies
+    Schooling* school() const { return school_.get(); }                // null: none steers
     // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
     bool alarmed() const;
     void disarm();
@@ -75,6 +77,8 @@ class Fused {
     gpu::Buffer alarm_;  // one word; where watched
     std::unique_ptr<MoleculeContact> contact_;
     std::unique_ptr<Births> births_;
+    std::unique_ptr<Schooling> school_;
+    double steeringEnd_ = 0;  // s, of the frame
 };
 
 // Of a context, for compile/path.h.

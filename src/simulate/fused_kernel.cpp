@@ -77,6 +77,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.wind, "WIND");
     define(group.forces.any(), "FORCE_PARAMETERS");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
+    define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
     define(group.rigid && perLane, "RIGID_IMPACT");
     define(solver(group.solver).history, "HISTORY");
@@ -98,6 +99,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     };
     include(true, "fused/state.glsl");
     include(true, "generated/molecule.glsl");
+    include(group.needs.steers, "fused/steering.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     include(group.needs.fields, "generated/fields.glsl");
     include(group.forces.any(), "generated/scene_forces.glsl");

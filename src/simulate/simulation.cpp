@@ -44,7 +44,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {
         // what the other path does not have
-        if (!plan_.contact.onlyOfVertices() || plan_.hasLife()) throw;
+        if (!plan_.contact.onlyOfVertices() || plan_.hasLife() || plan_.school.any()) throw;
         for (const GroupPlan& group : plan_.groups)
             if (solver(group.solver).implicit) throw;
         choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
@@ -134,6 +134,11 @@ bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
     plan.springNumbers = springNumbers(molecule);
     fused->changeSprings(group, plan.springNumbers);
     return true;
+}
+
+bool Simulation::changeSchool(size_t group, const School& school) {
+    auto* fused = std::get_if<Fused>(&path_);
+    return fused && fused->school() && fused->school()->change(group, school);
 }
 
 StateView Simulation::state() const {

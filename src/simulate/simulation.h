@@ -87,6 +87,9 @@ class Simulation {
     // Compiles nothing. False, and nothing changes: the plan's springs are not live (CompileOptions), are
     // others, or the path does not read them.
     bool changeSprings(size_t group, const Molecule& molecule);
+    // Other numbers for how a group's molecules steer, from the next frame on. False, and nothing changes: it
+    // has no school, or what differs needs another plan.
+    bool changeSchool(size_t group, const School& school);
     // What was done otherwise than asked, such as one side instead of two for want of memory.
     const std::vector<Warning>& warnings() const { return warnings_; }
 
@@ -94,8 +97,8 @@ class Simulation {
     Snapshot snapshot(size_t group) const;
     SavedState save() const;
     // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
-    // ping-pong path, in place, where some are born or die, and without a frame since the last load or
-    // restart.
+    // ping-pong path, in place, where some are born or die or school, and without a frame since the last load
+    // or restart.
     std::optional<SavedState> saveBefore() const;
     void load(const SavedState& saved);
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits

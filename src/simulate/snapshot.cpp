@@ -34,7 +34,8 @@ SavedState Simulation::save() const {
 std::optional<SavedState> Simulation::saveBefore() const {
     const auto* fused = std::get_if<Fused>(&path_);
     if (!fused || !before_) return std::nullopt;
-    if (plan_.hasLife()) return std::nullopt;  // newborns have taken places since
+    if (plan_.hasLife()) return std::nullopt;     // newborns have taken places since
+    if (plan_.school.any()) return std::nullopt;  // the muscles' clocks have moved on
     if (fused->contact() && plan_.contact.steps > 1)
         return std::nullopt;  // the side of a step within the frame
     SavedState out{before_->time, before_->frames, {}, before_->step};
@@ -112,6 +113,9 @@ uint64_t Simulation::hash() const {
         addAll(state.anchors);
         for (const uint8_t released : state.released)
             add(released);
+        for (const glm::vec4& value : state.steering)
+            for (int c = 0; c < 4; ++c)
+                add(std::bit_cast<uint32_t>(value[c]));
         for (const glm::vec2& life : state.lives) {
             add(std::bit_cast<uint32_t>(life.x));
             add(std::bit_cast<uint32_t>(life.y));

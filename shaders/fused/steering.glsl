@@ -1,0 +1,39 @@
+// What steers a molecule over a frame (shaders/school/steer.comp), three 4-vectors each:
+//   xyz acceleration of all of it, m/s^2          w  curvature that its muscles bend it to, 1/m
+//   xyz acceleration of its turning, rad/s^2      w  rate of its muscles' clock
+//   xyz steering as it was smoothed, m/s^2        w  its muscles' clock at the end of the frame, s
+#ifdef STEERED
+uniform samplerBuffer steering;
+uniform float givenSteeringEnd;  // s, of the frame
+
+vec3 steeringPush;
+vec3 steeringSpin;
+float curvature;
+float clockRate;
+float clockEnd;
+float steeringEnd;
+
+void loadSteering(int molecule)
+{
+    vec4 push = texelFetch(steering, 3 * molecule);
+    vec4 spin = texelFetch(steering, 3 * molecule + 1);
+    steeringPush = push.xyz;
+    curvature = push.w;
+    steeringSpin = spin.xyz;
+    clockRate = spin.w;
+    clockEnd = texelFetch(steering, 3 * molecule + 2).w;
+    steeringEnd = inRegister(givenSteeringEnd);
+}
+
+// s; the molecule's own, in which its muscles move.
+float swimClock(float time)
+{
+    return clockEnd - clockRate * (steeringEnd - time);
+}
+
+// m/s^2, at an arm from its middle.
+vec3 steeringAt(vec3 arm)
+{
+    return steeringPush + cross(steeringSpin, arm);
+}
+#endif

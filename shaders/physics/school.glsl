@@ -1,0 +1,74 @@
+// How those of a school steer (Reynolds, "Flocks, herds, and schools", SIGGRAPH 1987), as accelerations in m/s^2. None
+// is singular: those in the same place do not part by separation. Read as C++ through GLM by the tests.
+
+// Away from another at -d (m), within a radius: 1 at the distance 0, none at the radius.
+vec3 awayFrom(vec3 d, float radius)
+{
+    float squared = dot(d, d);
+    float inverse = 1.0f / sqrt(max(squared, 1e-20f));
+    return d * max(inverse - 1.0f / radius, 0.0f);
+}
+
+// Whether what is at d is outside the blind cone behind. forward: unit.
+bool isSeen(vec3 d, vec3 forward, float blindCosine)
+{
+    float along = dot(d, forward);
+    return along >= 0.0f || along * along <= blindCosine * blindCosine * dot(d, d);
+}
+
+// At most so long.
+vec3 atMost(vec3 v, float most)
+{
+    float squared = dot(v, v);
+    return v * min(1.0f, most / sqrt(max(squared, 1e-20f)));
+}
+
+// The two in turn: `first` up to the most, and what that leaves for `then`.
+vec3 inTurn(vec3 first, vec3 then, float most)
+{
+    vec3 a = atMost(first, most);
+    return a + atMost(then, max(most - sqrt(dot(a, a)), 0.0f));
+}
+
+// m, the way back between two bounds.
+vec3 backInto(vec3 p, vec3 low, vec3 high)
+{
+    return clamp(p, low, high) - p;
+}
+
+// m, the way back into a ball.
+vec3 backIntoBall(vec3 p, vec3 center, float radius)
+{
+    vec3 d = center - p;
+    float r = sqrt(dot(d, d));
+    return d * (max(r - radius, 0.0f) / max(r, 1e-20f));
+}
+
+// Towards a direction: the velocity that is wanted, no steeper than the tangent allows; where it says nothing, ahead.
+vec3 courseOf(vec3 wanted, vec3 forward, float steepest)
+{
+    float size = sqrt(dot(wanted, wanted));
+    vec3 d = size > 1e-6f ? wanted / size : forward;
+    float level = sqrt(d.x * d.x + d.z * d.z);
+    float most = steepest * max(level, 0.2f);
+    d.y = clamp(d.y, -most, most);
+    return d / sqrt(max(dot(d, d), 1e-20f));
+}
+
+// rad: the turn from one unit vector to another about its axis; about `otherwise` where they are opposite.
+vec3 turnBetween(vec3 from, vec3 to, vec3 otherwise)
+{
+    vec3 axis = cross(from, to);
+    float sine = sqrt(dot(axis, axis));
+    float cosine = dot(from, to);
+    float angle = atan(sine, cosine);
+    bool opposite = sine < 1e-3f && cosine < 0.0f;
+    return opposite ? otherwise * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
+}
+
+// Here and there, in [-1, 1]: three sines whose periods, 2 to 7 s, and phases hang on the seed.
+float wanderOf(float time, float a, float b, float c)
+{
+    return (sin(time * (0.9f + a) + 40.0f * b) + sin(time * (1.7f + b) + 40.0f * c) + sin(time * (2.6f + c) + 40.0f * a)) /
+           3.0f;
+}

@@ -1,0 +1,222 @@
+// A lane one of a school, in the order of its grid, so that neighbouring lanes look into the same cells: what the others,
+// enemies, walls and its own habits make of it, as one acceleration; and what that asks of its body.
+#include "school/grid.glsl"
+#include "physics/school.glsl"
+#include "physics/random.glsl"
+
+layout(local_size_x = 64) in;
+
+uniform samplerBuffer bodies;
+uniform usamplerBuffer sorted;
+uniform usamplerBuffer starts;
+uniform samplerBuffer places;      // in the order of the grids: xyz place, w not 0: lives
+uniform samplerBuffer velocities;  // in the same
+uniform int firstBody;             // of the group
+
+uniform ivec4 grids[1 + TARGETS];     // first slot, slots, first key, keys; of its own, then of its targets
+uniform vec4 gridRules[1 + TARGETS];  // 1 / cell; radius, m; strength, m/s^2, below 0 where they are fled from
+
+uniform vec4 others;     // separation radius, separation, alignment, cohesion
+uniform vec4 speeds;     // slowest, cruise, fastest, m/s; most acceleration, m/s^2
+uniform vec4 habits;     // tangent of the steepest course; most turn, rad/s; reaction, s; wander, m/s^2
+uniform vec4 muscles;    // most curvature, 1/m; speed at which they run at their own frequency; fins; keel, 1/s
+uniform float blindCosine;
+uniform vec4 depth;      // lowest and highest y from the origin, m; strength, 1/s^2
+uniform vec4 homeLow;    // xyz of the box, or the middle of the ball; w strength, 1/s^2
+uniform vec4 homeHigh;   // xyz of the box; w radius of the ball, 0: a box
+uniform vec3 origin;     // m
+uniform float time;      // s
+uniform float duration;  // s, of the frame
+
+layout(std430, binding = 0) buffer Steering { vec4 steering[]; };
+
+#ifdef WALLS
+#include "generated/colliders.glsl"
+
+uniform vec2 walls;  // m, in which they are turned from; s, how far ahead
+
+float wallDistance(vec3 place)
+{
+#ifdef JOINT_CONTACT
+    return clearances(vec3(0.0), place, 0.5 * duration).x;
+#else
+    return clearance(vec3(0.0), place);
+#endif
+}
+
+// Away from the nearest surface, the more the nearer to it what is ahead is.
+vec3 fromWalls(vec3 place, vec3 velocity)
+{
+    vec3 ahead = place + velocity * walls.y;
+    float distance = min(wallDistance(ahead), wallDistance(place));
+    vec3 a = vec3(0.0);
+    bool near = distance < walls.x;
+    while (near) {
+        float nudge = 0.1 * walls.x;
+        float here = wallDistance(ahead);
+        vec3 slope = vec3(wallDistance(ahead + vec3(nudge, 0.0, 0.0)), wallDistance(ahead + vec3(0.0, nudge, 0.0)),
+                          wallDistance(ahead + vec3(0.0, 0.0, nudge))) - here;
+        float steep = length(slope);
+        if (steep > 0.01 * nudge && steep < 1e20)
+            a = slope * (speeds.w * clamp(2.0 - 2.0 * distance / walls.x, 0.0, 1.0) / steep);
+        near = false;
+    }
+    return a;
+}
+#endif
+
+// The slots of three cells of a row: from x up to below y, where those at `slots` and beyond start over.
+ivec2 runOf(ivec4 grid, ivec3 cell)
+{
+    int mask = grid.w - 1;
+    int from = (cellKey(cell, grid.w) - 1) & mask;
+    int to = from + 3;
+    bool over = to > grid.w;
+    int first = int(texelFetch(starts, grid.z + from).x);
+    int last = int(texelFetch(starts, grid.z + (over ? to - grid.w : to)).x);
+    return ivec2(first, over ? last + grid.y : last) - grid.x;
+}
+
+ivec3 rowBeside(ivec3 cell, int r)
+{
+    return cell + ivec3(0, r % 3 - 1, r / 3 - 1);
+}
+
+// Sums over the others that it sees.
+struct Others {
+    vec3 apart;
+    vec3 velocity;
+    vec3 place;  // relative to it, m
+    float count;
+};
+
+Others lookAround(vec3 place, vec3 forward, int slot)
+{
+    Others sum = Others(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    float inverseCell = min(gridRules[0].x, 3.4e38);
+    float radius = min(gridRules[0].y, 3.4e38);
+    float keep = min(others.x, 3.4e38);
+    float blind = min(blindCosine, 3.4e38);
+    ivec3 cell = cellOf(place, inverseCell);
+    for (int r = 0; r < 9; ++r) {
+        ivec3 row = rowBeside(cell, r);
+        ivec2 run = runOf(grids[0], row);
+        for (int i = run.x; i < run.y; ++i) {
+            int at = grids[0].x + (i < grids[0].y ? i : i - grids[0].y);
+            vec3 other = texelFetch(places, at).xyz;
+            vec3 d = other - place;
+            bool met = dot(d, d) < radius * radius && at != slot && cellOf(other, inverseCell).yz == row.yz &&
+                       isSeen(d, forward, blind);
+            float share = met ? 1.0 : 0.0;
+            sum.apart -= awayFrom(d, keep) * share;
+            sum.velocity += texelFetch(velocities, at).xyz * share;
+            sum.place += met ? d : vec3(0.0);
+            sum.count += share;
+        }
+    }
+    return sum;
+}
+
+#if TARGETS > 0
+// Of a row no more are looked at than this, evenly spread over it: each for as many as it stands for.
+const int mostOfRun = 48;
+
+// Towards those that are hunted, away from those that are fled from.
+vec3 meetTargets(vec3 place)
+{
+    vec3 a = vec3(0.0);
+    for (int t = 1; t <= TARGETS; ++t) {
+        vec3 sum = vec3(0.0);
+        float weight = 0.0;
+        float radius = gridRules[t].y;
+        ivec3 cell = cellOf(place, gridRules[t].x);
+        for (int r = 0; r < 9; ++r) {
+            ivec3 row = rowBeside(cell, r);
+            ivec2 run = runOf(grids[t], row);
+            int stride = 1 + (run.y - run.x) / mostOfRun;
+            for (int i = run.x; i < run.y; i += stride) {
+                int at = grids[t].x + (i < grids[t].y ? i : i - grids[t].y);
+                vec3 other = texelFetch(places, at).xyz;
+                vec3 d = other - place;
+                bool met = dot(d, d) < radius * radius && cellOf(other, gridRules[t].x).yz == row.yz;
+                float share = met ? float(stride) : 0.0;
+                sum += met ? awayFrom(d, radius) * share : vec3(0.0);
+                weight += share * max(1.0 - length(met ? d : vec3(radius)) / radius, 0.0);
+            }
+        }
+        // who flees does so from each of them; who hunts goes for their middle, and the nearer the more
+        float strength = gridRules[t].z;
+        a += sum * (strength < 0.0 ? strength : strength / max(weight, 1e-6));
+    }
+    return a;
+}
+#endif
+
+void main()
+{
+    int slot = grids[0].x + min(int(gl_GlobalInvocationID.x), grids[0].y - 1);
+    int body = int(texelFetch(sorted, slot).y);
+    vec4 place = texelFetch(bodies, 5 * body);
+    vec3 velocity = texelFetch(bodies, 5 * body + 1).xyz;
+    vec3 forward = texelFetch(bodies, 5 * body + 2).xyz;
+    vec3 upper = texelFetch(bodies, 5 * body + 3).xyz;
+    vec3 spin = texelFetch(bodies, 5 * body + 4).xyz;
+    int at = 3 * (body - firstBody);
+    vec4 earlier = steering[at + 2];
+    float speed = dot(velocity, forward);
+
+    vec3 urgent = vec3(0.0);
+#if TARGETS > 0
+    urgent += meetTargets(place.xyz);
+#endif
+    urgent += homeLow.w * (homeHigh.w > 0.0 ? backIntoBall(place.xyz, homeLow.xyz, homeHigh.w)
+                                            : backInto(place.xyz, homeLow.xyz, homeHigh.xyz));
+#ifdef WALLS
+    urgent = inTurn(fromWalls(place.xyz + origin, velocity), urgent, speeds.w);
+#endif
+
+    Others seen = lookAround(place.xyz, forward, slot);
+    float perOther = 1.0 / max(seen.count, 1.0);
+    vec3 liked = seen.apart * others.y;
+    if (seen.count > 0.0) liked += (seen.velocity * perOther - velocity) * others.z + seen.place * (perOther * others.w);
+    liked.y += depth.z * (clamp(place.y, depth.x, depth.y) - place.y);
+    liked += forward * (speeds.y - speed);
+    uint seed = uint(place.w);
+    float a = uniformFrom(hashSeed(seed, 0x5c0002u));
+    float b = uniformFrom(hashSeed(seed, 0x5c0003u));
+    float c = uniformFrom(hashSeed(seed, 0x5c0004u));
+    vec3 left = cross(upper, forward);
+    liked += (left * wanderOf(time, a, b, c) + upper * (0.4 * wanderOf(time, b, c, a)) +
+              forward * (0.5 * wanderOf(time, c, a, b))) * habits.w;
+
+    float reaction = habits.z;
+    vec3 steered = inTurn(urgent, liked, speeds.w);
+    steered = mix(earlier.xyz, steered, 1.0 - exp(-duration / reaction));
+
+    // what points along the body is speed, what points aside is a turn
+    vec3 wanted = forward * max(speed, speeds.x) + steered * reaction;
+    vec3 course = courseOf(wanted, forward, habits.x);
+    vec3 turning = atMost(turnBetween(forward, course, upper) / reaction, habits.y);
+    float wantedSpeed = clamp(dot(wanted, forward), speeds.x, speeds.z);
+    float push = clamp((wantedSpeed - speed) / reaction, -speeds.w, speeds.w) * muscles.z;
+    vec3 aside = velocity - forward * speed;
+    vec3 pushed = forward * push - aside * muscles.w;
+
+    float curvature = 0.0;
+    vec3 answer = vec3(0.0);
+#ifdef BODY
+    curvature = clamp(dot(turning, upper) / max(speed, 0.5 * speeds.y), -muscles.x, muscles.x);
+    // upright, and leaning into its turns
+    vec3 above = vec3(0.0, 1.0, 0.0) + (steered - forward * dot(steered, forward)) * 0.1;
+    above -= forward * dot(above, forward);
+    turning += forward * clamp(4.0 * dot(cross(upper, above), forward), -4.0, 4.0);
+    answer = (turning - spin) * min(20.0, 0.5 / duration);
+#else
+    // a point turns by being pushed aside
+    pushed += cross(turning, velocity);
+#endif
+    float rate = muscles.y > 0.0 ? max(wantedSpeed, 0.3 * speeds.y) / muscles.y : 1.0;
+    steering[at] = vec4(pushed, curvature);
+    steering[at + 1] = vec4(answer, rate);
+    steering[at + 2] = vec4(steered, mod(earlier.w + rate * duration, CLOCK_PERIOD));
+}

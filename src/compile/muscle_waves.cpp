@@ -1,0 +1,70 @@
+#include "compile/muscle_waves.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "compile/glsl_text.h"
+#include "compile/school_plan.h"
+#include "core/error.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr double same = 1e-4;  // rad: files round
+
+bool moves(const Spring& spring) {
+    return spring.actuation && spring.actuation->amplitude != 0;
+}
+
+// Half turns of the phase. One on, it is the same wave upside down.
+double halves(const Actuation& muscle) {
+    return std::floor((muscle.phase + same) / std::numbers::pi);
+}
+
+double phaseOf(const Actuation& muscle) {
+    return muscle.phase - halves(muscle) * std::numbers::pi;
+}
+
+double signOf(const Actuation& muscle) {
+    return std::fmod(std::abs(halves(muscle)), 2.0) == 0 ? 1 : -1;
+}
+
+}  // namespace
+
+MuscleWaves::MuscleWaves(const Molecule& molecule, const Needs& needs)
+    : molecule_(&molecule), phased_(needs.phase) {
+    for (const Spring& spring : molecule.springs)
+        if (needs.steers && moves(spring) && waveOf(*spring.actuation) == waves_.size())
+            waves_.push_back({1, spring.actuation->frequency, phaseOf(*spring.actuation)});
+}
+
+// The number of them where it is none of them.
+size_t MuscleWaves::waveOf(const Actuation& muscle) const {
+    for (size_t i = 0; i < waves_.size(); ++i)
+        if (waves_[i].frequency == muscle.frequency && std::abs(waves_[i].phase - phaseOf(muscle)) < same)
+            return i;
+    return waves_.size();
+}
+
+std::string MuscleWaves::text() const {
+    if (waves_.empty()) return {};
+    std::string out = "    float clock = swimClock(time);\n";
+    for (size_t i = 0; i < waves_.size(); ++i)
+        out += concat("    float wave", i, " = sin(", glslLiteral(2 * std::numbers::pi * waves_[i].frequency),
+                      " * clock + ", glslLiteral(waves_[i].phase), phased_ ? " + phase);\n" : ");\n");
+    return out;
+}
+
+std::string MuscleWaves::lengthOf(const std::string& length, const Spring& spring) const {
+    const double bend = bendOf(*molecule_, spring);
+    if (!moves(spring) && bend == 0) return length;
+    std::string out = concat(length, " * (1.0");
+    if (moves(spring))
+        out += concat(" + ", glslLiteral(spring.actuation->amplitude * signOf(*spring.actuation)), " * wave",
+                      waveOf(*spring.actuation));
+    if (bend != 0) out += concat(" + ", glslLiteral(bend), " * curvature");
+    return out + ")";
+}
+
+}  // namespace shoal
