@@ -20,6 +20,7 @@ class Interface {
 
     void begin();  // of a frame
     void end();    // draws the panels over what is there
+    double pixelsPerPoint() const { return double(made_.unitsPerPoint * made_.pixelsPerUnit); }
 
   private:
     // Of the interface's units, in which the window system may count several pixels as one.

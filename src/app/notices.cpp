@@ -68,6 +68,25 @@ bool showNotices(const std::string& problem, const std::string& message, float l
     return closed;
 }
 
+void StatusLine::say(const std::string& line) {
+    line_ = line;
+    saidAt_ = ImGui::GetTime();
+}
+
+void StatusLine::draw(const std::string& instead) {
+    constexpr double shownFor = 4;  // s
+    if (instead.empty() && ImGui::GetTime() - saidAt_ > shownFor) return;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, screen.y - points(12)), ImGuiCond_Always,
+                            ImVec2(0.5f, 1));
+    ImGui::Begin("Status", nullptr, plain | ImGuiWindowFlags_NoInputs);
+    if (!instead.empty())
+        ImGui::TextColored(ImVec4(1, 0.45f, 0.35f, 1), "%s", instead.c_str());
+    else
+        ImGui::TextUnformatted(line_.c_str());
+    ImGui::End();
+}
+
 void drawOpening(const std::string& file) {
     centered();
     ImGui::Begin("Opening", nullptr, plain);

@@ -13,6 +13,17 @@ namespace shoal::app {
 // long as that is so, and a message until the user closes it, which is returned. Empty: nothing is shown.
 bool showNotices(const std::string& problem, const std::string& message, float left, float right);
 
+// One line at the bottom.
+class StatusLine {
+  public:
+    void say(const std::string& line);      // for some seconds
+    void draw(const std::string& instead);  // of what goes on now; empty: nothing does
+
+  private:
+    std::string line_;
+    double saidAt_ = -1e9;  // s
+};
+
 void drawOpening(const std::string& file);  // that a scene is being opened
 
 // Of the question whether to save, before something goes on ("close").

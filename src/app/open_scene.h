@@ -1,6 +1,7 @@
 // A scene that is open in the window, and all that the user moves of it.
 #pragma once
 
+#include "app/explanations.h"
 #include "app/hot_reload.h"
 #include "app/orbit_camera.h"
 #include "app/panel.h"
@@ -17,6 +18,9 @@ struct OpenScene {
     ScenePanel scenePanel;
     OrbitCamera camera;
     HotReload reload;
+    std::unique_ptr<Explanations> explanations;
+    std::optional<MoleculeNumbers> numbers;  // of the picked molecule, as read last
+    bool follows = false;                    // the camera, the picked molecule
 
     // Error: RunningScene's; what --resume and --save name cannot be read or written.
     OpenScene(Options given, gpu::Context& context, gpu::ProgramCache& cache, Loaded loaded, int width,
@@ -26,6 +30,16 @@ struct OpenScene {
 
     Simulation& simulation() { return running.simulation(); }
     void follow();  // after the scene was built anew
+
+    // The molecule under a place of the picture, in [0, 1] from the upper left corner; or none any more.
+    void pick(const glm::dvec2& place, double aspect, int height);
+    void forget();                       // what was picked
+    void readPicked();                   // its numbers, and moves the camera that follows it
+    View view() const;                   // of now
+    void drawPicture(double lineWidth);  // pixels, of springs and arrows
 };
+
+// Where a place is in the picture, in [0, 1] from the upper left corner; nothing: behind the eye.
+std::optional<glm::dvec2> onScreen(const View& view, const glm::dvec3& place, double aspect);
 
 }  // namespace shoal::app

@@ -5,6 +5,8 @@
 
 namespace shoal::app {
 
+static constexpr double steepest = 1.55;  // rad: short of the poles, where up is undefined
+
 OrbitCamera::OrbitCamera(const View& start) : start_(start) {
     reset();
 }
@@ -23,9 +25,14 @@ void OrbitCamera::start(const View& view) {
     if (moved) reset();
 }
 
+void OrbitCamera::lookFrom(double azimuth, double elevation) {
+    azimuth_ = azimuth;
+    elevation_ = std::clamp(elevation, -steepest, steepest);
+}
+
 void OrbitCamera::turn(double dx, double dy) {
     azimuth_ -= 4 * dx;
-    elevation_ = std::clamp(elevation_ + 4 * dy, -1.55, 1.55);  // short of the poles, where up is undefined
+    elevation_ = std::clamp(elevation_ + 4 * dy, -steepest, steepest);
 }
 
 void OrbitCamera::pan(double dx, double dy) {

@@ -12,6 +12,9 @@ class OrbitCamera {
     void turn(double dx, double dy);  // in window heights
     void pan(double dx, double dy);   // in window heights
     void zoom(double steps);          // of the wheel, towards the target
+    // From a direction, about the same target: radians around from +z towards +x, and above the horizon.
+    void lookFrom(double azimuth, double elevation);
+    void follow(const glm::dvec3& target) { target_ = target; }
     void reset();
     void start(const View& view);  // where reset() goes; goes there when it is another place than before
     View view() const;

@@ -8,6 +8,8 @@
 
 #include "app/data_paths.h"
 #include "app/interface.h"
+#include "app/time_plot.h"
+#include "compile/generate.h"
 
 namespace shoal::app {
 
@@ -26,6 +28,7 @@ static std::vector<std::string> shippedMolecules() {
 Controls::Controls(const Plan& plan)
     : gravity(plan.gravity),
       forces(plan.forces.size(), 1.0f),
+      fields(plan.fieldCount, 1.0f),
       substeps(plan.substeps),
       plannedSubsteps(plan.substeps) {}
 
@@ -43,6 +46,7 @@ void Controls::follow(const Parameters& parameters) {
 void Controls::follow(const Plan& plan) {
     gravity = plan.gravity;
     forces.resize(plan.forces.size(), 1.0f);
+    fields.resize(plan.fieldCount, 1.0f);
     if (substeps == plannedSubsteps) substeps = plan.substeps;
     plannedSubsteps = plan.substeps;
 }
@@ -57,6 +61,9 @@ void Controls::lead(Parameters& parameters, const Plan& plan, double seconds) co
     follow(parameters.damping, damping);
     for (size_t i = 0; i < forces.size(); ++i)
         follow(parameters.forces[i].factor, forces[i]);
+    parameters.fields.resize(fields.size(), 1);
+    for (size_t i = 0; i < fields.size(); ++i)
+        follow(parameters.fields[i], fields[i]);
     // explicit solvers stay within their limit: stiffer springs take more substeps
     parameters.substeps = substepsNeeded(plan, parameters.frameTime, parameters.stiffness, parameters.damping,
                                          parameters.drag, substeps);
@@ -68,6 +75,7 @@ Panel::Panel(const Scene& scene) : molecules_(shippedMolecules()) {
 
 void Panel::follow(const Scene& scene) {
     sceneName_ = scene.name;
+    error.clear();
     std::vector<Listed> before = std::move(groups_);
     groups_.clear();
     for (const Group& group : scene.groups) {
@@ -85,6 +93,11 @@ void Panel::follow(const Scene& scene) {
         groups_.push_back(std::move(listed));
     }
     group_ = std::min(group_, int(groups_.size()) - 1);
+    fieldNames_.clear();
+    for (size_t i = 0; i < scene.fields.size(); ++i)
+        fieldNames_.push_back(scene.fields[i].name.empty()
+                                  ? concat(kindName(scene.fields[i].shape), " ", i + 1)
+                                  : scene.fields[i].name);
     forceNames_.clear();
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Force& force = scene.forces[i];
@@ -110,8 +123,8 @@ static bool section(const char* title, bool open) {
     return ImGui::CollapsingHeader(title, open ? ImGuiTreeNodeFlags_DefaultOpen : 0);
 }
 
-Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
-                          const gpu::Traffic& lastFrame) {
+Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& renderer,
+                          Explanations& explanations, double frameSeconds, const gpu::Traffic& lastFrame) {
     const float edge = points(12), width = points(304);
     ImGui::SetNextWindowPos(ImVec2(edge, edge), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0),
@@ -122,6 +135,7 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
     drawForces(controls, simulation);
     asked.push_back(drawGroups(simulation));
     asked.push_back(drawMethod(controls, simulation));
+    drawView(explanations, simulation);
     drawCost(simulation, renderer, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
@@ -168,11 +182,18 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
     slider(any(&Needs::drag), "Drag", controls.drag, 0, 4);
     slider(any(&Needs::springs), "Stiffness", controls.stiffness, 0.02f, 20, ImGuiSliderFlags_Logarithmic);
     slider(any(&Needs::springDamping), "Damping", controls.damping, 0, 4);
+    for (size_t i = 0; controls.fields.size() > 1 && i < controls.fields.size(); ++i) {
+        ImGui::PushID(int(i));
+        slider(any(&Needs::fields), fieldNames_[i].c_str(), controls.fields[i], -4, 4);
+        ImGui::PopID();
+    }
+    ImGui::PushID("forces");
     for (size_t i = 0; i < controls.forces.size(); ++i) {
         ImGui::PushID(int(i));
         slider(true, forceNames_[i].c_str(), controls.forces[i], -4, 4);
         ImGui::PopID();
     }
+    ImGui::PopID();
 }
 
 Panel::Action Panel::drawGroups(const Simulation&) {
@@ -231,7 +252,34 @@ Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation
     ImGui::SameLine();
     if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
     if (!compute) ImGui::TextDisabled("fused needs OpenGL 4.3");
+    if (ImGui::Button("Measure error")) action = Action::measure;
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip(
+            "A few molecules of the scene's start against the double-precision reference, with\n"
+            "this solver and these substeps. The window waits for it some seconds.");
+    if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
     return path != now ? Action::switchPath : action;
+}
+
+void Panel::drawView(Explanations& explanations, const Simulation& simulation) {
+    if (!section("View", true)) return;
+    ExplanationSettings& settings = explanations.settings;
+    ImGui::Checkbox("Springs (X)", &settings.springs);
+    if (settings.springs) {
+        float share = float(100 * settings.strainShown);
+        if (ImGui::SliderFloat("full colour at", &share, 0.1f, 100, "%.1f %%",
+                               ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp))
+            settings.strainShown = double(share) / 100;
+    }
+    const bool flows = simulation.plan().fieldCount > 0 || !simulation.plan().forces.empty();
+    if (!flows) ImGui::BeginDisabled();
+    ImGui::Checkbox("Flow (F)", &settings.field);
+    if (!flows) ImGui::EndDisabled();
+    if (!settings.field) return;
+    ImGui::Combo("across", &settings.across, "x\0y\0z\0");
+    float shift = float(settings.sliceShift);
+    if (ImGui::DragFloat("shift", &shift, 0.02f, -1e4f, 1e4f, "%.2f m")) settings.sliceShift = double(shift);
+    ImGui::TextDisabled("longest arrows %.2f m/s", explanations.fastest());
 }
 
 void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
@@ -240,24 +288,7 @@ void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSec
     ImGui::Text("%.1f frames/s, %s, %s", frameSeconds > 0 ? 1 / frameSeconds : 0.0,
                 name(simulation.path().path), name(simulation.plan().groups.front().solver));
     ImGui::TextDisabled("%s", simulation.context().info().renderer.c_str());
-    if (ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
-        ImGui::TableSetupColumn("pass");
-        ImGui::TableSetupColumn("calls");
-        ImGui::TableSetupColumn("ms a frame");
-        ImGui::TableHeadersRow();
-        std::vector<gpu::PassTime> times = simulation.timers().report();
-        const std::vector<gpu::PassTime> drawing = renderer.timers().report();
-        times.insert(times.end(), drawing.begin(), drawing.end());
-        for (const gpu::PassTime& pass : times) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(pass.name.c_str());
-            ImGui::TableNextColumn();
-            ImGui::Text("%d", pass.calls);
-            ImGui::TableNextColumn();
-            ImGui::Text("%.3f", pass.median * 1e3);
-        }
-        ImGui::EndTable();
-    }
+    drawTimes(simulation.timers(), renderer.timers());
     if (ImGui::BeginTable("bus", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         ImGui::TableSetupColumn("bus, bytes a frame");
         ImGui::TableSetupColumn("up");

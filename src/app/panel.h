@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/explanations.h"
 #include "app/running_scene.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -18,6 +19,7 @@ struct Controls {
     glm::dvec3 gravity{0};
     float gravityFactor = 1, wind = 1, drag = 1, stiffness = 1, damping = 1;
     std::vector<float> forces;              // factors on the strengths of the scene's
+    std::vector<float> fields;              // factors on the weights of the scene's
     int substeps = 4, plannedSubsteps = 4;  // the plan's own
     bool paused = false;
 
@@ -29,17 +31,18 @@ struct Controls {
 
 class Panel {
   public:
-    enum class Action { none, step, restart, rebuild, switchPath, resetCamera, scenes };
+    enum class Action { none, step, restart, rebuild, switchPath, resetCamera, scenes, measure };
 
     explicit Panel(const Scene& scene);
     void follow(const Scene& scene);  // that was built anew
 
     // Draws the panel and returns what the user asked for in this frame.
-    Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, double frameSeconds,
-                const gpu::Traffic& lastFrame);
+    Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, Explanations& explanations,
+                double frameSeconds, const gpu::Traffic& lastFrame);
 
     // What rebuild asks for.
     void apply(Choices& choices) const;
+    std::string error;            // of the method, as measured; empty: it was not
     Path path = Path::automatic;  // that runs, and after switchPath the one to go on with
 
   private:
@@ -47,6 +50,7 @@ class Panel {
     void drawForces(Controls& controls, const Simulation& simulation);
     Action drawGroups(const Simulation& simulation);
     Action drawMethod(Controls& controls, const Simulation& simulation);
+    void drawView(Explanations& explanations, const Simulation& simulation);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
                   const gpu::Traffic& lastFrame);
 
@@ -62,7 +66,7 @@ class Panel {
     std::vector<std::string> molecules_;  // files to choose from
     int group_ = 0;                       // of groups_, that is shown
     std::optional<int> solver_;           // chosen: of solverWords()
-    std::vector<std::string> forceNames_;
+    std::vector<std::string> forceNames_, fieldNames_;
     std::string sceneName_;
 };
 

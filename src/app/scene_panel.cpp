@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "app/interface.h"
+#include "app/material_editor.h"
 
 namespace shoal::app {
 
@@ -33,7 +34,6 @@ std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
 
 std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
     const Group& source = scene.groups[group];
-    if (!source.life && !source.particle) return {};
     Edited out{group, {}, {}};
     if (source.life) out.life.emplace(scene, group);
     if (source.particle) out.looks.emplace(*source.particle);
@@ -45,23 +45,26 @@ ScenePanel::ScenePanel(const Scene& scene) {
 }
 
 void ScenePanel::follow(const Scene& scene) {
-    pending_ = false;
+    pending_ = lives_ = false;
     groups_.clear();
+    for (const Group& group : scene.groups)
+        lives_ |= group.life || group.particle;
     for (size_t g = 0; g < scene.groups.size(); ++g)
         if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
 }
 
-ScenePanel::Action ScenePanel::draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved) {
+ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float edge = points(12), width = points(panelWidth);
     ImGui::SetNextWindowPos(ImVec2(std::max(screen.x - width - edge, edge), edge), ImGuiCond_Always);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - 2 * edge));
-    ImGui::Begin("Particles", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    ImGui::SetNextWindowCollapsed(!lives_ && screen.x < points(1000), ImGuiCond_Once);
+    ImGui::Begin("Groups", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     changed_ = false;
-    const Action action = drawHead(scene, unsaved);
+    const Action action = drawHead(running.scene, unsaved);
     for (Edited& group : groups_) {
         ImGui::PushID(int(group.group));
-        drawGroup(group, scene, simulation, renderer);
+        drawGroup(group, running);
         ImGui::PopID();
     }
     ImGui::End();
@@ -90,7 +93,10 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     return action;
 }
 
-void ScenePanel::drawGroup(Edited& edited, Scene& scene, Simulation& simulation, Renderer& renderer) {
+void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
+    Scene& scene = running.scene;
+    Simulation& simulation = running.simulation();
+    Renderer& renderer = running.renderer();
     Group& group = scene.groups[edited.group];
     const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
     if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
@@ -108,6 +114,13 @@ void ScenePanel::drawGroup(Edited& edited, Scene& scene, Simulation& simulation,
         const double before = group.particle->mass;
         looks = edited.looks->draw(*group.particle, group.life.has_value());
         mass = group.particle->mass != before;  // the plan has it
+        ImGui::TreePop();
+    }
+    if (!edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+        const bool material = drawMaterial(group, running.choices.groups[group.name]);
+        if (material && planGroup) renderer.changeLooks(*planGroup, group);
+        if (material) said_.clear();
+        changed_ |= material;
         ImGui::TreePop();
     }
     changed_ |= life || looks;

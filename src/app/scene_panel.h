@@ -1,5 +1,4 @@
-// The second panel, of scenes of point particles or in which something is born or dies: each such group's
-// numbers, edited while it runs, and saved into the scene file.
+// The second panel: each group's looks, birth and death, edited while it runs, and saved into the scene file.
 //
 // What can change at once does; for what needs another plan the panel asks for a rebuild when the user lets
 // go.
@@ -10,8 +9,7 @@
 
 #include "app/life_editor.h"
 #include "app/particle_editor.h"
-#include "render/renderer.h"
-#include "simulate/simulation.h"
+#include "app/running_scene.h"
 
 namespace shoal::app {
 
@@ -24,8 +22,8 @@ class ScenePanel {
     bool empty() const { return groups_.empty(); }
     bool changed() const { return changed_; }  // in the last draw
     bool pending() const { return pending_; }  // something was edited that does not run yet
-    // Edits `scene`, which the simulation runs. `unsaved`: it is not as its file.
-    Action draw(Scene& scene, Simulation& simulation, Renderer& renderer, bool unsaved);
+    // Edits running.scene and its choices. `unsaved`: it is not as its file.
+    Action draw(RunningScene& running, bool unsaved);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
     void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
@@ -40,12 +38,13 @@ class ScenePanel {
     };
     Action drawHead(const Scene& scene, bool unsaved);
     static std::optional<Edited> edited(const Scene& scene, size_t group);
-    void drawGroup(Edited& edited, Scene& scene, Simulation& simulation, Renderer& renderer);
+    void drawGroup(Edited& edited, RunningScene& running);
     void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
 
     std::vector<Edited> groups_;
     std::string said_;
     bool changed_ = false;
+    bool lives_ = false;    // particles, or something is born or dies
     bool pending_ = false;  // a rebuild, when the user lets go
 };
 

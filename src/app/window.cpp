@@ -5,17 +5,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <thread>
 #include <utility>
 
 #include "app/checkpoints.h"
 #include "app/data_paths.h"
+#include "app/help.h"
 #include "app/interface.h"
 #include "app/keys.h"
+#include "app/method_error.h"
+#include "app/molecule_window.h"
 #include "app/notices.h"
 #include "app/open_scene.h"
+#include "app/recorder.h"
 #include "app/run.h"
 #include "app/scene_list.h"
 #include "core/cache_folder.h"
@@ -65,6 +71,7 @@ class WindowRun {
             if (!showFrame()) break;
         }
         if (!open_) return;
+        if (recorder_.records()) toggleRecording();
         saveIfAsked(true);
         if (open_->running.unsaved())
             std::cerr << "shoal: warning: what was changed in the window was not saved in "
@@ -114,7 +121,8 @@ class WindowRun {
         OpenScene& open = *open_;
         const gpu::Traffic before = context_.traffic();
         holdForces();
-        if (!open.controls.paused || steps_) {
+        const bool steps = !open.controls.paused || steps_;
+        if (steps) {
             Simulation& simulation = open.simulation();
             open.controls.lead(simulation.parameters, simulation.plan(), simulation.parameters.frameTime);
             advance();
@@ -122,32 +130,52 @@ class WindowRun {
         steps_ = false;
         Renderer& renderer = open.running.renderer();
         if (width_ != renderer.width() || height_ != renderer.height()) renderer.resize(width_, height_);
-        View view = open.camera.view();
-        view.time = open.simulation().time();
+        open.readPicked();
         try {
-            renderer.draw(open.simulation().state(), view);
+            open.drawPicture(1.5 * interface_.pixelsPerPoint());
         } catch (const Error& error) {  // a program is made when it is needed first
             message_ = error.what();
         }
         renderer.present(width_, height_);
         lastFrame_ = context_.traffic() - before;
+        if (recorder_.records() && steps) attempt([&] { recorder_.add(renderer.capture()); });
     }
 
     void drawInterface() {
-        if (open_) {
-            Simulation& simulation = open_->simulation();
-            wish_.panel = open_->panel.draw(open_->controls, simulation, open_->running.renderer(),
-                                            frameSeconds_, lastFrame_);
-            drawScenePanel();
-            moveCamera();
-            drawNotices();
-        }
+        if (open_) drawOpenScene();
         if (!opening_.empty()) {
             drawOpening(opening_);
         } else if (chooser_.open) {
             wish_.open = chooser_.draw(!open_, open_ ? std::string() : message_);
         }
+        if (helps_) helps_ = showHelp("Keys", windowHelp);
         pressKeys();
+    }
+
+    void drawOpenScene() {
+        OpenScene& open = *open_;
+        if (!hidden_) {
+            wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
+                                          *open.explanations, frameSeconds_, lastFrame_);
+            drawPicked();
+        }
+        drawScenePanel();
+        moveCamera();
+        drawNotices();
+    }
+
+    void drawPicked() {
+        OpenScene& open = *open_;
+        if (!open.explanations->picked || !open.numbers) return;
+        const double aspect = double(width_) / height_;
+        if (const auto at = onScreen(open.view(), open.numbers->middle, aspect))
+            markMolecule(*at, points(14));
+        const PickedMolecule& picked = *open.explanations->picked;
+        const Group& group = open.running.scene.groups[open.simulation().plan().groups[picked.group].index];
+        const MoleculeAction action =
+            showMolecule(picked, group.name, group.molecule, *open.numbers, open.follows, points(328));
+        if (action == MoleculeAction::follow) open.follows = !open.follows;
+        if (action == MoleculeAction::close) open.forget();
     }
 
     // What runs away stands still, to be looked at and restarted.
@@ -188,13 +216,19 @@ class WindowRun {
     // What needs another simulation or may fail; what cannot be had is said, and what ran runs on.
     template <typename Work>
     void change(const Work& work) {
+        message_.clear();
+        attempt(work);
+        open_->follow();
+    }
+
+    template <typename Work>
+    void attempt(const Work& work) {
         try {
             work();
-            message_.clear();
         } catch (const Error& error) {
             message_ = error.what();
+            std::cerr << "shoal: warning: " << message_ << std::endl;
         }
-        open_->follow();
     }
 
     void obey() {
@@ -215,6 +249,7 @@ class WindowRun {
             running.simulation().restart();
             break;
         case Panel::Action::resetCamera:
+            open_->follows = false;
             open_->camera.reset();
             break;
         case Panel::Action::rebuild:
@@ -229,10 +264,49 @@ class WindowRun {
         case Panel::Action::scenes:
             listScenes();
             break;
+        case Panel::Action::measure:
+            measureMethod();
+            break;
         }
         if (wish_.scene == ScenePanel::Action::save) saveScene();
         if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
         if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
+    }
+
+    void measureMethod() {
+        measure::AccuracyDevice device;
+        device.context = &context_;
+        device.shaderRoot = shaderRoot();
+        device.cache = &cache_;
+        device.cores = int(std::max(1u, std::thread::hardware_concurrency()));
+        device.path = open_->simulation().path().path;
+        open_->panel.error = methodError(open_->running.scene, open_->simulation(), device);
+        std::cout << open_->panel.error << std::endl;
+    }
+
+    // ---- Pictures and videos, without the panels
+
+    std::string stem() const { return sceneStem(open_->running.scene.file); }
+
+    void tell(const std::string& line) {
+        status_.say(line);
+        std::cout << line << std::endl;
+    }
+
+    void takePicture() {
+        attempt([&] {
+            const std::string file = freeName(stem(), ".png");
+            writePng(file, open_->running.renderer().capture());
+            tell("picture: " + file);
+        });
+    }
+
+    void toggleRecording() {
+        attempt([&] {
+            if (!recorder_.records()) return recorder_.start(stem(), open_->running.scene.frameRate);
+            recorder_.stop();
+            tell(concat("recorded: ", recorder_.target(), ", ", recorder_.frames(), " frames"));
+        });
     }
 
     // ---- Opening
@@ -257,6 +331,7 @@ class WindowRun {
     // After a frame that says so, because it may take a while.
     void openNow() {
         if (std::exchange(saidOpening_, !saidOpening_) == false) return;
+        if (recorder_.records()) toggleRecording();
         Options options = optionsOf(std::exchange(opening_, {}));
         try {
             Loaded loaded = load(options);
@@ -293,9 +368,8 @@ class WindowRun {
     void drawScenePanel() {
         OpenScene& open = *open_;
         const bool changed = open.running.unsaved();
-        if (!open.scenePanel.empty()) {
-            wish_.scene =
-                open.scenePanel.draw(open.running.scene, open.simulation(), open.running.renderer(), changed);
+        if (!hidden_) {
+            wish_.scene = open.scenePanel.draw(open.running, changed);
             if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
         }
         if (std::exchange(shownUnsaved_, changed) != changed)
@@ -331,8 +405,11 @@ class WindowRun {
 
     void drawNotices() {
         HotReload& reload = open_->reload;
-        const float right = open_->scenePanel.empty() ? points(12) : points(392);
-        const bool closed = showNotices(reload.problem(), message_, points(328), right);
+        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ", recorder_.frames(),
+                                                  " frames; V stops")
+                                         : std::string());
+        const bool closed =
+            showNotices(reload.problem(), message_, points(hidden_ ? 12 : 328), points(hidden_ ? 12 : 392));
         if (closed) message_.clear();
         if (reload.conflicts().empty() || asked_) return;
         const std::optional<Prefer> answer = askWhoWins(reload.conflicts());
@@ -374,29 +451,63 @@ class WindowRun {
         if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
             camera.pan(dx, dy);
         if (io.MouseWheel != 0) camera.zoom(double(io.MouseWheel));
+        pickOnClick();
+    }
+
+    // A click, and not a drag that turns the camera.
+    void pickOnClick() {
+        const ImGuiIO& io = ImGui::GetIO();
+        constexpr float still = 3;  // points
+        if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) pressedAt_ = io.MousePos;
+        if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || io.KeyShift || !pressedAt_) return;
+        const ImVec2 from = *std::exchange(pressedAt_, {});
+        if (std::hypot(io.MousePos.x - from.x, io.MousePos.y - from.y) > points(still)) return;
+        open_->pick({io.MousePos.x / io.DisplaySize.x, io.MousePos.y / io.DisplaySize.y},
+                    double(width_) / height_, height_);
+        if (const auto& picked = open_->explanations->picked)
+            std::cout << "picked: " << open_->simulation().plan().groups[picked->group].name << " "
+                      << picked->molecule << std::endl;
     }
 
     void pressKeys() {
         keys_.look(!ImGui::GetIO().WantCaptureKeyboard);
+        if (keys_.pressed(GLFW_KEY_F1) || keys_.pressed(GLFW_KEY_SLASH)) helps_ = !helps_;
         if (keys_.pressed(GLFW_KEY_O) && !asked_ && opening_.empty()) listScenes();
         if (keys_.pressed(GLFW_KEY_ESCAPE)) escape();
-        if (!open_) return;
+        if (open_) pressSceneKeys();
+    }
+
+    void pressSceneKeys() {
         Controls& controls = open_->controls;
+        ExplanationSettings& settings = open_->explanations->settings;
         if (keys_.pressed(GLFW_KEY_SPACE)) controls.paused = !controls.paused;
-        if (keys_.pressed(GLFW_KEY_S) && keys_.control() && !open_->scenePanel.empty())
-            wish_.scene = ScenePanel::Action::save;
+        if (keys_.pressed(GLFW_KEY_S) && keys_.control()) wish_.scene = ScenePanel::Action::save;
         if (keys_.pressed(GLFW_KEY_R)) wish_.panel = Panel::Action::restart;
-        if (keys_.pressed(GLFW_KEY_C)) wish_.panel = Panel::Action::resetCamera;
+        if (keys_.pressed(GLFW_KEY_C) || keys_.pressed(GLFW_KEY_4)) wish_.panel = Panel::Action::resetCamera;
         if (keys_.pressed(GLFW_KEY_PERIOD)) {
             controls.paused = true;
             wish_.panel = Panel::Action::step;
         }
+        if (keys_.pressed(GLFW_KEY_X)) settings.springs = !settings.springs;
+        if (keys_.pressed(GLFW_KEY_F)) settings.field = !settings.field;
+        if (keys_.pressed(GLFW_KEY_H)) hidden_ = !hidden_;
+        if (keys_.pressed(GLFW_KEY_P)) takePicture();
+        if (keys_.pressed(GLFW_KEY_V)) toggleRecording();
+        constexpr double quarter = 1.5707963267948966;  // rad
+        if (keys_.pressed(GLFW_KEY_1)) open_->camera.lookFrom(0, 0);
+        if (keys_.pressed(GLFW_KEY_2)) open_->camera.lookFrom(quarter, 0);
+        if (keys_.pressed(GLFW_KEY_3)) open_->camera.lookFrom(0, quarter);
+        if (keys_.pressed(GLFW_KEY_5) && open_->explanations->picked) open_->follows = !open_->follows;
     }
 
     // What lies on top goes first, the window last.
     void escape() {
-        if (chooser_.open && open_)
+        if (helps_)
+            helps_ = false;
+        else if (chooser_.open && open_)
             chooser_.open = false;
+        else if (open_ && open_->explanations->picked)
+            open_->forget();
         else
             glfwSetWindowShouldClose(window_, GLFW_TRUE);
     }
@@ -431,8 +542,12 @@ class WindowRun {
     std::optional<Wish> asked_;  // to close or open, while something is not saved
     bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
     gpu::Traffic lastFrame_;
-    std::string message_;
-    double frameSeconds_ = 0;  // s, wall clock, smoothed
+    Recorder recorder_;
+    std::string message_;  // until it is closed
+    StatusLine status_;
+    std::optional<ImVec2> pressedAt_;      // where the left button went down on the picture
+    bool helps_ = false, hidden_ = false;  // the keys are shown; the panels are not
+    double frameSeconds_ = 0;              // s, wall clock, smoothed
     int width_ = 0, height_ = 0, shown_ = 0;
 };
 

@@ -19,8 +19,12 @@ struct Generated {
     std::vector<glm::vec4> parameters;
 };
 
+struct GeneratedFields : Generated {
+    std::vector<size_t> weights;  // of each field: the parameter whose w is its weight
+};
+
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
-Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
 // 4-vectors of uniforms that fields, and colliders, may each take: within what OpenGL 3.3 promises a fragment
 // shader (1024 components), with room for the passes' own.
 constexpr size_t maxParameters = 200;

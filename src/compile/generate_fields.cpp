@@ -15,7 +15,7 @@ class FieldWriter {
   public:
     explicit FieldWriter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
 
-    Generated result;
+    GeneratedFields result;
 
     // Appends a 4-vector and returns the text that reads it.
     std::string slot(const glm::dvec3& v, double w = 0) {
@@ -27,6 +27,7 @@ class FieldWriter {
     void field(const Field& field) {
         result.source += concat("    // ", kindName(field.shape), " ", inComment(field.name), "\n");
         const std::string call = std::visit([this](const auto& shape) { return emit(shape); }, field.shape);
+        result.weights.push_back(result.parameters.size());
         const std::string weight = slot({}, field.weight) + ".w";
         std::string guard;
         if (field.box) {
@@ -103,11 +104,11 @@ class FieldWriter {
 
 }  // namespace
 
-Generated generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
+GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
     FieldWriter writer(samples);
     for (const Field& field : fields)
         writer.field(field);
-    Generated out = std::move(writer.result);
+    GeneratedFields out = std::move(writer.result);
     out.source =
         concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
                parameterArray("fieldParameters", out.parameters.size()),

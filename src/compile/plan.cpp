@@ -298,7 +298,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& g) { return g.needs.*need; });
     };
-    Generated fields;
+    GeneratedFields fields;
     GeneratedColliders colliders;
     plan.fieldCount = scene.fields.size();
     plan.colliderCount = scene.colliders.size();
@@ -323,6 +323,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                        " 4-vectors of uniforms, more than the ", maxForceParameters, " that they may"));
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
+    plan.fieldWeights = std::move(fields.weights);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)

@@ -36,6 +36,9 @@ class DrawnGroups {
     // Of a group of particles of the plan: ParticleDrawer::change. True where the group is not drawn.
     bool changeParticle(size_t group, const ParticleType& type, const Lighting& lighting);
 
+    // Of a group of molecules of the plan: MoleculeDrawer::change.
+    void changeLooks(size_t group, const Group& looks);
+
     const DrawOrder* orderOf(size_t group) const;  // of the plan; null: it has none. For tests
 
   private:

@@ -8,10 +8,8 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
                                const GroupPlan& plan, size_t index, const Lighting& lighting)
     : GroupDrawer(context, shaderRoot, plan, index),
       material_(group.molecule.material),
-      color_(group.color.value_or(material_.color)),
-      secondColor_(group.secondColor ? *group.secondColor
-                                     : group.color.value_or(material_.secondColor.value_or(material_.color))),
       points_(group.molecule.triangles.empty()) {
+    change(group);
     if (points_)
         stream_ = {plan.vertexCount, false};
     else
@@ -22,6 +20,16 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
     }
     if (!points_ && !material_.texture.empty()) image_ = loadLeafImage(context, group.molecule);
     chooseShaders(lighting);
+}
+
+void MoleculeDrawer::change(const Group& group) {
+    const Material& looks = group.molecule.material;
+    material_.roughness = looks.roughness;
+    material_.translucency = looks.translucency;
+    material_.opacity = looks.opacity;
+    color_ = group.color.value_or(looks.color);
+    secondColor_ = group.secondColor ? *group.secondColor
+                                     : group.color.value_or(looks.secondColor.value_or(looks.color));
 }
 
 void MoleculeDrawer::makeCorners(const Molecule& molecule) {

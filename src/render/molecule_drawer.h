@@ -15,6 +15,9 @@ class MoleculeDrawer : public GroupDrawer {
     const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
     const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
 
+    // Other colours, roughness, translucency and opacity; the rest of the group is as before.
+    void change(const Group& group);
+
   private:
     void makeCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);

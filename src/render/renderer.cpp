@@ -56,7 +56,7 @@ void Renderer::resize(int width, int height) {
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
 
-void Renderer::draw(const StateView& state, const View& view) {
+void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) {
     const Eye eye(view, width(), height());
     const DrawInputs inputs{eye, lighting_, sceneDepth_ ? &sceneDepth_ : nullptr, samples_.samples() > 1};
     glDisable(GL_BLEND);
@@ -82,6 +82,10 @@ void Renderer::draw(const StateView& state, const View& view) {
     {
         const auto timer = timers_.time("molecules");
         groups_.draw(state, inputs);
+    }
+    if (overlay) {
+        const auto timer = timers_.time("overlay");
+        overlay->draw(state, inputs);
     }
     drawSky(eye);
     if (sceneDepth_) copyDepth();

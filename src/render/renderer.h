@@ -33,6 +33,13 @@ struct RenderOptions {
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
 };
 
+// What is drawn among the molecules to show how they work; part of the picture, with its depth.
+class Overlay {
+  public:
+    virtual ~Overlay() = default;
+    virtual void draw(const StateView& state, const DrawInputs& inputs) = 0;
+};
+
 class Renderer {
   public:
     // `plan` with its packed start state. Error: an image of a material is missing or not a PNG.
@@ -46,7 +53,7 @@ class Renderer {
 
     // Into the renderer's own picture; nothing of OpenGL's state is kept from before nor restored afterwards,
     // except that blending, depth and face culling are off at the end.
-    void draw(const StateView& state, const View& view);
+    void draw(const StateView& state, const View& view, Overlay* overlay = nullptr);
     // The last picture into the window's framebuffer.
     void present(int width, int height) const;
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
@@ -57,6 +64,10 @@ class Renderer {
     bool changeParticle(size_t group, const ParticleType& type) {
         return groups_.changeParticle(group, type, lighting_);
     }
+
+    // Another colour, roughness, translucency or opacity for a group of molecules of the plan, from the next
+    // picture on.
+    void changeLooks(size_t group, const Group& looks) { groups_.changeLooks(group, looks); }
 
     gpu::PassTimers& timers() { return timers_; }
     // In which a blended group of the plan was last drawn; null: it has none. For tests.

@@ -266,6 +266,33 @@ GroupState GroupBuffers::readSide(const GroupPlan& group, const Buffer& side) co
     return state;
 }
 
+GroupState GroupBuffers::readOne(size_t molecule) const {
+    const int elements = layout_.stateElements();
+    const size_t block = size_t(BufferLayout::block), lane = molecule % block;
+    const auto read = [&](const Buffer& buffer, int each) {
+        std::vector<glm::vec4> out(block * size_t(each));
+        const size_t bytes = out.size() * sizeof(glm::vec4);
+        buffer.download(Traffic::Kind::state, molecule / block * bytes, out.data(), bytes);
+        return out;
+    };
+    const std::vector<glm::vec4> packed = read(state_[size_t(current_)], elements);
+    const auto ownVertices = [&](int first) {
+        const std::vector<glm::vec3> all = unpack(layout_, packed, first, elements, block);
+        const size_t vertices = size_t(layout_.vertexCount);
+        const auto begin = all.begin() + std::ptrdiff_t(lane * vertices);
+        return std::vector<glm::vec3>(begin, begin + std::ptrdiff_t(vertices));
+    };
+    GroupState out;
+    out.positions = ownVertices(0);
+    out.velocities = ownVertices(layout_.positionElements());
+    const glm::vec4 record = read(records_, 1)[lane];
+    out.anchors.emplace_back(record);
+    out.released.push_back(std::signbit(record.w));
+    if (layout_.life) out.lives.push_back(unpackLives(layout_, packed, block)[lane]);
+    out.looks.emplace_back(constants_ ? glm::vec2(read(constants_, 1)[lane]) : glm::vec2(1, 0));
+    return out;
+}
+
 std::vector<glm::vec3> GroupBuffers::readNormals(const GroupPlan& group) const {
     return unpack(layout_, download(normals_), 0, layout_.positionElements(), size_t(group.count));
 }

@@ -28,6 +28,8 @@ class GroupBuffers {
 
     void write(const GroupPlan& group, const GroupState& state);
     GroupState read(const GroupPlan& group) const;
+    // Of one molecule; a block of them crosses the bus. Its scale and phase are in `looks`.
+    GroupState readOne(size_t molecule) const;
     // The side before the last frame, with two of them; anchors and released pins are those of now.
     GroupState readBefore(const GroupPlan& group) const;
     std::vector<glm::vec3> readNormals(

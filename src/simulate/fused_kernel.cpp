@@ -198,6 +198,8 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
     program.set("givenStageDecay", stage.drag.decay);
     program.set("givenStagePhi", stage.drag.phi);
     program.set("givenRestarts", int(frame.restarts));
+    if (group.needs.fields)
+        program.set("givenFieldParameters", std::span<const glm::vec4>(fieldParameters(plan, frame)));
     if (group.forces.any())
         program.set("givenForceParameters", std::span<const glm::vec4>(forceParameters(plan, group, frame)));
     if (group.needs.collide && !plan.movingColliders.empty())

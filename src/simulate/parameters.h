@@ -22,6 +22,7 @@ struct Parameters {
     double wind = 1;                              // factor on every field
     double drag = 1, stiffness = 1, damping = 1;  // factors on top of each group's own
     std::vector<ForceControl> forces;             // as many as the plan has
+    std::vector<double> fields;                   // factors on the fields' weights; those left out: 1
     int substeps = 4;                             // per frame
     double frameTime = 1.0 / 60;                  // s
 };

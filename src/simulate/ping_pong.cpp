@@ -79,9 +79,6 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         options.cache = cache;
         program = Program(context, shaderRoot, options);
         program.use();
-        if ((pass.kind == PassKind::advect || pass.kind == PassKind::stage) &&
-            plan.groups[pass.group].needs.fields)
-            program.set("fieldParameters", std::span<const glm::vec4>(plan.fieldParameters));
         if (pass.kind == PassKind::collide)
             program.set("colliderParameters",
                         std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
@@ -227,6 +224,8 @@ void PingPong::setSprings(const Program& program, const GroupPlan& group, const 
 }
 
 void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
+    if (step.first && group.needs.fields && (kind == PassKind::advect || kind == PassKind::stage))
+        program.set("fieldParameters", std::span<const glm::vec4>(fieldParameters(*plan_, step.frame)));
     if (!step.first || !readsForces(kind, group.needs)) return;
     program.set("forceParameters", std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
 }

@@ -95,6 +95,8 @@ class Simulation {
 
     // State bytes are counted as they cross the bus.
     Snapshot snapshot(size_t group) const;
+    // Of one molecule, with its scale and phase in `looks`; a few hundred bytes cross the bus. Waits.
+    GroupState readMolecule(size_t group, size_t molecule) const;
     SavedState save() const;
     // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
     // ping-pong path, in place, where some are born or die or school, and without a frame since the last load

@@ -15,6 +15,11 @@ GroupState Simulation::readGroup(size_t index) const {
     return std::get<PingPong>(path_).state.read(group, index);
 }
 
+GroupState Simulation::readMolecule(size_t group, size_t molecule) const {
+    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->state[group].readOne(molecule);
+    return std::get<PingPong>(path_).state.readOne(plan_.groups[group], group, molecule);
+}
+
 void Simulation::writeGroup(size_t index, const GroupState& state, double time) {
     const GroupPlan& group = plan_.groups[index];
     if (auto* fused = std::get_if<Fused>(&path_)) {

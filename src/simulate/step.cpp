@@ -1,5 +1,6 @@
 #include "simulate/step.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,14 @@ ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame) {
     constexpr double never = std::numeric_limits<float>::max();
     const double chance = -std::expm1(-group.release.rate.value_or(0) * frame.parameters.frameTime);
     return {float(may ? group.release.force.value_or(never) : never), float(may ? chance : 0)};
+}
+
+std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame) {
+    std::vector<glm::vec4> out = plan.fieldParameters;
+    const std::vector<double>& factors = frame.parameters.fields;
+    for (size_t i = 0; i < std::min(factors.size(), plan.fieldWeights.size()); ++i)
+        out[plan.fieldWeights[i]].w *= float(factors[i]);
+    return out;
 }
 
 std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame) {

@@ -50,6 +50,9 @@ struct ReleaseLimits {
 };
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
 
+// With the weights as the frame has them.
+std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame);
+
 // A group's, with the colliders where they are in this frame.
 std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& group, const Frame& frame);
 

@@ -103,6 +103,26 @@ GroupState TextureState::read(const GroupPlan& group, size_t index) const {
     return state;
 }
 
+GroupState TextureState::readOne(const GroupPlan& group, size_t index, size_t molecule) const {
+    const auto texel = [&](const Texture& texture, int firstRow, size_t slab) {
+        glm::vec4 out(0);
+        const size_t row = size_t(firstRow) + slab * size_t(group.texture.slabRows) + molecule / stateWidth;
+        texture.download(Traffic::Kind::state, int(molecule % stateWidth), int(row), 1, 1, &out, sizeof out);
+        return out;
+    };
+    GroupState state;
+    for (size_t v = 0; v < size_t(group.vertexCount); ++v) {
+        state.positions.emplace_back(texel(position.read(index), group.texture.firstRow, v));
+        state.velocities.emplace_back(texel(velocity.read(index), group.texture.firstRow, v));
+    }
+    const glm::vec4 own = texel(record.read(index), group.texture.firstRecordRow, 0);
+    state.anchors.emplace_back(own);
+    state.released.push_back(own.w > 0.5f);
+    const glm::vec4 look = texel(constant, group.texture.firstRecordRow, 0);
+    state.looks.emplace_back(look.y, look.z);
+    return state;
+}
+
 std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
     return asVertices(group, downloadRows(normal, group.texture.firstRow, group.texture.rows));
 }

@@ -1,0 +1,53 @@
+// A molecule's springs as lines, straight from the state, coloured by their strain. Variants: SCALED (instances differ
+// in size).
+
+#include "lib/molecule.glsl"
+
+layout(location = 0) in vec3 spring;  // x one end, y the other end (vertices), z rest length, m; alike at six corners
+
+uniform mat4 toClip;
+uniform int firstMolecule;
+uniform float strainShown;  // at which a colour is full
+uniform vec2 halfWidth;     // of a line, in clip space
+
+#ifdef STATE_BUFFERS
+#ifdef SCALED
+uniform samplerBuffer constants;  // x scale
+#endif
+
+float moleculeScale(int molecule)
+{
+#ifdef SCALED
+    return texelFetch(constants, molecule).x;
+#else
+    return 1.0;
+#endif
+}
+#else
+float moleculeScale(int molecule)
+{
+    return texelFetch(constants, recordTexel(molecule), 0).y;
+}
+#endif
+
+out vec3 color;
+
+void main()
+{
+    int molecule = firstMolecule + gl_InstanceID;
+    int corner = gl_VertexID % 6;
+    bool atStart = corner == 0 || corner == 1 || corner == 3;
+    bool left = corner == 0 || corner == 3 || corner == 5;
+    vec3 here = vertexPlace(molecule, int(spring.x)), there = vertexPlace(molecule, int(spring.y));
+    float rest = spring.z * moleculeScale(molecule);
+    float strain = clamp((distance(here, there) / max(rest, 1e-9) - 1.0) / strainShown, -1.0, 1.0);
+    vec3 full = strain > 0.0 ? vec3(2.2, 0.18, 0.05) : vec3(0.08, 0.3, 2.4);
+    color = mix(vec3(0.75, 0.8, 0.65), full, abs(strain));
+    // a little nearer than the surface that it lies in
+    vec4 from = toClip * vec4(here * 0.998, 1.0), to = toClip * vec4(there * 0.998, 1.0);
+    vec2 along = (to.xy / to.w - from.xy / from.w) / halfWidth;
+    vec2 across = vec2(-along.y, along.x) / max(length(along), 1e-6) * halfWidth;
+    gl_Position = atStart ? from : to;
+    gl_Position.xy += (left ? across : -across) * gl_Position.w;
+    if (!isAlive(molecule)) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
+}

@@ -1,0 +1,74 @@
+#include "app/molecule_window.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "app/interface.h"
+#include "core/error.h"
+
+namespace shoal::app {
+
+namespace {
+
+void row(const char* label) {
+    ImGui::TextDisabled("%s", label);
+    ImGui::SameLine(points(96));
+}
+
+}  // namespace
+
+MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
+                            const MoleculeNumbers& numbers, bool follows, float left) {
+    MoleculeAction action = MoleculeAction::none;
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float width = points(300);
+    ImGui::SetNextWindowPos(
+        ImVec2(std::max(points(12), std::min(left, screen.x - width - points(12))), screen.y - points(12)),
+        ImGuiCond_Always, ImVec2(0, 1));
+    ImGui::SetNextWindowSize(ImVec2(width, 0), ImGuiCond_Always);
+    bool open = true;
+    ImGui::Begin(concat(group, ", number ", picked.molecule, "###molecule").c_str(), &open,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoCollapse);
+    if (!numbers.alive) ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "It is not alive any more.");
+    row("position");
+    ImGui::Text("%.3f %.3f %.3f m", numbers.middle.x, numbers.middle.y, numbers.middle.z);
+    row("speed");
+    ImGui::Text("%.3f m/s", glm::length(numbers.velocity));
+    row("velocity");
+    ImGui::Text("%.2f %.2f %.2f m/s", numbers.velocity.x, numbers.velocity.y, numbers.velocity.z);
+    if (numbers.life) {
+        row("age");
+        if (numbers.life->y > 1e6)
+            ImGui::Text("%.2f s", numbers.life->x);
+        else
+            ImGui::Text("%.2f of %.2f s", numbers.life->x, numbers.life->y);
+    }
+    row("energy");
+    ImGui::Text("%.3g J, springs %.3g J", numbers.kinetic, numbers.elastic);
+    if (numbers.strained >= 0) {
+        const Spring& spring = shape.springs[size_t(numbers.strained)];
+        row("strain");
+        ImGui::Text("%+.1f %%, spring %d (%d-%d)", 100 * numbers.strain, numbers.strained, spring.a,
+                    spring.b);
+    }
+    row("scale");
+    ImGui::Text("%.3g%s", numbers.scale,
+                !shape.hasPins()   ? ""
+                : numbers.released ? ", its pins have let go"
+                                   : ", held by its pins");
+    if (ImGui::Button(follows ? "Stop following" : "Follow")) action = MoleculeAction::follow;
+    ImGui::End();
+    return open ? action : MoleculeAction::close;
+}
+
+void markMolecule(const glm::dvec2& place, float radius) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const ImVec2 at(float(place.x) * screen.x, float(place.y) * screen.y);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    list.AddCircle(at, radius + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
+    list.AddCircle(at, radius, IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
+}
+
+}  // namespace shoal::app
