@@ -1,0 +1,80 @@
+// Looking closer in the window: a molecule is picked, springs and arrows are drawn, pictures and videos
+// taken. Needs a display and xdotool.
+#include "cli/shoal_command.h"
+#include "cli/window_user.h"
+#include "core/image.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// One large triangle that hangs still in the middle of the picture, in a steady wind that does not move it.
+constexpr const char* still = R"({
+  "format": "shoal-scene-1", "name": "still",
+  "fields": [{"type": "uniform", "velocity": [2, 0, 0]}],
+  "groups": [
+    {"name": "sail", "molecule": "sail.json", "count": 1, "place": {"on": "list", "items": [{"position": [0, 0, 0]}]}}
+  ],
+  "camera": {"eye": [0, 0, 3], "target": [0, 0, 0]}
+}
+)";
+constexpr const char* sail = R"({
+  "format": "shoal-molecule-1", "name": "sail",
+  "defaults": {"mass": 1, "stiffness": 20},
+  "vertices": [{"position": [-0.5, -0.4, 0]}, {"position": [0.5, -0.4, 0]}, {"position": [0, 0.5, 0]}],
+  "springs": [{"a": 0, "b": 1}, {"a": 1, "b": 2}, {"a": 0, "b": 2}],
+  "triangles": [[0, 1, 2]],
+  "material": {"color": [0.02, 0.3, 0.02]}
+}
+)";
+
+int differing(const Image& a, const Image& b) {
+    int out = 0;
+    for (size_t i = 0; i < a.pixels.size(); i += 4)
+        out += std::abs(int(a.pixels[i]) - int(b.pixels[i])) +
+                   std::abs(int(a.pixels[i + 2]) - int(b.pixels[i + 2])) >
+               60;
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a molecule is picked by a click, and pictures show what is switched on", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string scene = scratch.write("still.scene.json", still);
+    scratch.write("sail.json", sail);
+    scratch.write("still-002.png", "mine");  // is not written over
+    // a click beside it picks nothing; the pictures: plain, with springs, with arrows as well, without both,
+    // from the side
+    User user("Shoal - still",
+              "press 420 80; press 450 250\n"
+              "key Escape; key p; key x; key p; key f; key p; key x; key f; key p; key 2; key p\n"
+              "key v; sleep 1; key v; key Escape\n");
+    const Outcome outcome = runShoal({"run", scene, "--context", "window", "--size", "900x500"},
+                                     {.folder = scratch.path(""), .seconds = 90});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    CHECK(outcome.messages().empty());
+    CHECK(user.finish() == 0);
+    const size_t at = outcome.out.find("picked: sail 0");
+    REQUIRE(at != std::string::npos);
+    CHECK(outcome.out.find("picked", at + 1) == std::string::npos);
+    CHECK_THAT(outcome.out,
+               Catch::Contains("recorded: still-001.mp4, ") || Catch::Contains("recorded: still-001, "));
+
+    const auto picture = [&](const char* name) { return readPng(scratch.path(name)); };
+    const Image plain = picture("still-001.png"), springs = picture("still-003.png");
+    const Image arrows = picture("still-004.png"), again = picture("still-005.png");
+    const Image side = picture("still-006.png");
+    CHECK(plain.width == 900);
+    CHECK(plain.height == 500);
+    CHECK(differing(plain, springs) > 200);
+    CHECK(differing(springs, arrows) > 200);
+    CHECK(differing(plain, again) == 0);
+    CHECK(differing(plain, side) > 5000);
+    CHECK(readFile(scratch.path("still-002.png")) == "mine");
+}
