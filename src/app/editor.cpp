@@ -39,7 +39,7 @@ View viewOf(const Molecule& molecule, const glm::dvec3& from) {
     View view;
     view.fieldOfView = 0.7;
     view.target = middleOf(molecule);
-    view.eye = view.target + glm::normalize(from) * (2.2 * molecule.size());
+    view.eye = view.target + glm::normalize(from) * (2.7 * std::max(molecule.size(), 1e-3));
     return view;
 }
 
@@ -524,6 +524,8 @@ class EditorWindow {
             return measure();
         case EditorAction::reload:
             return reload();
+        case EditorAction::none:
+            return;
         default:
             break;
         }

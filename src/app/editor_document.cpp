@@ -21,6 +21,39 @@ std::filesystem::file_time_type timeOf(const std::string& file) {
     return code ? std::filesystem::file_time_type{} : time;
 }
 
+JsonValue listOf(const std::vector<int>& numbers) {
+    JsonValue out = JsonValue::makeArray();
+    for (const int number : numbers)
+        out.items.push_back(JsonValue::makeNumber(number));
+    return out;
+}
+
+// What an editor of the file kept, if it can still be understood. Its elements are those of the file as long
+// as that has not changed since.
+std::optional<Draft> readKept(const std::string& text, const std::string& file, const std::string& fileText) {
+    try {
+        const JsonValue root = parseJson(text, file);
+        const JsonValue *molecule = root.find("molecule"), *base = root.find("base");
+        if (!molecule || !base) return std::nullopt;
+        Draft out(parseMolecule(writeJson(*molecule), file));
+        JsonReader reader(root, file);
+        const bool same = base->text == contentKey(fileText);
+        for (const auto& [key, list] :
+             {std::pair("vertices", &out.origins.vertices), std::pair("springs", &out.origins.springs),
+              std::pair("triangles", &out.origins.triangles)}) {
+            std::vector<int> origins;
+            reader.get(key, origins);
+            if (same && origins.size() == list->size())
+                *list = origins;
+            else
+                std::fill(list->begin(), list->end(), -1);
+        }
+        return out;
+    } catch (const Error&) {
+        return std::nullopt;
+    }
+}
+
 // Through a link, into what it points to.
 std::filesystem::path targetOf(const std::string& file) {
     std::error_code code;
@@ -48,8 +81,7 @@ EditorDocument::EditorDocument(const std::string& file) : file_(file) {
     changed();
     std::error_code code;
     if (keptFile().empty() || !std::filesystem::is_regular_file(keptFile(), code)) return;
-    const std::string kept = readFile(keptFile());
-    if (kept != text_) recovered_ = kept;
+    recovered_ = readKept(readFile(keptFile()), file_, text_);
 }
 
 void EditorDocument::changed() {
@@ -159,13 +191,7 @@ bool EditorDocument::changedOnDisk() const {
 }
 
 void EditorDocument::takeRecovered() {
-    Molecule molecule = parseMolecule(*recovered_, file_);
-    edit("recover", [&](Draft& draft) {
-        draft.molecule = std::move(molecule);
-        draft.origins.vertices.assign(draft.molecule.vertices.size(), -1);
-        draft.origins.springs.assign(draft.molecule.springs.size(), -1);
-        draft.origins.triangles.assign(draft.molecule.triangles.size(), -1);
-    });
+    edit("recover", [this](Draft& draft) { draft = *recovered_; });
     recovered_.reset();
 }
 
@@ -183,6 +209,18 @@ std::filesystem::path EditorDocument::keptFile() const {
            concat(whole.stem().string(), "-", contentKey(whole.string()).substr(0, 16), ".json");
 }
 
+std::string EditorDocument::kept() const {
+    const Draft& draft = now_.draft;
+    JsonValue root = JsonValue::makeObject();
+    root.add("file", JsonValue::makeString(file_))
+        .add("base", JsonValue::makeString(contentKey(text_)))
+        .add("vertices", listOf(draft.origins.vertices))
+        .add("springs", listOf(draft.origins.springs))
+        .add("triangles", listOf(draft.origins.triangles))
+        .add("molecule", toJson(draft.molecule, true));
+    return writeJson(root);
+}
+
 std::optional<std::string> EditorDocument::keep() {
     if (keptVersion_ == version_ || recovered_) return std::nullopt;
     if (!unsaved_ && keptVersion_ == 0) return std::nullopt;
@@ -193,7 +231,7 @@ std::optional<std::string> EditorDocument::keep() {
     }
     try {
         if (keptFile().empty()) throw Error("neither XDG_STATE_HOME nor HOME is set");
-        writeFile(keptFile(), writeMolecule(now_.draft.molecule, text_));
+        writeFile(keptFile(), kept());
     } catch (const Error& error) {
         if (!std::exchange(toldOfKeeping_, true))
             return concat("what is not saved would be lost in a crash: ", error.what());

@@ -45,8 +45,8 @@ class EditorDocument {
     bool changedOnDisk() const;
 
     // What an earlier editor of the same file left unsaved; nothing: it closed in order.
-    const std::optional<std::string>& recovered() const { return recovered_; }
-    void takeRecovered();  // one step of undo. Error: it cannot be read
+    bool recovered() const { return recovered_.has_value(); }
+    void takeRecovered();  // one step of undo
     void dropRecovered();
     // Writes what is not saved beside what programs keep for themselves (unsavedFolder()); call now and then.
     // Says once why it cannot.
@@ -60,6 +60,7 @@ class EditorDocument {
     };
     void changed();
     void restart(Molecule molecule);
+    std::string kept() const;
     std::filesystem::path keptFile() const;
 
     std::string file_;
@@ -70,7 +71,7 @@ class EditorDocument {
     int lastGesture_ = 0, gestures_ = 0, version_ = 0, keptVersion_ = 0;
     bool unsaved_ = false, toldOfKeeping_ = false;
     std::string problem_;
-    std::optional<std::string> recovered_;
+    std::optional<Draft> recovered_;
     std::filesystem::file_time_type written_{};
 };
 

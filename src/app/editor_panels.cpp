@@ -355,12 +355,15 @@ EditorAction drawTransport(Editor& editor, EditorStage& stage) {
         ImGui::SameLine();
         ImGui::SetNextItemWidth(-1);
         int frame = stage.frame();
+        const bool none = stage.frames() < 2;
+        if (none) ImGui::BeginDisabled();
         const std::string format = concat("frame %d, ", plain(stage.time()), " s");
         if (ImGui::SliderInt("##frame", &frame, 0, std::max(1, stage.frames() - 1), format.c_str(),
                              ImGuiSliderFlags_AlwaysClamp)) {
             stage.playing = false;
             stage.seek(frame);
         }
+        if (none) ImGui::EndDisabled();
         drawSurroundings(editor.stage);
         ImGui::SameLine();
         drawSolver(editor.stage, stage);

@@ -92,6 +92,7 @@ Scene EditorStage::sceneOf(const Molecule& molecule, const StageSettings& settin
     floor.name = "floor";
     floor.shape = PlaneCollider{{0, floor_, 0}, {0, 1, 0}};
     floor.thickness = 0.002 * molecule.size();
+    floor.color = {0.045, 0.05, 0.05};
     scene.colliders.push_back(floor);
     scene.light.direction = {-0.45, -1, -0.5};
     scene.sky.zenith = {0.10, 0.12, 0.15};

@@ -134,7 +134,7 @@ class Painter {
             const ImVec2 p = *places_[v];
             const float fade = fadeAt(projector_.depth(x_[v]));
             const bool selected = overlay_.selection.vertices.contains(int(v));
-            const float size = points(selected ? 5 : 4);
+            const float size = points(selected ? 5.5f : 4.5f);
             if (overlay_.marked.contains(int(v)))
                 list_->AddCircle(p, points(10), rgb(1, 0.6f, 0.1f, 1), 0, points(2));
             if (overlay_.hoveredVertex == int(v))
@@ -142,7 +142,7 @@ class Painter {
             const ImU32 fill = selected ? rgb(1, 0.85f, 0.3f, 1) : rgb(0.92f, 0.96f, 0.9f, fade);
             if (m_.vertices[v].pinned) {  // a square
                 list_->AddRectFilled({p.x - size, p.y - size}, {p.x + size, p.y + size},
-                                     selected ? fill : rgb(0.95f, 0.5f, 0.4f, fade));
+                                     selected ? fill : rgb(1, 0.5f, 0.35f, std::max(0.8f, fade)));
             } else {
                 list_->AddCircleFilled(p, size, fill);
             }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "core/file.h"
+#include "core/file_format.h"
 #include "core/json.h"
 #include "molecule/molecule_file.h"
 
@@ -210,10 +211,7 @@ void readMaterial(JsonReader& root, Material& material) {
 Molecule parseMolecule(const std::string& text, const std::string& file) {
     const JsonValue value = parseJson(text, file);
     JsonReader root(value, file);
-    std::string format;
-    root.need("format", format);
-    if (format != "shoal-molecule-1")
-        throw Error(root.at("format"), "expected the format \"shoal-molecule-1\", found \"" + format + "\"");
+    needFormat(root, "shoal-molecule-1");
     Molecule molecule;
     molecule.file = file;
     root.get("name", molecule.name);

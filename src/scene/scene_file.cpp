@@ -1,6 +1,7 @@
 #include "scene/scene_file.h"
 
 #include "core/file.h"
+#include "core/file_format.h"
 #include "core/json.h"
 #include "scene/scene_reader.h"
 
@@ -77,9 +78,7 @@ void readSky(JsonReader& scene, Sky& sky) {
 Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking) {
     const JsonValue root = parseJson(text, file);
     JsonReader r(root, file);
-    int format = 0;
-    r.require("format");
-    r.choose("format", {"shoal-scene-1"}, format);
+    needFormat(r, "shoal-scene-1");
     refuseHugeNumbers(root, file);
 
     Scene scene;

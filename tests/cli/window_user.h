@@ -32,7 +32,9 @@ class User {
               "press() { at $1 $2; xdotool mousedown 1; sleep 0.3; xdotool mouseup 1; sleep 0.25; }\n"
               "drag() { at $1 $2; xdotool mousedown 1; sleep 0.3; at $3 $2; at $3 $2; xdotool mouseup 1; "
               "sleep 0.25; }\n"
-              "key() { xdotool keydown $1; sleep 0.3; xdotool keyup $1; sleep 0.3; }\n" +
+              "key() { xdotool keydown $1; sleep 0.3; xdotool keyup $1; sleep 0.3; }\n"
+              "close() { for i in $(seq 40); do xdotool getwindowname $w > /dev/null 2>&1 || break; "
+              "key Escape 2> /dev/null || break; done; }\n" +
               steps) {
         thread_ = std::thread([this] { code_ = std::system(("sh -c '" + quoted() + "'").c_str()); });
     }

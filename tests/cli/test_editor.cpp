@@ -1,0 +1,145 @@
+// The molecule editor, as a user works it: through a real window's pointer and keys.
+#include <csignal>
+
+#include "cli/shoal_command.h"
+#include "cli/window_user.h"
+#include "core/file.h"
+#include "molecule/molecule_file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// In front of the eye (key 1) vertex 2 is at 565, 205 of a window of 900 x 640, and vertex 0 at 335, 435.
+constexpr const char* square = R"({
+  "format": "shoal-molecule-1", "comment": "kept",
+  "defaults": {"mass": 0.10, "stiffness": 50, "damping": 0.5},
+  "vertices": [
+    {"position": [0, 0, 0.00]}, {"position": [1.0, 0, 0], "comment": "a corner"},
+    {"position": [1, 1, 0]}, {"position": [0, 1, 0]}
+  ],
+  "springs": [{"a": 0, "b": 1}, {"a": 1, "b": 2}, {"a": 2, "b": 3}, {"a": 3, "b": 0}, {"a": 0, "b": 2}],
+  "triangles": [[0, 1, 2], [0, 2, 3]]
+}
+)";
+
+struct Session {
+    Scratch scratch;
+    std::string file;
+    Surroundings surroundings;
+
+    explicit Session(const std::string& name) : file(scratch.write(name + ".json", square)) {
+        surroundings.environment["XDG_STATE_HOME"] = scratch.path("state");
+        surroundings.seconds = 60;
+    }
+    Outcome edit(const std::string& steps) {
+        const std::string stem = file.substr(file.rfind('/') + 1);
+        User user("Shoal - " + stem, "file=" + file +
+                                         "\ncontrol() { xdotool keydown ctrl; key $1; xdotool keyup ctrl; }\n"
+                                         "key 1\n" +
+                                         steps);
+        Outcome out = runShoal({"edit", file, "--size", "900x640"}, surroundings);
+        INFO(out.err);
+        CHECK(user.finish() == 0);
+        return out;
+    }
+    std::string text() const { return readFile(file); }
+    Molecule molecule() const { return readMolecule(file); }
+};
+
+std::string replaced(std::string in, const std::string& part, const std::string& with) {
+    const size_t at = in.find(part);
+    REQUIRE(at != std::string::npos);
+    return in.replace(at, part.size(), with);
+}
+
+}  // namespace
+
+TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("dragged");
+    const Outcome out = session.edit(
+        "drag 565 205 611; control s; cp $file $file.moved\n"
+        "control z; control s; cp $file $file.back; control y; control s; close\n");
+    CHECK(out.code == 0);
+    CHECK(out.err.empty());
+    const Molecule moved = readMolecule(session.file + ".moved");
+    CHECK(moved.vertices[2].position.x == Approx(1.2).margin(0.02));
+    CHECK(moved.vertices[2].position.y == Approx(1).margin(0.02));
+    CHECK(readFile(session.file + ".back") == square);
+    // nothing but the numbers of that vertex
+    const JsonValue json = readJson(session.file);
+    const std::string number = writeJsonLine(JsonValue::makeVector(session.molecule().vertices[2].position));
+    CHECK(number != "[1, 1, 0]");
+    CHECK(session.text() == replaced(square, "[1, 1, 0]", number));
+}
+
+TEST_CASE("springs and vertices are added, removed and pinned in the editor", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("changed");
+    const Outcome out = session.edit(
+        "key s; at 565 435; xdotool mousedown 1; sleep 0.3; at 450 320; at 335 205; xdotool mouseup 1; sleep "
+        "0.3\n"
+        "key v; press 335 435; key p; control s; cp $file $file.braced\n"
+        "press 565 205; key Delete; control s; close\n");
+    CHECK(out.code == 0);
+    CHECK(out.err.empty());
+    const Molecule braced = readMolecule(session.file + ".braced");
+    REQUIRE(braced.springs.size() == 6);
+    CHECK(braced.springs[5].a + braced.springs[5].b == 4);
+    CHECK(braced.vertices[0].pinned);
+    const Molecule m = session.molecule();
+    CHECK(m.vertices.size() == 3);
+    CHECK(m.springs.size() == 3);
+    CHECK(m.triangles.empty());
+    CHECK(session.text().find("a corner") != std::string::npos);
+}
+
+TEST_CASE("a file that another program breaks and mends is said and taken up in the editor", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("broken");
+    const Outcome out = session.edit(
+        "cp $file $file.whole; key space; sleep 0.5\n"
+        "printf \"{\\\"format\\\": 3\" > $file; sleep 1.5\n"
+        "sed \"s/0.10/0.30/\" $file.whole > $file; sleep 1.5\n"
+        "key space; key Home; drag 565 205 611; control s; close\n");
+    CHECK(out.code == 0);
+    const std::vector<std::string> messages = out.messages();
+    REQUIRE(messages.size() == 1);
+    CHECK_THAT(messages[0], Catch::Contains("broken.json:1:"));
+    CHECK(session.molecule().vertices[0].mass == 0.3);
+    CHECK(session.molecule().vertices[2].position.x > 1.1);
+}
+
+TEST_CASE("what is not saved outlives the editor, and is offered again", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("killed");
+    const Outcome killed = session.edit("drag 565 205 611; sleep 1.5; kill -9 $(xdotool getwindowpid $w)\n");
+    CHECK(killed.code == -1);
+    CHECK(session.text() == square);
+    // "Take it", then save
+    const Outcome out = session.edit("press 229 330; sleep 0.3; control s; close\n");
+    CHECK(out.code == 0);
+    CHECK(session.molecule().vertices[2].position.x > 1.1);
+    CHECK(session.text().find("a corner") != std::string::npos);
+    CHECK(filesIn(session.scratch.path("state")).empty());
+}
+
+TEST_CASE("closing the editor asks, and saves nothing without being told to", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("closed");
+    const Outcome out = session.edit("drag 565 205 611; key Escape; key Escape; sleep 0.7; press 460 329\n");
+    CHECK(out.code == 0);
+    CHECK(session.text() == square);
+    CHECK(filesIn(session.scratch.path("state")).empty());
+}
+
+TEST_CASE("the editor refuses what it cannot open", "[bad]") {
+    const Scratch scratch;
+    refusal({"edit", scratch.path("none.json")}, "no such file");
+    refusal({"edit", scratch.write("newer.json", replaced(square, "molecule-1", "molecule-2"))}, "newer");
+    refusal({"edit", scratch.write("broken.json", "{")}, "broken.json:1:");
+}
