@@ -270,6 +270,33 @@ def snow():
           material={"color": [0.86, 0.88, 0.92], "secondColor": [0.8, 0.84, 0.9], "roughness": 1, "pointSize": 0.034})
 
 
+def kelp():
+    """A blade of 80 cm in seven rows of three, folded along its middle so that it stands; the lowest row is pinned."""
+    rows, length, width, fold = 7, 0.8, 0.05, 0.022
+    vertices, triangles, pairs = [], [], []
+    for row in range(rows):
+        t = row / (rows - 1)
+        half = 0.5 * width * (0.55 + 1.3 * t - 1.75 * t * t) if row < rows - 1 else 0.004
+        sway = 0.02 * math.sin(5 * t)
+        for column in (-1, 0, 1):
+            deep = -fold * (1 - 0.6 * t) if column == 0 else 0
+            vertices.append(vertex((column * half + sway, length * t, deep), (0.5 + 0.5 * column, t),
+                                   **({"pinned": True} if row == 0 else {})))
+    for row in range(rows):
+        left, middle, right = (3 * row + column for column in range(3))
+        pairs += [(left, middle), (middle, right), (left, right)]
+        if row < rows - 1:
+            for here, beside in ((left, middle), (middle, right)):
+                triangles += [(here, beside, beside + 3), (here, beside + 3, here + 3)]
+            pairs += [(k, k + 3) for k in (left, middle, right)]
+            pairs += [(left, middle + 3), (middle, left + 3), (middle, right + 3), (right, middle + 3)]
+        if row < rows - 2:
+            pairs += [(middle, middle + 6)]
+    write("kelp", "A blade of seaweed, 80 cm, folded along its middle; its foot is pinned. Grows along +Y and bends in a "
+          "current.", {"mass": 0.0012, "stiffness": 14, "damping": 0.006}, vertices, springs(pairs), triangles,
+          {"color": [0.1, 0.22, 0.03], "secondColor": [0.32, 0.3, 0.05], "translucency": 0.5, "roughness": 0.4})
+
+
 if __name__ == "__main__":
-    for make in (point, quad, leaf, cross, cross_braced, fish, fry, hunter, flake, berry, snow):
+    for make in (point, quad, leaf, cross, cross_braced, fish, fry, hunter, flake, berry, snow, kelp):
         make()

@@ -133,11 +133,10 @@ void main()
 
     // Haze covers what is behind it; it adds nothing to light that is added, and leaves filters less to filter.
 #ifdef HAZE
-    float through = exp(-fogDensity * length(place));
 #ifdef FILTERS
-    shown.a *= through;
+    shown.a *= hazeThrough(place).g;
 #elif defined(ADDS)
-    light *= through;
+    light *= hazeThrough(place);
 #else
     light = withHaze(light, place);
 #endif

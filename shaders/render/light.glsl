@@ -1,10 +1,9 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
-// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them.
+// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them; with WATER all below its
+// surface is under water; with METALLIC surfaces are in part mirrors.
 
 #include "render/sky.glsl"
 #include "render/tone.glsl"
-
-uniform float fogDensity;  // 1/m
 
 // Where leaves are dense they hide the sky. The crown is a sphere around all molecules that hang on a model;
 // the sky that it hides is found in closed form. A radius of 0 switches it off.
@@ -19,7 +18,16 @@ struct Surface {
     float translucency;  // share of the light on the other side that comes through
     vec3 throughColor;   // colour of that light
     float openness;      // share of the sky that reaches it, in [0, 1]
+#ifdef METALLIC
+    float metallic;      // share of a mirror, in [0, 1]
+#endif
 };
+
+#ifdef WATER
+#include "water/medium.glsl"
+#else
+#include "render/air.glsl"
+#endif
 
 #ifdef SHADOWS
 uniform sampler2DShadow shadowMap;
@@ -79,6 +87,19 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
     return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
 
+#ifdef METALLIC
+// The same of a mirror that reflects all.
+float lobe(vec3 normal, vec3 toEye, float roughness)
+{
+    vec3 halfway = normalize(sunDirection + toEye);
+    float a = max(roughness * roughness, 0.02);
+    float nh = max(dot(normal, halfway), 0.0);
+    float lh = max(dot(sunDirection, halfway), 0.05);
+    float d = nh * nh * (a * a - 1.0) + 1.0;
+    return a * a / (4.0 * d * d * lh * lh * (roughness + 0.5));
+}
+#endif
+
 vec3 shade(Surface s)
 {
     vec3 toEye = -normalize(s.place);
@@ -86,21 +107,22 @@ vec3 shade(Surface s)
     bool sunlit = facing > 0.0 || s.translucency > 0.0;
     float visible = sunlit ? sunVisibility(s.place, s.face) : 0.0;
 
-    vec3 radiance = s.albedo * ambientLight(s.normal) * s.openness;
+    vec3 sunlight = sunlightAt(s.place);
+    vec3 radiance = s.albedo * ambientAt(s.place, s.normal) * s.openness;
     float front = max(facing, 0.0);
-    radiance += visible * sunColor * front * (s.albedo + vec3(sheen(s.normal, toEye, s.roughness)));
+    radiance += visible * sunlight * front * (s.albedo + vec3(sheen(s.normal, toEye, s.roughness)));
     if (s.translucency > 0.0) {
         // Light from behind spreads inside a leaf: it wraps around, and glows most towards the sun.
         float behind = max(0.15 - facing, 0.0) / 1.15;
         float glow = 0.75 + 0.9 * pow(max(-dot(toEye, sunDirection), 0.0), 3.0);
-        radiance += visible * s.translucency * s.throughColor * sunColor * behind * glow;
-        radiance += s.translucency * s.throughColor * ambientLight(-s.normal) * s.openness * 0.5;
+        radiance += visible * s.translucency * s.throughColor * sunlight * behind * glow;
+        radiance += s.translucency * s.throughColor * ambientAt(s.place, -s.normal) * s.openness * 0.5;
     }
+#ifdef METALLIC
+    // A mirror's picture of what is around it, and the sun's in it.
+    vec3 mirrored = mirroredFrom(s.place, reflect(-toEye, s.normal), s.roughness) * s.openness;
+    mirrored += visible * sunlight * front * lobe(s.normal, toEye, s.roughness);
+    radiance = mix(radiance, s.albedo * mirrored, s.metallic);
+#endif
     return radiance;
-}
-
-vec3 withHaze(vec3 radiance, vec3 place)
-{
-    float distance = length(place);
-    return mix(hazeColor(place / max(distance, 1e-4)), radiance, exp(-fogDensity * distance));
 }

@@ -1,4 +1,4 @@
-// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS, and those of render/blend.glsl.
+// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS, WATER, METALLIC, and those of render/blend.glsl.
 
 #include "render/blend.glsl"
 #include "render/light.glsl"
@@ -13,6 +13,9 @@ flat in vec3 color;
 
 uniform float roughness;
 uniform float translucency;
+#ifdef METALLIC
+uniform float metallic;
+#endif
 
 out vec4 fragment;
 
@@ -42,5 +45,8 @@ void main()
     // Green tissue lets yellow pass.
     s.throughColor = albedo * vec3(1.7, 1.45, 0.5);
     s.openness = crownOpenness(place, n);
+#ifdef METALLIC
+    s.metallic = metallic;
+#endif
     fragment = blended(squeeze(withHaze(shade(s), place)), albedo, covered);
 }

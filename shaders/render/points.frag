@@ -17,6 +17,9 @@ flat in vec3 color;
 uniform mat3 viewToScene;  // columns: right, up, towards the eye
 uniform float pointSize;
 uniform float roughness;
+#ifdef METALLIC
+uniform float metallic;
+#endif
 
 out vec4 fragment;
 
@@ -38,6 +41,9 @@ void main()
     s.translucency = 0.0;
     s.throughColor = vec3(0.0);
     s.openness = crownOpenness(s.place, s.normal);
+#ifdef METALLIC
+    s.metallic = metallic;
+#endif
     fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }
 #endif

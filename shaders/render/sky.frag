@@ -1,6 +1,10 @@
-// What is behind everything.
+// What is behind everything. Variant: WATER.
 
 #include "render/sky.glsl"
+#ifdef WATER
+#include "water/medium.glsl"
+#include "water/surface.glsl"
+#endif
 #include "render/tone.glsl"
 
 in vec2 screen;
@@ -16,5 +20,12 @@ void main()
     vec3 sky = skyGradient(direction) + sunGlow(direction) + sunDisc(direction);
     // Below the horizon: haze, then ground.
     vec3 ground = mix(hazeColor(direction), skyGround, smoothstep(0.0, 0.35, -direction.y));
+#ifdef WATER
+    if (eyeDepth > 0.0) {
+        fragment = vec4(squeeze(fromBelow(direction)), 1.0);
+        return;
+    }
+    ground = farColor(direction);
+#endif
     fragment = vec4(squeeze(mix(ground, sky, smoothstep(-0.004, 0.004, direction.y))), 1.0);
 }

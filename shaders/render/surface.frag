@@ -93,5 +93,5 @@ void main()
     s.throughColor = vec3(0.0);
     s.openness = crownOpenness(place, n) * hollow;
     vec3 radiance = withHaze(shade(s), place);
-    fragment = vec4(squeeze(mix(radiance, hazeColor(normalize(place)), faded)), 1.0);
+    fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), 1.0);
 }

@@ -1,5 +1,7 @@
 #include "render/lighting.h"
 
+#include "render/water_light.h"
+
 namespace shoal {
 
 glm::dvec3 towardsSun(const Light& light) {
@@ -7,7 +9,8 @@ glm::dvec3 towardsSun(const Light& light) {
     return length > 0 ? -light.direction / length : glm::dvec3(0, 1, 0);
 }
 
-Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, bool blends)
+Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, const WaterLight* water,
+                   bool blends)
     : towardsSun_(shoal::towardsSun(scene.light)),
       sun_(scene.light.color * scene.light.intensity),
       zenith_(scene.sky.zenith * scene.sky.intensity),
@@ -16,11 +19,19 @@ Lighting::Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* sha
       fog_(float(scene.sky.fog)),
       crown_(crown),
       shadow_(shadow),
+      water_(water),
       blends_(blends) {}
 
 std::vector<std::string> Lighting::defines() const {
     std::vector<std::string> out = toneDefines();
     if (shadow_ != nullptr) out.emplace_back("SHADOWS");
+    if (water_ != nullptr) out.emplace_back("WATER");
+    return out;
+}
+
+std::vector<std::string> Lighting::skyDefines() const {
+    std::vector<std::string> out = toneDefines();
+    if (water_ != nullptr) out.emplace_back("WATER");
     return out;
 }
 
@@ -29,7 +40,7 @@ std::vector<std::string> Lighting::toneDefines() const {
     return {"LINEAR_LIGHT"};
 }
 
-void Lighting::applySky(const gpu::Program& program) const {
+void Lighting::applySun(const gpu::Program& program) const {
     program.set("sunDirection", towardsSun_);
     program.set("sunColor", sun_);
     program.set("skyZenith", zenith_);
@@ -37,9 +48,26 @@ void Lighting::applySky(const gpu::Program& program) const {
     program.set("skyGround", ground_);
 }
 
-void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
-    applySky(program);
+void Lighting::applyMedium(const gpu::Program& program, const Eye& eye) const {
     program.set("fogDensity", fog_);
+    if (water_ != nullptr) water_->applyMedium(program, eye);
+}
+
+void Lighting::applySky(const gpu::Program& program, const Eye& eye) const {
+    applySun(program);
+    if (water_ == nullptr) return;
+    applyMedium(program, eye);
+    water_->applyWaves(program, double(eye.time));
+}
+
+void Lighting::applyBeams(const gpu::Program& program, const Eye& eye) const {
+    applySun(program);
+    applyMedium(program, eye);
+}
+
+void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
+    applySun(program);
+    applyMedium(program, eye);
     program.set("crown", glm::vec4(glm::vec3(crown_.center - eye.origin.exact), float(crown_.radius)));
     if (shadow_ == nullptr) return;
     program.texture("shadowMap", unit::shadowMap, shadow_->depth());

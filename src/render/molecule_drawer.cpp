@@ -58,6 +58,7 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     litOptions_ = depth;
     for (const std::string& define : lighting.defines())
         litOptions_.defines.push_back(define);
+    if (material_.metallic > 0) litOptions_.defines.push_back("METALLIC");
     if (material_.blend != Blend::none) litOptions_.defines.push_back("BLENDED");
     if (material_.blend == Blend::multiplicative) litOptions_.defines.push_back("FILTERS");
     litOptions_.label = name_ + " (picture)";
@@ -93,6 +94,7 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
         program.set("secondColor", secondColor_);
     }
     program.set("roughness", float(material_.roughness));
+    if (material_.metallic > 0) program.set("metallic", float(material_.metallic));
     if (material_.blend != Blend::none) program.set("opacity", float(material_.opacity));
     setShape(program);
     if (points_) {

@@ -14,6 +14,18 @@ static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Sce
     return std::make_unique<ShadowMap>(context, size, boundsOf(scene, plan).casters, towardsSun(scene.light));
 }
 
+static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const std::string& shaderRoot,
+                                             const Scene& scene) {
+    if (!scene.water) return nullptr;
+    return std::make_unique<WaterLight>(context, shaderRoot, *scene.water);
+}
+
+static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams) {
+    std::vector<std::string> out = lighting.toneDefines();
+    if (beams) out.emplace_back("BEAMS");
+    return out;
+}
+
 static Sphere crownOf(const Scene& scene, const Plan& plan, const RenderOptions& options) {
     return options.crownShade ? boundsOf(scene, plan).crown : Sphere{};
 }
@@ -29,14 +41,16 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
     : context_(&context),
       options_(options),
       shadow_(makeShadowMap(context, scene, plan, options)),
-      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), DrawnGroups::blends(scene, plan)),
+      water_(makeWater(context, shaderRoot, scene)),
+      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), water_.get(),
+                DrawnGroups::blends(scene, plan)),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
               pixelsPerMeterAt(scene.camera, options.height)),
-      sky_(context, shaderRoot,
-           {"render/screen.vert", "render/sky.frag", lighting_.toneDefines(), {}, "sky"}),
+      beams_(context, shaderRoot, water_.get()),
+      sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", lighting_.skyDefines(), {}, "sky"}),
       tone_(context, shaderRoot,
-            {"render/screen.vert", "render/picture.frag", lighting_.toneDefines(), {}, "picture"}),
+            {"render/screen.vert", "render/picture.frag", pictureDefines(lighting_, beams_), {}, "picture"}),
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
@@ -51,7 +65,8 @@ void Renderer::resize(int width, int height) {
     picture_ = gpu::Texture(*context_, Format::rgba8, width, height, "picture");
     lightTarget_ = gpu::Framebuffer(*context_, {&light_}, nullptr, "light");
     pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
-    if (!groups_.readsDepth()) return;
+    beams_.resize(width, height);
+    if (!groups_.readsDepth() && !beams_) return;
     sceneDepth_ = gpu::Texture(*context_, Format::depth24, width, height, "scene depth");
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
@@ -71,6 +86,10 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         groups_.order(state, eye);
     }
     if (shadow_) drawShadows(state, view.time);
+    if (water_) {
+        const auto timer = timers_.time("caustics");
+        water_->draw(view.time);
+    }
     samples_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
@@ -91,6 +110,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     if (sceneDepth_) copyDepth();
     if (groups_.blends()) drawBlended(state, inputs);
     samples_.blitTo(lightTarget_);
+    if (beams_) drawBeams(eye);
     drawPicture(view.exposure);
     timers_.endFrame();
 }
@@ -107,7 +127,7 @@ void Renderer::drawShadows(const StateView& state, double time) {
 void Renderer::drawSky(const Eye& eye) {
     const auto timer = timers_.time("sky");
     sky_.use();
-    lighting_.applySky(sky_);
+    lighting_.applySky(sky_, eye);
     sky_.set("viewToScene", eye.viewToScene);
     sky_.set("tangents", eye.tangents);
     empty_.bind();
@@ -132,11 +152,17 @@ void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     glDisable(GL_DEPTH_TEST);
 }
 
+void Renderer::drawBeams(const Eye& eye) {
+    const auto timer = timers_.time("beams");
+    beams_.draw(eye, lighting_, sceneDepth_);
+}
+
 void Renderer::drawPicture(double exposure) {
     const auto timer = timers_.time("picture");
     pictureTarget_.bind();
     tone_.use();
     tone_.texture("light", unit::light, light_);
+    if (beams_) tone_.texture("beams", unit::image, beams_.light());
     tone_.set("exposure", float(exposure));
     empty_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,8 +1,9 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
 // gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
-// What is blended comes last, over the sky; where nothing is, nothing is done for it. Particles that fade in
-// front of surfaces read the depth that is there by then, a copy of it.
+// In scenes with water the net of caustics is drawn before all this, and its beams are added to the resolved
+// light. What is blended comes last, over the sky; where nothing is, nothing is done for it. Particles that
+// fade in front of surfaces read the depth that is there by then, a copy of it.
 //
 //   shadow map (depth)  ->  light (RGBA16F, several samples)  ->  resolved light  ->  picture (RGBA8, sRGB)
 #pragma once
@@ -19,6 +20,7 @@
 #include "render/lighting.h"
 #include "render/surface_drawer.h"
 #include "render/view.h"
+#include "render/water_beams.h"
 #include "simulate/state_view.h"
 
 namespace shoal {
@@ -78,22 +80,26 @@ class Renderer {
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
     void copyDepth();
+    void drawBeams(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
     void drawPicture(double exposure);
 
     gpu::Context* context_;
     RenderOptions options_;
     std::unique_ptr<ShadowMap> shadow_;  // null: the sun casts none
+    std::unique_ptr<WaterLight> water_;  // null: all is in the air
     Lighting lighting_;
     SurfaceDrawer surfaces_;
     DrawnGroups groups_;
+    WaterBeams beams_;  // none without water
     gpu::Program sky_, tone_;
     gpu::VertexArray empty_;
     gpu::PassTimers timers_;
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;
-    // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces.
+    // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces
+    // and no beams end there.
     gpu::Texture sceneDepth_;
     gpu::Framebuffer sceneDepthTarget_;
 };

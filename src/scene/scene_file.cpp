@@ -93,6 +93,7 @@ Scene parseScene(const std::string& text, const std::string& file, const FieldBa
     readCamera(r, scene.camera);
     readLight(r, scene.light);
     readSky(r, scene.sky);
+    scene.water = readWater(r);
     scene.fields = readFields(r);
     scene.models = readModels(r);
     scene.colliders = readColliders(r, scene.models, baking, scene.warnings);

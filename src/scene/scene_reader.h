@@ -38,7 +38,8 @@ DistanceFieldCollider readDistanceField(JsonReader& reader, const std::vector<Mo
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 
-// "colorBy" of a group. Error, located: a span the wrong way round, colours out of [0, 1], too few or too many.
+// "colorBy" of a group. Error, located: a span the wrong way round, colours out of [0, 1], too few or too
+// many.
 std::optional<ColorScale> readColorScale(JsonReader& group);
 // "water" of the scene.
 std::optional<Water> readWater(JsonReader& scene);

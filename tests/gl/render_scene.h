@@ -55,7 +55,8 @@ struct Shown {
 };
 
 // The scene after some frames, 160 x 120 unless told otherwise.
-inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.width = 160, .height = 120}) {
+inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.width = 160, .height = 120},
+                  double time = 0) {
     gpu::Context& context = testContext();
     const Plan plan = compile(scene);
     Renderer renderer(context, shaderRoot(), scene, plan, options);
@@ -65,7 +66,7 @@ inline Shown show(const Scene& scene, int frames = 1, RenderOptions options = {.
     Shown out;
     const uint64_t before = simulation.hash();
     const gpu::Traffic start = context.traffic();
-    renderer.draw(simulation.state(), View::of(scene.camera));
+    renderer.draw(simulation.state(), View::of(scene.camera, time));
     out.moved = context.traffic() - start;
     out.stateUnchanged = simulation.hash() == before;
     out.image = renderer.capture();

@@ -52,7 +52,7 @@ TEST_CASE("a molecule file fills every field", "[molecule]") {
                     {"a": 1, "b": 2, "stiffness": 8}],
         "triangles": [[0, 1, 2]],
         "material": {"color": [0.1, 0.2, 0.3], "secondColor": [1, 1, 0], "texture": "t.png", "alphaCut": 0.4,
-                     "translucency": 0.6, "roughness": 0.2, "pointSize": 0.1}})",
+                     "metallic": 0.6, "translucency": 0.6, "roughness": 0.2, "pointSize": 0.1}})",
                                      "f");
     CHECK((m.name == "pair" && m.comment == "why" && m.file == "f"));
     CHECK((m.vertices[0].position == glm::dvec3(1, 2, 3) && m.vertices[0].uv == glm::dvec2(0.25, 0.5)));
@@ -63,6 +63,7 @@ TEST_CASE("a molecule file fills every field", "[molecule]") {
     CHECK((m.triangles[0].b == 1 && m.triangles[0].c == 2));
     CHECK((m.material.secondColor == glm::dvec3(1, 1, 0) && m.material.texture == "t.png"));
     CHECK((m.material.alphaCut == 0.4 && m.material.translucency == 0.6 && m.material.pointSize == 0.1));
+    CHECK(m.material.metallic == 0.6);
     CHECK(m.places.vertices[1].line == 3);
     CHECK(m.places.springs[1].path == "$.springs[1]");
     CHECK(m.size() == Approx(std::sqrt(2.0)));

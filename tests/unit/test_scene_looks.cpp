@@ -1,4 +1,4 @@
-// "colorBy" of a group: what is read, what is refused and where.
+// "colorBy" of a group and "water" of a scene: what is read, what is refused and where.
 #include "scene/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -65,4 +65,34 @@ TEST_CASE("a colour scale without meaning is refused where it stands", "[scene]"
     CHECK_THAT(read.error(R"(, "color": [1, 0, 0], "colorBy": {"to": 1})"),
                Contains("no effect beside \"colorBy\""));
     CHECK_THAT(read.error(R"(, "colorBy": {"to": 1, "form": 2})"), Contains("from"));
+}
+
+TEST_CASE("water is read", "[scene]") {
+    Reader read;
+    CHECK(!read(sceneWith("")).water);
+    const Water usual = read(sceneWith("", R"(, "water": {})")).water.value();
+    CHECK((usual.surface == 0 && usual.caustics == 0.8 && usual.rays == 0.5));
+    CHECK((usual.causticsSize == 1.2 && usual.causticsSpeed == 0.6));
+    const Water own =
+        read(sceneWith("", R"(, "water": {"surface": 3, "extinction": [1, 2, 3], "scattering": [0, 1, 2],
+        "caustics": 0, "causticsSize": 4, "causticsSpeed": 5, "rays": 1})"))
+            .water.value();
+    CHECK(
+        (own.surface == 3 && own.extinction == glm::dvec3(1, 2, 3) && own.scattering == glm::dvec3(0, 1, 2)));
+    CHECK((own.caustics == 0 && own.causticsSize == 4 && own.causticsSpeed == 5 && own.rays == 1));
+}
+
+TEST_CASE("water that cannot be is refused where it stands", "[scene]") {
+    Reader read;
+    const auto error = [&](const std::string& water) {
+        return read.error("", R"(, "water": {)" + water + "}");
+    };
+    CHECK_THAT(error(R"("extinction": [1, -1, 0])"), Contains("water.extinction"));
+    CHECK_THAT(error(R"("extinction": 0.1)"), Contains("water.extinction"));
+    CHECK_THAT(error(R"("scattering": [1, -1, 0])"), Contains("water.scattering"));
+    CHECK_THAT(error(R"("caustics": 1.5)"), Contains("water.caustics"));
+    CHECK_THAT(error(R"("causticsSize": 0)"), Contains("water.causticsSize"));
+    CHECK_THAT(error(R"("causticsSpeed": -1)"), Contains("water.causticsSpeed"));
+    CHECK_THAT(error(R"("rays": -1)"), Contains("water.rays"));
+    CHECK_THAT(error(R"("surfice": 1)"), Contains("surface"));
 }

@@ -413,6 +413,21 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
         validator.add("render/slab_draws.comp", keys, gpu::header430());
     }
     validator.add("render/molecule.frag", {"STATE_WIDTH 1024", "BLENDED", "FILTERS"}, header);
+    for (const char* file : {"render/molecule.vert", "render/points.vert"})
+        validator.add(file, {"STATE_WIDTH 1024", "COLOR_BY"}, header);
+    for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
+        validator.add(file, {"SHADOWS", "WATER"}, header);
+    for (const char* file : {"render/molecule.frag", "render/points.frag"})
+        for (const Defines& set : combinations({"WATER"})) {
+            Defines metallic = set;
+            metallic.emplace_back("METALLIC");
+            validator.add(file, metallic, header);
+        }
+    validator.add("render/sky.frag", {"WATER"}, header);
+    validator.add("render/picture.frag", {"BEAMS"}, header);
+    validator.add("water/rays.frag", {}, header);
+    validator.add("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"}, header);
+    validator.add("water/caustics.frag", {"TEXELS 512"}, header);
     validator.add("render/sky.frag", {"LINEAR_LIGHT"}, header);
     validator.add("render/picture.frag", {"LINEAR_LIGHT"}, header);
     validator.add("render/surface.vert", {"DEPTH_ONLY"}, header);

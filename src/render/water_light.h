@@ -1,0 +1,46 @@
+// What light does in water (scene/water.h), as the shaders of the picture take it (shaders/water): the net of
+// caustics, drawn anew for every picture from the waves of the surface, and the waves themselves.
+//
+// Waves repeat on square tiles of the surface, eight meshes wide. Where refraction carries the light that
+// enters a small triangle of the surface is again a triangle, as much brighter as it is smaller (Arvo 1986,
+// "Backward ray tracing"; drawn as Wallace 2011 does, "WebGL water").
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "render/view.h"
+#include "scene/water.h"
+
+namespace shoal {
+
+class WaterLight {
+  public:
+    static constexpr int waveCount = 14;  // shaders/water/waves.glsl
+
+    WaterLight(gpu::Context& context, const std::string& shaderRoot, const Water& water);
+
+    // The net at a time, s. Leaves its own framebuffer bound.
+    void draw(double time);
+    void applyMedium(const gpu::Program& program, const Eye& eye) const;  // water/medium.glsl
+    void applyWaves(const gpu::Program& program, double time) const;      // water/waves.glsl
+
+    const Water& water() const { return water_; }
+    const gpu::Texture& caustics() const { return caustics_; }  // RGBA16F, alike, 1: as under a calm surface
+
+  private:
+    double tile() const;  // m
+
+    Water water_;
+    gpu::Program program_;
+    gpu::Buffer indices_;
+    gpu::VertexArray grid_;
+    gpu::Texture caustics_;
+    gpu::Framebuffer target_;
+};
+
+}  // namespace shoal
