@@ -170,7 +170,7 @@ def fish():
           {"color": [0.35, 0.45, 0.55], "secondColor": [0.55, 0.5, 0.3], "roughness": 0.35})
 
 
-def swimmer(name, comment, length, frequency, stiffness, damping, colors, plump=1.0):
+def swimmer(name, comment, length, frequency, stiffness, damping, colors, metallic, plump=1.0):
     """A fish whose muscles send a wave of bending from head to tail, along +Z with +Y up. All is for a length of 1 m.
 
     Every spring that bending about y stretches is a muscle: a fibre at x of a body bent by the curvature c has the
@@ -225,18 +225,18 @@ def swimmer(name, comment, length, frequency, stiffness, damping, colors, plump=
             link["stiffness"] = number(2 * stiffness)
         links.append(link)
     write(name, comment, {"stiffness": stiffness, "damping": damping}, vertices, links, triangles,
-          {"color": colors[0], "secondColor": colors[1], "roughness": 0.25})
+          {"color": colors[0], "secondColor": colors[1], "texture": "fry.png", "roughness": 0.28, "metallic": metallic})
 
 
 def fry():
     swimmer("fry", "A fish of 10 cm, to be had in thousands: a wave of bending runs from head to tail, along +Z. Give it "
             "directional drag, some 40 1/s across and 1 1/s along, so that its flanks push the water.",
-            0.1, 4, 10, 0.004, ([0.62, 0.68, 0.72], [0.5, 0.58, 0.62]))
+            0.1, 4, 10, 0.004, ([0.95, 0.97, 1], [0.8, 0.86, 0.9]), 0.9)
 
 
 def hunter():
     swimmer("hunter", "A fish of 70 cm that hunts smaller ones; swims like a fry. Give it directional drag, some 20 1/s "
-            "across and 0.5 1/s along.", 0.7, 2, 900, 1.2, ([0.3, 0.36, 0.38], [0.34, 0.36, 0.32]), plump=1.15)
+            "across and 0.5 1/s along.", 0.7, 2, 900, 1.2, ([0.5, 0.56, 0.58], [0.54, 0.56, 0.5]), 0.5, plump=1.15)
 
 
 def flake():

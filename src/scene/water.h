@@ -13,7 +13,7 @@ constexpr double mostExtinction = 1000;  // 1/m
 struct Water {
     double surface = 0;                       // m: y of the calm surface; all below it is water
     glm::dvec3 extinction{0.35, 0.07, 0.05};  // 1/m, at least 0
-    glm::dvec3 scattering{0.02, 0.16, 0.26};  // linear RGB: the colour of endless water
+    glm::dvec3 scattering{0.02, 0.16, 0.22};  // linear RGB: the colour of endless water
     double caustics = 0.8;                    // strength of the bright net on what the sun reaches, in [0, 1]
     double causticsSize = 1.2;                // m, of its meshes
     double causticsSpeed = 0.6;               // m/s, at which they run

@@ -425,6 +425,8 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
         }
     validator.add("render/sky.frag", {"WATER"}, header);
     validator.add("render/picture.frag", {"BEAMS"}, header);
+    for (const char* blend : {"ADDS", "FILTERS", "LIT"})
+        validator.add("particles/particle.frag", {"WATER", "HAZE", "BLENDED", blend}, header);
     validator.add("water/rays.frag", {}, header);
     validator.add("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"}, header);
     validator.add("water/caustics.frag", {"TEXELS 512"}, header);
