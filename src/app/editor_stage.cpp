@@ -256,4 +256,10 @@ void EditorStage::draw(const View& view, int width, int height) {
     renderer_->present(width, height);
 }
 
+Image EditorStage::picture(const View& view, int width, int height) {
+    if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
+    renderer_->draw(simulation_->state(), view);
+    return renderer_->capture();
+}
+
 }  // namespace shoal::app

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
 #include "gpu/program_cache.h"
 #include "molecule/modes.h"
 #include "render/renderer.h"
@@ -55,7 +56,8 @@ class EditorStage {
     void wobble(const Mode& mode, double reach);
     void rest();  // back to what was played
 
-    void draw(const View& view, int width, int height);
+    void draw(const View& view, int width, int height);  // into the window
+    Image picture(const View& view, int width, int height);
     // Of the vertices, as they are drawn.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
     // Of each spring: (length - rest length) / rest length, without muscles.
