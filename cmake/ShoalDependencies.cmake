@@ -12,6 +12,7 @@ if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)
 endif()
 find_package(Threads REQUIRED)
+find_package(meshoptimizer REQUIRED)  # simplifies meshes to molecules
 
 find_package(glm QUIET)
 if(NOT TARGET glm::glm)

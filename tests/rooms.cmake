@@ -1,11 +1,12 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
-set(rooms core molecule scene compile gpu sort simulate render reference measure app)
+set(rooms core molecule scene compile author gpu sort simulate render reference measure app)
 cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_molecule core)
 set(may_scene core molecule)
 set(may_compile core molecule scene)
+set(may_author core molecule scene compile)
 set(may_gpu core)
 set(may_sort core gpu)
 set(may_simulate core molecule scene compile gpu sort)
@@ -13,7 +14,7 @@ set(may_render core molecule scene compile gpu sort simulate)
 set(may_reference core molecule scene compile)
 set(may_measure core molecule scene compile gpu sort simulate reference)
 set(may_app ${rooms})
-set(without_gl core molecule scene compile reference)
+set(without_gl core molecule scene compile author reference)
 
 set(failures "")
 set(files_seen 0)

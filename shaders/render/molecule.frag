@@ -33,7 +33,12 @@ void main()
     // Both sides are drawn; the normal is turned to the one that is seen. Where the vertices' normals cancel,
     // the triangle's own does.
     vec3 n = dot(normal, normal) > 0.01 ? normalize(normal) : normalize(flatNormal + vec3(0.0, 1e-12, 0.0));
+#ifdef SKIN_WEIGHTS
+    // A skin's normals are smooth: at its rim they lean away from the eye, and are right all the same.
+    if (!gl_FrontFacing) n = -n;
+#else
     if (dot(n, place) > 0.0) n = -n;
+#endif
 
     Surface s;
     s.place = place;

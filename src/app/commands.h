@@ -17,6 +17,7 @@ int benchParticlesCommand(const Options& options);  // shoal bench particles
 int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
 int editCommand(const Options& options);
+int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mesh
 
 // A scene and its plan with the options applied; warnings go to standard error.
 struct Loaded {

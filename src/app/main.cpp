@@ -39,6 +39,9 @@ int main(int argc, char** argv) {
             case Options::Command::edit:
                 code = editCommand(*options);
                 break;
+            case Options::Command::moleculeFromMesh:
+                code = moleculeFromMeshCommand(*options);
+                break;
             }
         }
         std::cout.flush();

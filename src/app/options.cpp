@@ -1,22 +1,12 @@
 #include "app/options.h"
 
-#if defined(__GNUC__)
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#endif
-#include <CLI/CLI.hpp>
-#if defined(__GNUC__)
-#pragma GCC diagnostic pop
-#endif
-
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <iostream>
 
+#include "app/cli.h"
 #include "app/interface.h"
 #include "core/file.h"
 #include "scene/scene_file.h"
@@ -34,21 +24,6 @@ void addScene(CLI::App& command, Options& options) {
     command.add_option("scene", options.files, "Scene file (.scene.json)")->required()->expected(1);
 }
 
-// Whether all of the text is a T: no sign that an unsigned number would swallow, nothing behind it.
-template <typename T>
-bool isAll(const std::string& text) {
-    T value;
-    const auto [end, code] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return code == std::errc() && end == text.data() + text.size();
-}
-
-CLI::Validator kindOf(bool (*test)(const std::string&), const std::string& what) {
-    return CLI::Validator(
-        [test, what](const std::string& text) {
-            return test(text) ? std::string() : concat("expected ", what, ", found \"", text, "\"");
-        },
-        "");
-}
 CLI::Validator wholeNumber() {
     return kindOf(isAll<int>, "a whole number");
 }
@@ -301,8 +276,8 @@ std::vector<std::string> optionNames(CLI::App& command) {
 
 std::string explainExtras(CLI::App& app, int argc, char** argv) {
     CLI::App* command = &app;
-    for (CLI::App* sub : app.get_subcommands())
-        command = sub;
+    while (!command->get_subcommands().empty())
+        command = command->get_subcommands().back();
     const std::vector<std::string> names = optionNames(*command);
     for (int i = 1; i < argc; ++i) {
         std::string word = argv[i];
@@ -312,10 +287,11 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
             return concat("unknown option ", word, suggestion(word, names));
     }
     std::vector<std::string> commands;
-    for (const CLI::App* sub : app.get_subcommands([](CLI::App*) { return true; }))
+    for (const CLI::App* sub : command->get_subcommands([](CLI::App*) { return true; }))
         commands.push_back(sub->get_name());
-    if (command == &app && argc > 1)
-        return concat("unknown command \"", argv[1], "\"", suggestion(argv[1], commands));
+    const int word = command == &app ? 1 : 2;
+    if (!commands.empty() && argc > word)
+        return concat("unknown command \"", argv[word], "\"", suggestion(argv[word], commands));
     return {};
 }
 
@@ -434,6 +410,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addBench(*bench, options, texts);
     addMeasure(*measure, options, texts);
     addField(*field, options, texts);
+    addMolecule(app, options);
 
     try {
         app.parse(argc, argv);
@@ -453,6 +430,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : field->parsed()   ? Options::Command::field
                       : edit->parsed()    ? Options::Command::edit
                                           : Options::Command::info;
+    finishMolecule(app, options);
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);
     if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "app/options_molecule.h"
 #include "compile/path.h"
 #include "gpu/context.h"
 #include "scene/scene.h"
@@ -16,7 +17,7 @@ namespace shoal::app {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info, bench, measure, field, edit };
+    enum class Command { run, check, explain, info, bench, measure, field, edit, moleculeFromMesh };
     Command command = Command::run;
     std::vector<std::string> files;
 
@@ -74,6 +75,8 @@ struct Options {
         std::optional<int> sliceAxis;                   // 0 x, 1 y, 2 z
         std::optional<double> slicePosition;            // m
     } field;
+
+    MoleculeOptions molecule;
 };
 
 // Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns

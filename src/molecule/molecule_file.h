@@ -6,6 +6,7 @@
 //     "springs":   [ { "a": 0, "b": 1, "restLength": 1,
 //                      "actuation": { "amplitude": 0.2, "frequency": 2, "phase": 0 } } ],
 //     "triangles": [],
+//     "skin":      { "weights": [[0, 0.5, 1, 0.5], ...], "uvs": [[0, 0], ...], "triangles": [[0, 1, 2]] },
 //     "material":  { "color": [0.2, 0.5, 0.1], "texture": "leaf.png" } }
 //
 // Metres, kilograms, N/m, N s/m. A vertex needs a mass and a spring a stiffness, its own or from the

@@ -8,6 +8,7 @@
 #include "core/file_format.h"
 #include "core/json.h"
 #include "molecule/molecule_file.h"
+#include "molecule/skin_file.h"
 
 namespace shoal {
 
@@ -220,6 +221,7 @@ Molecule parseMolecule(const std::string& text, const std::string& file) {
     readVertices(root, defaults, molecule);
     readSprings(root, defaults, molecule);
     readTriangles(root, molecule);
+    readSkin(root, molecule);
     readMaterial(root, molecule.material);
     root.finish();
     return molecule;

@@ -4,6 +4,7 @@
 #include "molecule/molecule_json.h"
 
 #include "molecule/molecule_file.h"
+#include "molecule/skin_file.h"
 
 namespace shoal {
 
@@ -127,6 +128,7 @@ JsonValue toJson(const Molecule& molecule, bool spelled) {
     root.add("vertices", std::move(vertices));
     if (!molecule.springs.empty()) root.add("springs", std::move(springs));
     if (!molecule.triangles.empty()) root.add("triangles", std::move(triangles));
+    if (!molecule.skin.vertices.empty()) root.add("skin", skinJson(molecule.skin));
     root.add("material", write(molecule.material));
     return root;
 }

@@ -8,6 +8,8 @@
 
 namespace shoal {
 
+struct Molecule;
+
 // One simulated vertex that a skin vertex hangs on.
 struct SkinWeight {
     int vertex = 0;
@@ -18,7 +20,8 @@ struct SkinWeight {
 // with x and n of the simulated vertices. Weights add up to 1 and reproduce the position in the rest shape,
 // so that every affine motion of the molecule carries the skin exactly.
 struct SkinVertex {
-    glm::dvec3 position{0};  // m, in the rest shape
+    glm::dvec3 position{
+        0};  // m, in the rest shape; follows from the weights (placeSkin) and is not in the file
     glm::dvec2 uv{0};
     std::vector<SkinWeight> weights;  // 1 to Skin::mostWeights
     double offset = 0;                // m, along the molecule's normal
@@ -34,5 +37,15 @@ struct Skin {
     std::vector<SkinTriangle> triangles;
     bool empty() const { return triangles.empty(); }
 };
+
+// The normals of simulated vertices at `positions`: unit sums of the area vectors of their triangles (Decker,
+// section 3.5; shaders/physics/normal.glsl); zero for a vertex of none.
+std::vector<glm::dvec3> vertexNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions);
+
+// Where the skin's vertices lie when the simulated ones lie at `positions`.
+std::vector<glm::dvec3> skinPositions(const Molecule& molecule, const std::vector<glm::dvec3>& positions);
+
+// Fills the positions of the skin's vertices from the rest shape. Call it when vertices were moved.
+void placeSkin(Molecule& molecule);
 
 }  // namespace shoal

@@ -1,5 +1,8 @@
 #include "render/molecule_drawer.h"
 
+#include <algorithm>
+
+#include "molecule/bind_skin.h"
 #include "render/leaf_image.h"
 
 namespace shoal {
@@ -8,10 +11,12 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
                                const GroupPlan& plan, size_t index, const Lighting& lighting)
     : GroupDrawer(context, shaderRoot, plan, index),
       material_(group.molecule.material),
-      points_(group.molecule.triangles.empty()) {
+      points_(group.molecule.triangles.empty() && group.molecule.skin.empty()) {
     change(group);
     if (points_)
         stream_ = {plan.vertexCount, false};
+    else if (!group.molecule.skin.empty())
+        makeSkinCorners(group.molecule);
     else
         makeCorners(group.molecule);
     if (group.life && !points_) {
@@ -49,11 +54,55 @@ void MoleculeDrawer::makeCorners(const Molecule& molecule) {
     stream_ = {int(indices.size()), true};
 }
 
+void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
+    // offsets, then as many influences as any vertex has; a weight of 0 changes nothing
+    struct Corner {
+        glm::vec3 offsets{0};
+        glm::vec4 influences[Skin::mostWeights] = {};
+    };
+    const std::vector<SkinFrame> frames = skinFrames(molecule);
+    std::vector<Corner> corners(frames.size());
+    std::vector<glm::vec2> uvs;
+    size_t most = 1;
+    bool offsets = false;
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const SkinVertex& vertex = molecule.skin.vertices[i];
+        const SkinFrame& frame = frames[i];
+        uvs.emplace_back(vertex.uv);
+        corners[i].offsets = glm::vec3(vertex.offset, frame.alongOffset, frame.acrossOffset);
+        offsets = offsets || corners[i].offsets != glm::vec3(0);
+        most = std::max(most, vertex.weights.size());
+        for (size_t k = 0; k < vertex.weights.size(); ++k)
+            corners[i].influences[k] = glm::vec4(vertex.weights[k].vertex, vertex.weights[k].weight,
+                                                 frame.along[k], frame.across[k]);
+    }
+    std::vector<uint32_t> indices;
+    for (const SkinTriangle& t : molecule.skin.triangles)
+        for (const int corner : {t.a, t.b, t.c})
+            indices.push_back(uint32_t(corner));
+    using Use = gpu::Buffer::Use;
+    uvs_ = gpu::Buffer(*context_, Use::vertex, std::span<const glm::vec2>(uvs), "skin uvs");
+    skin_ = gpu::Buffer(*context_, Use::vertex, std::span<const Corner>(corners), "skin weights");
+    indices_ = gpu::Buffer(*context_, Use::index, std::span<const uint32_t>(indices), "skin triangles");
+    corners_.attribute(0, uvs_, 2, sizeof(glm::vec2), 0);
+    corners_.attribute(1, skin_, 3, sizeof(Corner), offsetof(Corner, offsets));
+    for (int k = 0; k < int(most); ++k)
+        corners_.attribute(2 + k, skin_, 4, sizeof(Corner),
+                           int(offsetof(Corner, influences)) + k * int(sizeof(glm::vec4)));
+    corners_.indices(indices_);
+    stream_ = {int(indices.size()), true};
+    skinDefines_ = {concat("SKIN_WEIGHTS ", most)};
+    if (offsets) skinDefines_.emplace_back("SKIN_OFFSETS");
+}
+
 void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     gpu::ProgramOptions& depth = depthOptions_;
     if (image_) depth.defines.push_back("TEXTURED");
     if (grows()) depth.defines.push_back("GROWS");
-    depth.vertex = points_ ? "render/points.vert" : "render/molecule.vert";
+    depth.defines.insert(depth.defines.end(), skinDefines_.begin(), skinDefines_.end());
+    depth.vertex = points_                 ? "render/points.vert"
+                   : !skinDefines_.empty() ? "render/skinned.vert"
+                                           : "render/molecule.vert";
     depth.fragment = points_ ? "render/points.frag" : "render/molecule.frag";
     litOptions_ = depth;
     for (const std::string& define : lighting.defines())

@@ -1,5 +1,6 @@
 // Draws a group of molecules: gl_InstanceID is the molecule, gl_VertexID its vertex. Their triangles,
-// two-sided and cut out of an image by its alpha; without triangles each vertex as a round sprite.
+// two-sided and cut out of an image by its alpha, or those of its skin; without triangles each vertex as a
+// round sprite.
 #pragma once
 
 #include "render/group_drawer.h"
@@ -20,6 +21,7 @@ class MoleculeDrawer : public GroupDrawer {
 
   private:
     void makeCorners(const Molecule& molecule);
+    void makeSkinCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);
     bool grows() const { return grow_ > 0 || shrink_ > 0; }
     void setShape(const gpu::Program& program) const;
@@ -27,9 +29,11 @@ class MoleculeDrawer : public GroupDrawer {
     Material material_;
     glm::vec3 color_{0}, secondColor_{0};
     bool points_;
-    double grow_ = 0, shrink_ = 0;  // s (scene/emitter.h)
-    gpu::Buffer uvs_, indices_;     // none: points
-    gpu::Texture image_;            // none: plain colour
+    std::vector<std::string> skinDefines_;  // none: the molecule's own triangles are drawn
+    double grow_ = 0, shrink_ = 0;          // s (scene/emitter.h)
+    gpu::Buffer uvs_, indices_;             // none: points
+    gpu::Buffer skin_;                      // what its vertices hang on (shaders/render/skinned.vert)
+    gpu::Texture image_;                    // none: plain colour
 };
 
 }  // namespace shoal

@@ -53,7 +53,10 @@ class Collector {
             if (node.mMeshes[i] >= scene_.mNumMeshes) throw fail("names a mesh that it does not hold");
             const aiMesh& part = *scene_.mMeshes[node.mMeshes[i]];
             if (object.name.empty()) object.name = part.mName.C_Str();
+            Mesh::Part piece{part.mName.C_Str(), materialName(part), int(mesh.triangles.size()), 0};
             append(part, transform);
+            piece.triangleCount = int(mesh.triangles.size()) - piece.firstTriangle;
+            if (piece.triangleCount > 0) mesh.parts.push_back(std::move(piece));
         }
         object.triangleCount = static_cast<int>(mesh.triangles.size()) - object.firstTriangle;
         if (object.triangleCount > 0) mesh.objects.push_back(object);
@@ -66,6 +69,13 @@ class Collector {
 
   private:
     Error fail(const std::string& message) const { return Error(Location{file_, 0, 0, {}}, message); }
+
+    std::string materialName(const aiMesh& part) const {
+        aiString name;
+        if (part.mMaterialIndex < scene_.mNumMaterials)
+            scene_.mMaterials[part.mMaterialIndex]->Get(AI_MATKEY_NAME, name);
+        return name.C_Str();
+    }
 
     void append(const aiMesh& part, const glm::dmat4& transform) {
         if (!(part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) return;

@@ -29,6 +29,13 @@ struct Mesh {
     };
     std::vector<Object> objects;
 
+    // Pieces of objects, each of one of the file's meshes and materials.
+    struct Part {
+        std::string mesh, material;  // the file's names; may be empty
+        int firstTriangle = 0, triangleCount = 0;
+    };
+    std::vector<Part> parts;
+
     glm::dvec3 low{0}, high{0};  // bounding box
 };
 

@@ -379,6 +379,15 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
                 validator.add(file, set, header);
             }
         }
+        for (Defines set : combinations({"SKIN_OFFSETS", "STATE_BUFFERS", "GROWS"})) {
+            set.insert(set.end(), lit.begin(), lit.end());
+            set.insert(set.end(), {"SKIN_WEIGHTS 8", "STATE_WIDTH 1024", "BLOCK 64", "POSITION_ELEMENTS 3",
+                                   "STATE_ELEMENTS 6"});
+            validator.add("render/skinned.vert", set, header);
+            validator.add("render/molecule.frag", set, header);
+            set.push_back("DEPTH_ONLY");
+            validator.add("render/skinned.vert", set, header);
+        }
         for (Defines set : {Defines{}, Defines{"PLANE"}, Defines{"PLANE", "GRID"}}) {
             set.insert(set.end(), lit.begin(), lit.end());
             validator.add("render/surface.vert", set, header);

@@ -1,0 +1,106 @@
+// A corner of a molecule's skin (src/molecule/skin.h): gl_InstanceID is the molecule, gl_VertexID the skin's vertex,
+// which hangs on SKIN_WEIGHTS (1 to 8) of the molecule's vertices. Its two tangents move as it does, so that its
+// normal turns and shears with the molecule.
+// Variants: SKIN_OFFSETS (offsets along the molecule's normal), and those of render/molecule.vert.
+
+#include "lib/molecule.glsl"
+#include "render/drawn.glsl"
+#include "render/grown.glsl"
+#ifdef COLOR_BY
+#include "render/color_scale.glsl"
+#else
+#include "render/instance_color.glsl"
+#endif
+
+layout(location = 0) in vec2 cornerUv;
+layout(location = 1) in vec3 offsets;  // along the molecule's normal: of the place, m; of the tangents
+// The vertex, its weight for the place, and its weights for the two tangents.
+layout(location = 2) in vec4 influence0;
+layout(location = 3) in vec4 influence1;
+layout(location = 4) in vec4 influence2;
+layout(location = 5) in vec4 influence3;
+layout(location = 6) in vec4 influence4;
+layout(location = 7) in vec4 influence5;
+layout(location = 8) in vec4 influence6;
+layout(location = 9) in vec4 influence7;
+
+uniform mat4 toClip;
+
+out vec2 uv;
+#ifndef DEPTH_ONLY
+out vec3 place;
+out vec3 normal;
+flat out vec3 color;
+#endif
+
+// Sums over the influences, of places from the first one's: what is far from the eye keeps its digits.
+struct Sums
+{
+    vec3 place, along, across, normal;
+};
+
+void hang(inout Sums sums, int molecule, vec3 first, vec4 influence)
+{
+    int vertex = int(influence.x);
+    vec3 from = drawnPlace(molecule, vertex) - first;
+    sums.place += influence.y * from;
+#ifndef DEPTH_ONLY
+    sums.along += influence.z * from;
+    sums.across += influence.w * from;
+#endif
+#ifdef SKIN_OFFSETS
+    sums.normal += influence.y * vertexNormal(molecule, vertex);
+#endif
+}
+
+void main()
+{
+    int molecule;
+    bool drawn = findDrawn(molecule);
+    vec3 first = drawnPlace(molecule, int(influence0.x));
+    Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    hang(sums, molecule, first, influence0);
+#if SKIN_WEIGHTS > 1
+    hang(sums, molecule, first, influence1);
+#endif
+#if SKIN_WEIGHTS > 2
+    hang(sums, molecule, first, influence2);
+#endif
+#if SKIN_WEIGHTS > 3
+    hang(sums, molecule, first, influence3);
+#endif
+#if SKIN_WEIGHTS > 4
+    hang(sums, molecule, first, influence4);
+#endif
+#if SKIN_WEIGHTS > 5
+    hang(sums, molecule, first, influence5);
+#endif
+#if SKIN_WEIGHTS > 6
+    hang(sums, molecule, first, influence6);
+#endif
+#if SKIN_WEIGHTS > 7
+    hang(sums, molecule, first, influence7);
+#endif
+#ifdef SKIN_OFFSETS
+    float size = length(sums.normal);
+    vec3 outward = size > 0.0 ? sums.normal / size : vec3(0.0);
+    sums.place += offsets.x * outward;
+    sums.along += offsets.y * outward;
+    sums.across += offsets.z * outward;
+#endif
+    vec3 at = first + sums.place;
+    uv = cornerUv;
+#ifndef DEPTH_ONLY
+    place = at;
+    vec3 turned = cross(sums.along, sums.across);
+    float area = length(turned);
+    normal = area > 1e-6 ? turned / area : vec3(0.0);  // zero: the triangle's own is taken
+#ifdef COLOR_BY
+    color = scaleColor(molecule);
+#else
+    color = instanceColor(moleculeSeed(molecule));
+#endif
+#endif
+    gl_Position = toClip * vec4(at, 1.0);
+    if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
+}

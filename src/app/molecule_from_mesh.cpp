@@ -1,0 +1,184 @@
+// `shoal molecule from-mesh`: makes a molecule, says what it made, and writes it.
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+
+#include "app/commands.h"
+#include "core/file.h"
+#include "core/image.h"
+#include "core/json.h"
+#include "molecule/check.h"
+#include "molecule/molecule_file.h"
+#include "scene/load_model.h"
+
+namespace shoal::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Report {
+    std::string file, output;
+    size_t sourceTriangles = 0, sourceVertices = 0;
+    MadeMolecule made;
+    Analysis analysis;
+    std::vector<Warning> warnings;
+    double seconds = 0;
+};
+
+// Before any work is done for nothing.
+void checkOutput(const MoleculeOptions& options) {
+    if (options.output.empty()) return;
+    const Location where{options.output, 0, 0, {}};
+    std::error_code code;
+    if (fs::is_directory(options.output, code))
+        throw Error(where, "is a folder, expected the name of a file");
+    if (lowerExtension(options.output) != ".json")
+        throw Error(where, "expected a name ending in .json for the molecule file");
+    if (fs::exists(options.output, code) && !options.force)
+        throw Error(where, "is there already: give --force to write over it");
+}
+
+MadeMolecule make(const std::string& file, const Mesh& mesh, const MoleculeOptions& options) {
+    MadeMolecule made;
+    try {
+        made = makeMolecule(mesh, options.fromMesh);
+    } catch (const Error& error) {
+        throw Error(Location{file, 0, 0, {}}, error.message());
+    }
+    Material& material = made.molecule.material;
+    material.texture = options.texture;
+    if (!options.color.empty())
+        material.color = parsePaint(options.color);
+    else if (!options.texture.empty())
+        material.color = glm::dvec3(1);
+    if (!options.texture.empty() && !options.output.empty())
+        readPng(fs::path(options.output).parent_path() / options.texture);
+    return made;
+}
+
+// What is read back is what is reported, and what was not meant to be lost would show.
+void write(const MoleculeOptions& options, MadeMolecule& made) {
+    const std::string text = writeMolecule(made.molecule);
+    made.molecule = parseMolecule(text, options.output);
+    writeFile(options.output, text);
+}
+
+double round3(double value) {
+    if (value == 0 || !std::isfinite(value)) return value;
+    const double power = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
+    return std::round(value * power) / power;
+}
+
+std::string many(size_t count, const char* one, const char* more) {
+    return concat(count, " ", count == 1 ? one : more);
+}
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double frame = 1.0 / 60;  // s
+
+int substeps(const Report& report) {
+    return int(std::max(1.0, std::ceil(frame / report.analysis.stableStepLeapfrog)));
+}
+
+std::string asText(const Report& r) {
+    const MadeMolecule& made = r.made;
+    const Molecule& molecule = made.molecule;
+    std::string out = concat(r.file, ": ", many(r.sourceVertices, "vertex", "vertices"), ", ",
+                             many(r.sourceTriangles, "triangle", "triangles"), ", ", round3(made.extent.x),
+                             " x ", round3(made.extent.y), " x ", round3(made.extent.z), " m, ",
+                             made.solid ? concat("a volume of ", round3(made.volume), " m^3")
+                                        : concat("a sheet of ", round3(made.area), " m^2"));
+    size_t pinned = 0;
+    for (const Vertex& vertex : molecule.vertices)
+        pinned += vertex.pinned ? 1 : 0;
+    out +=
+        concat("\nmolecule \"", molecule.name, "\": ", many(molecule.vertices.size(), "vertex", "vertices"),
+               pinned > 0 ? concat(" (", pinned, " pinned)") : "", ", ",
+               many(molecule.triangles.size(), "triangle", "triangles"), ", ", made.material, ", ",
+               round3(r.analysis.totalMass), " kg");
+    out += concat("\n  ", many(molecule.springs.size(), "spring", "springs"), ": ", made.edges, " edges, ",
+                  made.shears, " shear, ", made.bends, " bending, ", made.braces, " through the inside, ",
+                  made.repairs, " repairs");
+    const double highest = r.analysis.highestFrequency / (2 * pi);
+    out += concat("\n  frequencies ", round3(made.lowestFrequency), " to ", round3(highest),
+                  " Hz, damping ratio ", made.dampingRatio, " to ",
+                  round3(made.dampingRatio * highest / made.lowestFrequency), ", ",
+                  many(size_t(r.analysis.zeroModes), "zero-stiffness mode", "zero-stiffness modes"));
+    out += concat("\n  stable step ", round3(r.analysis.stableStepLeapfrog),
+                  " s (leapfrog): ", many(size_t(substeps(r)), "substep", "substeps"), " at 60 Hz");
+    if (!molecule.skin.empty())
+        out += concat("\n  skin: ", many(molecule.skin.vertices.size(), "vertex", "vertices"), ", ",
+                      many(molecule.skin.triangles.size(), "triangle", "triangles"), ", at rest within ",
+                      round3(made.skinError / molecule.size()), " of its size");
+    out += "\n";
+    for (const std::string& note : made.notes)
+        out += "  note: " + note + "\n";
+    for (const Warning& warning : r.warnings)
+        out += "  warning: " + text(warning) + "\n";
+    out += concat(r.output.empty() ? std::string("not written (give -o FILE.json)") : "wrote " + r.output,
+                  ", ", round3(r.seconds), " s\n");
+    return out;
+}
+
+JsonValue asJson(const Report& r) {
+    const MadeMolecule& made = r.made;
+    const Molecule& molecule = made.molecule;
+    const auto number = [](double value) { return JsonValue::makeNumber(value); };
+    const auto words = [](const auto& all, auto&& word) {
+        JsonValue out = JsonValue::makeArray();
+        for (const auto& one : all)
+            out.items.push_back(JsonValue::makeString(word(one)));
+        return out;
+    };
+    JsonValue springs = JsonValue::makeObject();
+    springs.add("edge", number(made.edges))
+        .add("shear", number(made.shears))
+        .add("bending", number(made.bends));
+    springs.add("brace", number(made.braces)).add("repair", number(made.repairs));
+    JsonValue out = JsonValue::makeObject();
+    out.add("file", JsonValue::makeString(r.file)).add("output", JsonValue::makeString(r.output));
+    out.add("sourceVertices", number(double(r.sourceVertices)));
+    out.add("sourceTriangles", number(double(r.sourceTriangles)));
+    out.add("solid", JsonValue::makeBoolean(made.solid)).add("area", number(made.area));
+    out.add("volume", number(made.volume)).add("extent", JsonValue::makeVector(made.extent));
+    out.add("vertices", number(double(molecule.vertices.size())));
+    out.add("triangles", number(double(molecule.triangles.size()))).add("springs", std::move(springs));
+    out.add("material", JsonValue::makeString(made.material)).add("totalMass", number(r.analysis.totalMass));
+    out.add("lowestFrequency", number(made.lowestFrequency));
+    out.add("highestFrequency", number(r.analysis.highestFrequency / (2 * pi)));
+    out.add("dampingRatio", number(made.dampingRatio)).add("zeroModes", number(r.analysis.zeroModes));
+    out.add("rigidModes", number(r.analysis.rigidModes));
+    out.add("stableStepLeapfrog", number(r.analysis.stableStepLeapfrog));
+    out.add("substepsAt60Hz", number(substeps(r)));
+    out.add("skinVertices", number(double(molecule.skin.vertices.size())));
+    out.add("skinTriangles", number(double(molecule.skin.triangles.size())));
+    out.add("skinError", number(made.skinError / molecule.size()));
+    out.add("notes", words(made.notes, [](const std::string& note) { return note; }));
+    out.add("warnings", words(r.warnings, [](const Warning& warning) { return text(warning); }));
+    out.add("seconds", number(r.seconds));
+    return out;
+}
+
+}  // namespace
+
+int moleculeFromMeshCommand(const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    checkOutput(options.molecule);
+    Report report;
+    report.file = options.files.front();
+    report.output = options.molecule.output;
+    const Mesh mesh = loadMesh(report.file);
+    report.sourceTriangles = mesh.triangles.size();
+    report.sourceVertices = mesh.weldedPositions.size();
+    report.made = make(report.file, mesh, options.molecule);
+    if (!report.output.empty()) write(options.molecule, report.made);
+    report.analysis = analyse(report.made.molecule, false);
+    report.warnings = check(report.made.molecule);
+    report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
+    return 0;
+}
+
+}  // namespace shoal::app

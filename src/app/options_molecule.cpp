@@ -1,0 +1,101 @@
+#include "app/options_molecule.h"
+
+#include <filesystem>
+
+#include "app/cli.h"
+#include "app/options.h"
+#include "author/material_scale.h"
+
+namespace shoal::app {
+
+namespace {
+
+void addFromMesh(CLI::App& command, Options& options) {
+    MoleculeOptions& molecule = options.molecule;
+    FromMesh& make = molecule.fromMesh;
+    const auto number = [&](const char* name, std::optional<double>& value, const std::string& what) {
+        command.add_option(name, value, what)->check(kindOf(isAll<double>, "a number"));
+    };
+    const auto count = [&](const char* name, auto& value, const std::string& what) {
+        command.add_option(name, value, what)->check(kindOf(isAll<int>, "a whole number"));
+    };
+    command.add_option("mesh", options.files, "Mesh of any format that Assimp reads")
+        ->required()
+        ->expected(1);
+    command.add_option("-o,--output", molecule.output,
+                       "Molecule file (.json); without it nothing is written");
+    command.add_flag("--force", molecule.force, "Write over a file that is there");
+    count("--vertices", make.vertices, "At most so many are simulated (default 24)");
+    count("--rings", make.rings, "Instead: so many rings of four vertices along the longest side");
+    command.add_option("--springs", molecule.springs,
+                       "surface, or lattice: tetrahedra that fill the volume (default surface)");
+    std::string names;
+    for (const ScaledMaterial& material : materialScale())
+        names += (names.empty() ? "" : ", ") + std::string(material.name);
+    command.add_option("--material", make.material, names + " (default flesh; of a sheet leaf)");
+    number("--size", make.size, "m, of the longest side (default: as in the file)");
+    number("--mass", make.mass, "kg, in all (default: from the material)");
+    number("--density", make.density, "kg/m^3, instead of the material's");
+    number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");
+    number("--damping", make.damping, "Ratio of the lowest frequency, instead of the material's");
+    command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
+    command.add_option("--pin", molecule.pinRules,
+                       "Pin what meets a rule: y<0.1 (share of the box) or y<0.02m (metres); repeatable");
+    command.add_option("--pin-name", make.pins.names, "Pin an object, mesh or material of the file by name");
+    command.add_option("--pin-paint", make.pins.paints,
+                       "Pin what is painted in this vertex colour: red, or 1,0.5,0");
+    command.add_option("--name", make.name, "Of the molecule (default: that of the file)");
+    command.add_option("--texture", molecule.texture, "PNG beside the molecule file");
+    command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
+    command.add_flag_callback(
+        "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
+    command.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+template <typename Read>
+auto valueOf(const char* option, Read&& read) {
+    try {
+        return read();
+    } catch (const Error& error) {
+        throw Error(concat(option, ": ", error.message()));
+    }
+}
+
+void finishFromMesh(MoleculeOptions& molecule, const std::string& file) {
+    FromMesh& make = molecule.fromMesh;
+    if (molecule.springs != "surface" && molecule.springs != "lattice")
+        throw Error(concat("--springs: expected surface or lattice, found \"", molecule.springs, "\"",
+                           suggestion(molecule.springs, {"surface", "lattice"})));
+    make.springs = molecule.springs == "lattice" ? FromMesh::Springs::lattice : FromMesh::Springs::surface;
+    for (const std::string& text : molecule.pinRules)
+        make.pins.rules.push_back(valueOf("--pin", [&] { return parsePinRule(text); }));
+    for (const std::string& text : make.pins.paints)
+        valueOf("--pin-paint", [&] { return parsePaint(text); });
+    if (!molecule.color.empty()) valueOf("--color", [&] { return parsePaint(molecule.color); });
+    if (make.name.empty())
+        make.name = std::filesystem::path(molecule.output.empty() ? file : molecule.output).stem().string();
+    valueOf("molecule from-mesh", [&] {
+        checkOptions(make);
+        return 0;
+    });
+}
+
+}  // namespace
+
+void addMolecule(CLI::App& app, Options& options) {
+    CLI::App* molecule = app.add_subcommand("molecule", "Make molecules");
+    molecule->require_subcommand(1);
+    addFromMesh(*molecule->add_subcommand("from-mesh", "Make a molecule, with its skin, from any mesh"),
+                options);
+}
+
+void finishMolecule(const CLI::App& app, Options& options) {
+    const CLI::App* molecule = app.get_subcommand("molecule");
+    if (!molecule->parsed()) return;
+    if (molecule->get_subcommand("from-mesh")->parsed()) {
+        options.command = Options::Command::moleculeFromMesh;
+        finishFromMesh(options.molecule, options.files.front());
+    }
+}
+
+}  // namespace shoal::app

@@ -1,0 +1,214 @@
+// Finding what is soft, and what would hold it.
+//
+// With K the mass-scaled stiffness of molecule/analysis.cpp, soft motions are its eigenvectors of eigenvalues
+// near zero, less the rigid motions. A spring between a and b with direction n adds k (n . (u_a - u_b))^2 to
+// the energy of a motion u: the pair is taken of which that is largest for its length.
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Dense>
+
+#include "author/springs.h"
+
+namespace shoal {
+
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double soft = 1e-6;      // eigenvalue by the largest
+constexpr double noHelp = 1e-7;    // of a pair to a motion of length 1
+constexpr size_t mostDense = 300;  // vertices, as in molecule/analysis.cpp
+
+Eigen::Vector3d toEigen(const glm::dvec3& v) {
+    return {v.x, v.y, v.z};
+}
+
+Eigen::Vector3d along(const Molecule& m, int a, int b) {
+    const glm::dvec3 d = m.vertices[size_t(a)].position - m.vertices[size_t(b)].position;
+    const double length = glm::length(d);
+    return length > 0 ? toEigen(d / length) : Eigen::Vector3d::Zero();
+}
+
+double root(const Molecule& m, int vertex) {
+    return 1 / std::sqrt(m.vertices[size_t(vertex)].mass);
+}
+
+// What a spring of stiffness 1 does to the mass-scaled motion u is the square of this row's product with u.
+VectorXd row(const Molecule& m, int a, int b) {
+    VectorXd out = VectorXd::Zero(3 * Eigen::Index(m.vertices.size()));
+    const Eigen::Vector3d n = along(m, a, b);
+    out.segment<3>(3 * a) = root(m, a) * n;
+    out.segment<3>(3 * b) = -root(m, b) * n;
+    return out;
+}
+
+MatrixXd stiffness(const Molecule& m) {
+    const Eigen::Index size = 3 * Eigen::Index(m.vertices.size());
+    MatrixXd out = MatrixXd::Zero(size, size);
+    for (const Spring& spring : m.springs) {
+        const Eigen::Vector3d n = along(m, spring.a, spring.b);
+        const double ra = root(m, spring.a), rb = root(m, spring.b);
+        const Eigen::Matrix3d block = spring.stiffness * n * n.transpose();
+        const Eigen::Index a = 3 * spring.a, b = 3 * spring.b;
+        out.block<3, 3>(a, a) += ra * ra * block;
+        out.block<3, 3>(b, b) += rb * rb * block;
+        out.block<3, 3>(a, b) -= ra * rb * block;
+        out.block<3, 3>(b, a) -= ra * rb * block;
+    }
+    return out;
+}
+
+// An orthonormal basis of the columns.
+MatrixXd basis(const MatrixXd& columns, double least) {
+    const Eigen::JacobiSVD<MatrixXd> svd(columns, Eigen::ComputeThinU);
+    Eigen::Index rank = 0;
+    while (rank < svd.singularValues().size() && svd.singularValues()(rank) > least)
+        ++rank;
+    return svd.matrixU().leftCols(rank);
+}
+
+MatrixXd rigidMotions(const Molecule& m) {
+    glm::dvec3 centre(0);
+    for (const Vertex& vertex : m.vertices)
+        centre += vertex.position / double(m.vertices.size());
+    const double size = m.size();
+    MatrixXd out(3 * Eigen::Index(m.vertices.size()), 6);
+    double least = 0;
+    for (size_t i = 0; i < m.vertices.size(); ++i) {
+        const Eigen::Index at = 3 * Eigen::Index(i);
+        const double mass = std::sqrt(m.vertices[i].mass);
+        const Eigen::Vector3d p = toEigen((m.vertices[i].position - centre) / size);
+        out.block<3, 3>(at, 0) = mass * Eigen::Matrix3d::Identity();
+        for (int axis = 0; axis < 3; ++axis)
+            out.block<3, 1>(at, 3 + axis) = mass * Eigen::Vector3d::Unit(axis).cross(p);
+        least = std::max(least, mass);
+    }
+    return basis(out, 1e-9 * least);
+}
+
+// Motions that nothing resists, orthonormal; none is rigid.
+MatrixXd softMotions(const Molecule& m) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness(m));
+    const VectorXd& values = solver.eigenvalues();
+    Eigen::Index count = 0;
+    while (count < values.size() && values(count) <= soft * values(values.size() - 1))
+        ++count;
+    if (count == 0) return MatrixXd(values.size(), 0);
+    const MatrixXd rigid = rigidMotions(m);
+    MatrixXd found = solver.eigenvectors().leftCols(count);
+    found -= rigid * (rigid.transpose() * found);
+    return basis(found, 0.1);
+}
+
+// What is left of orthonormal motions when their combination `held` is resisted (a Householder reflection of
+// the coefficients takes it to the first column).
+MatrixXd without(const MatrixXd& motions, VectorXd held) {
+    held(0) += held(0) < 0 ? -held.norm() : held.norm();
+    const VectorXd v = held.normalized();
+    const MatrixXd turned = motions - 2 * (motions * v) * v.transpose();
+    return turned.rightCols(turned.cols() - 1);
+}
+
+// The pair that resists a motion most for its length; {-1, -1} when none does.
+class Finder {
+  public:
+    Finder(const Molecule& m, const Inside* inside) : m_(m), inside_(inside) {
+        for (const Spring& spring : m.springs)
+            sprung_.insert(std::minmax({spring.a, spring.b}));
+    }
+
+    Pair find(const VectorXd& motion) const {
+        const int count = int(m_.vertices.size());
+        double best = 0;
+        Pair pair{-1, -1};
+        for (int a = 0; a < count; ++a)
+            for (int b = a + 1; b < count; ++b) {
+                if (sprung_.contains({a, b})) continue;
+                const Eigen::Vector3d n = along(m_, a, b);
+                const double ra = root(m_, a), rb = root(m_, b);
+                const double work = n.dot(ra * motion.segment<3>(3 * a) - rb * motion.segment<3>(3 * b));
+                if (std::abs(work) < noHelp * (ra + rb)) continue;
+                const glm::dvec3 &p = m_.vertices[size_t(a)].position, &q = m_.vertices[size_t(b)].position;
+                double score = work * work / glm::distance(p, q);
+                if (inside_ && inside_->share(p, q) < 0.6) score *= 0.3;
+                if (score > best) best = score, pair = {a, b};
+            }
+        return pair;
+    }
+    void take(const Pair& pair) { sprung_.insert(pair); }
+
+  private:
+    const Molecule& m_;
+    const Inside* inside_;
+    std::set<Pair> sprung_;
+};
+
+// The softest motion that is not rigid, and its eigenvalue by the largest.
+struct Softest {
+    VectorXd motion;
+    double value = 1;
+};
+
+Softest softest(const Molecule& m) {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness(m));
+    const VectorXd& values = solver.eigenvalues();
+    const double most = values(values.size() - 1);
+    for (Eigen::Index i = 0; i < values.size(); ++i)
+        if (values(i) > soft * most) return {solver.eigenvectors().col(i), values(i) / most};
+    return {};
+}
+
+}  // namespace
+
+Bracing brace(Molecule m, const Inside* inside) {
+    Bracing out;
+    if (m.vertices.size() < 2 || m.vertices.size() > mostDense) return out;
+    double strength = 0;  // as other springs have it on the average
+    for (const Spring& spring : m.springs)
+        strength += spring.stiffness / double(m.springs.size());
+    if (strength == 0) strength = 1;
+    Finder finder(m, inside);
+    const auto add = [&](const Pair& pair) {
+        finder.take(pair);
+        out.added.push_back(pair);
+        m.springs.push_back({pair.first, pair.second, strength, 0, {}, {}});
+    };
+    for (int round = 0; round < 64; ++round) {
+        MatrixXd motions = softMotions(m);
+        bool helped = false;
+        while (motions.cols() > 0) {
+            const Pair pair = finder.find(motions.col(0));
+            if (pair.first < 0) {
+                motions = MatrixXd(motions.rightCols(motions.cols() - 1));
+                continue;
+            }
+            helped = true;
+            add(pair);
+            motions = without(motions, motions.transpose() * row(m, pair.first, pair.second));
+        }
+        if (!helped) break;
+    }
+    out.left = int(softMotions(m).cols());
+
+    // what is held, but hardly: as long as it helps
+    constexpr double wanted = 2e-4, gain = 1.2;
+    constexpr size_t mostVertices = 100, most = 24;
+    if (out.left > 0 || m.vertices.size() > mostVertices) return out;
+    Softest now = softest(m);
+    for (size_t i = 0; i < std::min(most, m.vertices.size() / 2) && now.value < wanted; ++i) {
+        const Pair pair = finder.find(now.motion);
+        if (pair.first < 0) break;
+        add(pair);
+        const Softest then = softest(m);
+        if (then.value < gain * now.value) {
+            out.added.pop_back();
+            break;
+        }
+        now = then;
+    }
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,34 @@
+// A mesh of few vertices in the shape of one of many.
+#pragma once
+
+#include <vector>
+
+#include "scene/mesh.h"
+
+namespace shoal {
+
+struct CoarseMesh {
+    std::vector<glm::dvec3> positions;
+    std::vector<glm::ivec3> triangles;  // anticlockwise seen from the front
+    // Welded vertex of the source -> coarse vertex, the nearest along the surface, so that what is known of
+    // the source (pins, paint) is known of these.
+    std::vector<int> map;
+    std::vector<int> source;  // coarse vertex -> welded vertex nearest to it
+};
+
+// At most `vertices` of them, 3 or more; fewer when the mesh has fewer. Edges collapse by the quadric error
+// metric (Garland and Heckbert 1997; meshoptimizer); where its topology stops that too early, and for flat
+// meshes, of which every collapse costs nothing, vertices are gathered about seeds far from one another.
+CoarseMesh simplify(const Mesh& mesh, int vertices);
+
+// So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its
+// positive end to its negative one, closed at the ends. Error: the mesh is flat along an axis.
+CoarseMesh ringsOf(const Mesh& mesh, int rings);
+
+// Fills map and source from positions: by the way along the mesh's edges, else by distance.
+void mapToCoarse(const Mesh& mesh, CoarseMesh& coarse);
+
+// The smallest of the three extents along the principal axes, as a share of the largest.
+double flatness(const std::vector<glm::dvec3>& points);
+
+}  // namespace shoal

@@ -1,0 +1,434 @@
+#include "author/from_mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "author/coarse.h"
+#include "author/inside.h"
+#include "author/lattice.h"
+#include "author/material_scale.h"
+#include "author/springs.h"
+#include "compile/path.h"
+#include "core/error.h"
+#include "molecule/bind_skin.h"
+#include "scene/closed_surface.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+double rounded(double value, int digits) {
+    if (value == 0) return 0;
+    // divided by a power of ten, never multiplied by one that no double holds
+    const int shift = digits - 1 - int(std::floor(std::log10(std::abs(value))));
+    const double power = std::pow(10, std::abs(shift));
+    return shift >= 0 ? std::round(value * power) / power : std::round(value / power) * power;
+}
+
+// To a millionth of the size: what the file shows is what is meant.
+glm::dvec3 rounded(const glm::dvec3& value, double size) {
+    const int shift = 6 - int(std::floor(std::log10(size)));
+    const double power = std::pow(10, std::abs(shift));
+    return shift >= 0 ? glm::round(value * power) / power : glm::round(value / power) * power;
+}
+
+// In metres, where it is wanted.
+Mesh placed(const Mesh& source, const FromMesh& options) {
+    Mesh mesh = source;
+    const glm::dvec3 extent = mesh.high - mesh.low;
+    const double longest = std::max({extent.x, extent.y, extent.z});
+    if (!(longest > 0)) throw Error("all vertices of the mesh lie in one place");
+    const double scale = options.size ? *options.size / longest : 1;
+    const glm::dvec3 origin = options.centre ? 0.5 * (mesh.low + mesh.high) : glm::dvec3(0);
+    for (std::vector<glm::dvec3>* all : {&mesh.positions, &mesh.weldedPositions})
+        for (glm::dvec3& p : *all)
+            p = scale * (p - origin);
+    mesh.low = scale * (mesh.low - origin);
+    mesh.high = scale * (mesh.high - origin);
+    const glm::dvec3 far = glm::max(glm::abs(mesh.low), glm::abs(mesh.high));
+    if (std::max({far.x, far.y, far.z}) > 1e6)
+        throw Error("the mesh reaches further than 1000 km from the origin: centre it, or give a size");
+    return mesh;
+}
+
+// What is spread over a body or a sheet: how much, and how it lies.
+struct Spread {
+    std::vector<double> shares;  // of each coarse vertex; they add up to 1
+    glm::dvec3 axis{0, 0, 1};    // unit, along which it is spread widest
+    double gyration = 0;         // m, along the thinnest direction
+};
+
+class Gather {
+  public:
+    explicit Gather(size_t vertices) : shares_(vertices, 0) {}
+    void add(const glm::dvec3& place, double amount, size_t vertex) {
+        const Eigen::Vector3d p(place.x, place.y, place.z);
+        total_ += amount;
+        first_ += amount * p;
+        second_ += amount * p * p.transpose();
+        shares_[vertex] += amount;
+    }
+    Spread finish() {
+        Spread out;
+        const Eigen::Vector3d middle = first_ / total_;
+        const Eigen::Matrix3d spread = second_ / total_ - middle * middle.transpose();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
+        const Eigen::Vector3d axis = solver.eigenvectors().col(2);
+        out.axis = {axis.x(), axis.y(), axis.z()};
+        out.gyration = std::sqrt(std::max(0.0, solver.eigenvalues()(0)));
+        // no vertex is so light that it would need short steps
+        constexpr double least = 0.4;  // of the mean
+        const double floor = least * total_ / double(shares_.size());
+        double sum = 0;
+        for (double& share : shares_)
+            sum += share = std::max(share, floor);
+        for (const double share : shares_)
+            out.shares.push_back(share / sum);
+        return out;
+    }
+
+  private:
+    std::vector<double> shares_;
+    double total_ = 0;
+    Eigen::Vector3d first_ = Eigen::Vector3d::Zero();
+    Eigen::Matrix3d second_ = Eigen::Matrix3d::Zero();
+};
+
+size_t nearestTo(const std::vector<glm::dvec3>& places, const glm::dvec3& point) {
+    size_t best = 0;
+    for (size_t i = 1; i < places.size(); ++i)
+        if (glm::distance(places[i], point) < glm::distance(places[best], point)) best = i;
+    return best;
+}
+
+Spread spreadOfBody(const CoarseMesh& coarse, const Inside& inside) {
+    Gather gather(coarse.positions.size());
+    for (const glm::dvec3& sample : inside.samples())
+        gather.add(sample, 1, nearestTo(coarse.positions, sample));
+    return gather.finish();
+}
+
+Spread spreadOfSheet(const Mesh& mesh, const CoarseMesh& coarse) {
+    Gather gather(coarse.positions.size());
+    for (const glm::ivec3& t : mesh.triangles) {
+        const glm::dvec3 &a = mesh.positions[size_t(t.x)], &b = mesh.positions[size_t(t.y)],
+                         &c = mesh.positions[size_t(t.z)];
+        const double third = glm::length(glm::cross(b - a, c - a)) / 6;
+        for (int i = 0; i < 3; ++i) {
+            const int welded = mesh.weld[size_t(t[i])];
+            // where the exact second moments of a triangle lie: half way to the middle
+            const glm::dvec3 place = 0.5 * mesh.positions[size_t(t[i])] + (a + b + c) / 6.0;
+            gather.add(place, third, size_t(coarse.map[size_t(welded)]));
+        }
+    }
+    return gather.finish();
+}
+
+// Moves what is flat up and down in turn, so that bending stretches springs to first order.
+void fold(CoarseMesh& coarse, double height) {
+    glm::dvec3 normal(0);
+    std::vector<Pair> edges;
+    for (const glm::ivec3& t : coarse.triangles) {
+        const glm::dvec3& a = coarse.positions[size_t(t.x)];
+        const glm::dvec3 area =
+            glm::cross(coarse.positions[size_t(t.y)] - a, coarse.positions[size_t(t.z)] - a);
+        normal += glm::dot(area, normal) < 0 ? -area : area;
+        for (int i = 0; i < 3; ++i)
+            edges.emplace_back(t[i], t[(i + 1) % 3]);
+    }
+    normal = glm::normalize(normal);
+    // as many edges as can be from up to down: greedily, one vertex after another
+    std::vector<int> side(coarse.positions.size(), 0);
+    for (int round = 0; round < 8; ++round)
+        for (size_t v = 0; v < side.size(); ++v) {
+            int sum = 0;
+            for (const Pair& edge : edges) {
+                if (size_t(edge.first) == v) sum += side[size_t(edge.second)];
+                if (size_t(edge.second) == v) sum += side[size_t(edge.first)];
+            }
+            side[v] = sum > 0 ? -1 : 1;
+        }
+    for (size_t v = 0; v < side.size(); ++v)
+        coarse.positions[v] += 0.5 * height * side[v] * normal;
+}
+
+SkinMesh skinOf(const Mesh& mesh) {
+    SkinMesh out;
+    // a vertex of the skin for each that differs by place, uv or, at an edge, by normal
+    constexpr double crease = 0.766;
+    std::vector<std::vector<size_t>> at(mesh.weldedPositions.size());
+    std::vector<glm::dvec3> normals;
+    std::vector<int> numbers;
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::dvec2 uv = mesh.uvs.empty() ? glm::dvec2(0) : mesh.uvs[v];
+        std::vector<size_t>& here = at[size_t(mesh.weld[v])];
+        const auto same = [&](size_t s) {
+            return glm::distance(out.uvs[s], uv) < 1e-6 && glm::dot(normals[s], mesh.normals[v]) > crease;
+        };
+        const auto found = std::find_if(here.begin(), here.end(), same);
+        numbers.push_back(int(found != here.end() ? *found : out.positions.size()));
+        if (found != here.end()) continue;
+        here.push_back(out.positions.size());
+        out.positions.push_back(mesh.weldedPositions[size_t(mesh.weld[v])]);
+        out.uvs.push_back(uv);
+        normals.push_back(mesh.normals[v]);
+    }
+    for (const glm::ivec3& t : mesh.triangles) {
+        const SkinTriangle triangle{numbers[size_t(t.x)], numbers[size_t(t.y)], numbers[size_t(t.z)]};
+        if (triangle.a != triangle.b && triangle.b != triangle.c && triangle.c != triangle.a)
+            out.triangles.push_back(triangle);
+    }
+    // without those that no triangle has
+    std::vector<int> kept(out.positions.size(), -1);
+    SkinMesh packed;
+    for (SkinTriangle t : out.triangles) {
+        for (int* corner : {&t.a, &t.b, &t.c}) {
+            int& number = kept[size_t(*corner)];
+            if (number < 0) {
+                number = int(packed.positions.size());
+                packed.positions.push_back(out.positions[size_t(*corner)]);
+                packed.uvs.push_back(out.uvs[size_t(*corner)]);
+            }
+            *corner = number;
+        }
+        packed.triangles.push_back(t);
+    }
+    return packed;
+}
+
+// One run of makeMolecule, step by step.
+class Maker {
+  public:
+    Maker(const Mesh& mesh, const FromMesh& options) : options_(options), mesh_(placed(mesh, options)) {}
+
+    MadeMolecule run() {
+        examine();
+        makeCoarse();
+        makeVertices();
+        makeSprings();
+        scaleStiffness();
+        if (options_.skin) addSkin();
+        return std::move(made_);
+    }
+
+  private:
+    Molecule& molecule() { return made_.molecule; }
+
+    void examine() {
+        const SurfaceReport report = examineSurface(mesh_);
+        if (report.triangles <= report.degenerate) throw Error("every triangle of the mesh has no area");
+        made_.solid = report.closed();
+        made_.area = report.area;
+        made_.volume = made_.solid ? std::abs(report.volume) : 0;
+        made_.extent = mesh_.high - mesh_.low;
+        if (options_.springs == FromMesh::Springs::lattice && !made_.solid)
+            throw Error(
+                concat("a lattice of tetrahedra fills a volume, and this mesh has none: ", whyOpen(report)));
+        if (made_.solid) inside_ = std::make_unique<Inside>(mesh_);
+        if (inside_ && inside_->samples().empty()) {
+            inside_.reset();
+            made_.solid = false;
+            if (options_.springs == FromMesh::Springs::lattice)
+                throw Error("a lattice of tetrahedra fills a volume, and this mesh is too thin for any");
+        }
+        if (!made_.solid && !report.closed())
+            made_.notes.push_back("the mesh is a sheet, not a body: " + whyOpen(report));
+        const double longest = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
+        if (!options_.size && (longest > 20 || longest < 1e-3))
+            made_.notes.push_back(concat("the file's lengths were taken as metres, which makes it ", longest,
+                                         " m long: --size gives another"));
+        const char* usual = made_.solid || bulky() ? "flesh" : "leaf";
+        made_.material = !options_.material.empty() ? options_.material : usual;
+        material_ = &scaledMaterial(made_.material);
+    }
+
+    void makeCoarse() {
+        if (options_.rings)
+            coarse_ = ringsOf(mesh_, *options_.rings);
+        else if (options_.springs == FromMesh::Springs::lattice) {
+            Lattice lattice = latticeIn(mesh_, *inside_, options_.vertices);
+            coarse_ = std::move(lattice.surface);
+            cells_ = std::move(lattice.cells);
+        } else {
+            coarse_ = simplify(mesh_, options_.vertices);
+        }
+        if (coarse_.positions.size() < 3) throw Error("the mesh has no shape that three vertices could hold");
+        mapToCoarse(mesh_, coarse_);
+        if (made_.solid) return;
+        // Without it every bend of a flat sheet would be free.
+        constexpr double leastFlatness = 0.05, height = 0.12;
+        if (flatness(coarse_.positions) >= leastFlatness) return;
+        const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
+        fold(coarse_, height * size);
+        made_.notes.push_back(concat("the sheet is flat: its vertices were folded up and down by ", height,
+                                     " of its size, so that it resists bending; the skin stays flat"));
+    }
+
+    void makeVertices() {
+        const Spread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(mesh_, coarse_);
+        const double density = options_.density.value_or(material_->density);
+        const double mass =
+            options_.mass.value_or(density * (inside_ ? made_.volume : made_.area * material_->thickness));
+        density_ = inside_ ? mass / made_.volume : mass / (made_.area * material_->thickness);
+        length_ = extentAlong(spread.axis);
+        // of a plate: E / (1 - nu^2), and a section as thick as the sheet; what is bent bends as a whole
+        const double plate = material_->thickness / std::sqrt(12 * (1 - 0.09));
+        gyration_ = inside_ || bulky() ? spread.gyration : plate;
+        const std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
+        const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
+        for (size_t i = 0; i < coarse_.positions.size(); ++i) {
+            Vertex vertex;
+            vertex.position = rounded(coarse_.positions[i], size);
+            vertex.mass = std::clamp(rounded(mass * spread.shares[i], 4), 1e-12, 1e12);
+            vertex.pinned = pinned[i];
+            if (!mesh_.uvs.empty()) vertex.uv = glm::round(uvAt(i) * 1e6) / 1e6;
+            molecule().vertices.push_back(vertex);
+        }
+        for (const glm::ivec3& t : coarse_.triangles)
+            molecule().triangles.push_back({t.x, t.y, t.z});
+        molecule().name = options_.name;
+        if (!mesh_.colors.empty()) {
+            glm::dvec3 sum(0);
+            for (const glm::dvec3& color : mesh_.colors)
+                sum += glm::clamp(color, 0.0, 1.0) / double(mesh_.colors.size());
+            molecule().material.color = glm::round(sum * 1e3) / 1e3;
+        }
+    }
+
+    double extentAlong(const glm::dvec3& axis) const {
+        double low = 1e300, high = -1e300;
+        for (const glm::dvec3& p : mesh_.weldedPositions) {
+            low = std::min(low, glm::dot(p, axis));
+            high = std::max(high, glm::dot(p, axis));
+        }
+        return high - low;
+    }
+
+    // A surface that encloses nothing and still has three extents: a shell.
+    bool bulky() const { return flatness(mesh_.weldedPositions) > 0.2; }
+
+    glm::dvec2 uvAt(size_t coarse) const {
+        for (size_t v = 0; v < mesh_.weld.size(); ++v)
+            if (mesh_.weld[v] == coarse_.source[coarse]) return mesh_.uvs[v];
+        return glm::dvec2(0);
+    }
+
+    void addSprings(const std::vector<Pair>& pairs, int& count) {
+        for (const Pair& pair : pairs) {
+            Spring spring{pair.first, pair.second, 0, 0, {}, {}};
+            const double length = molecule().restLength(spring);
+            if (!(length > 1e-9)) continue;
+            spring.stiffness = 1;  // all alike: short ones do not set the step
+            molecule().springs.push_back(spring);
+            ++count;
+        }
+    }
+
+    void makeSprings() {
+        SpringPairs pairs;
+        if (options_.rings) {
+            pairs = springsOfRings(*options_.rings);
+        } else if (cells_.empty()) {
+            pairs = springsOf(coarse_, inside_.get());
+        } else {
+            for (const std::array<int, 4>& cell : cells_)
+                for (size_t i = 0; i < 4; ++i)
+                    for (size_t j = i + 1; j < 4; ++j)
+                        pairs.add(pairs.edges, cell[i], cell[j]);
+        }
+        addSprings(pairs.edges, made_.edges);
+        addSprings(pairs.shears, made_.shears);
+        addSprings(pairs.bends, made_.bends);
+        addSprings(pairs.braces, made_.braces);
+        const Bracing bracing = brace(molecule(), inside_.get());
+        addSprings(bracing.added, made_.repairs);
+        if (made_.repairs > 0)
+            made_.notes.push_back(concat(made_.repairs, made_.repairs == 1 ? " spring was" : " springs were",
+                                         " added where motions had little or no stiffness"));
+        if (bracing.left > 0)
+            made_.notes.push_back(
+                concat(bracing.left, " motions stay without stiffness: no pair of vertices resists them"));
+    }
+
+    // All springs by one factor, so that the lowest frequency is the material's; damping likewise.
+    void scaleStiffness() {
+        const double target =
+            options_.frequency.value_or(lowestFrequency(material_->modulus, density_, length_, gyration_));
+        const Analysis unit = analyse(molecule(), false);
+        if (!(unit.lowestFrequency > 0)) throw Error("the springs leave nothing that could swing");
+        // C = beta K: the ratio of a mode grows with its frequency. Beyond half of critical it would cost
+        // steps, and show nothing.
+        constexpr double mostRatio = 0.5;
+        made_.dampingRatio = options_.damping.value_or(
+            std::min(material_->damping, mostRatio * unit.lowestFrequency / unit.highestFrequency));
+        const double wanted = 2 * pi * target;
+        const double factor = wanted * wanted / (unit.lowestFrequency * unit.lowestFrequency);
+        for (Spring& spring : molecule().springs) {
+            spring.stiffness = rounded(factor * spring.stiffness, 4);
+            spring.damping = rounded(2 * made_.dampingRatio / wanted * spring.stiffness, 4);
+        }
+        made_.lowestFrequency = analyse(molecule(), false).lowestFrequency / (2 * pi);
+    }
+
+    void addSkin() {
+        const SkinMesh mesh = skinOf(mesh_);
+        molecule().skin = bindSkin(molecule(), mesh);
+        for (size_t i = 0; i < mesh.positions.size(); ++i)
+            made_.skinError = std::max(
+                made_.skinError, glm::distance(mesh.positions[i], molecule().skin.vertices[i].position));
+    }
+
+    const FromMesh& options_;
+    Mesh mesh_;
+    std::unique_ptr<Inside> inside_;
+    const ScaledMaterial* material_ = nullptr;
+    CoarseMesh coarse_;
+    std::vector<std::array<int, 4>> cells_;
+    double density_ = 0, length_ = 0, gyration_ = 0;
+    MadeMolecule made_;
+};
+
+}  // namespace
+
+int mostMadeVertices() {
+    return FusedLimits::workgroup(PathLimits{}, SolverKind::leapfrog);
+}
+
+void checkOptions(const FromMesh& o) {
+    const auto above = [](const char* what, const std::optional<double>& value, double most,
+                          const char* unit) {
+        if (value && !(*value > 0 && *value <= most))
+            throw Error(concat("expected a ", what, " above 0, at most ", most, unit, ", found ", *value));
+    };
+    above("size", o.size, 1e5, " m");
+    above("mass", o.mass, 1e9, " kg");
+    above("density", o.density, 1e5, " kg/m^3");
+    above("frequency", o.frequency, 1e5, " Hz");
+    if (o.damping && !(*o.damping >= 0 && *o.damping <= 2))
+        throw Error(concat("expected a damping ratio from 0 to 2, found ", *o.damping));
+    if (!o.material.empty()) scaledMaterial(o.material);
+    if (o.mass && o.density) throw Error("expected either a mass or a density, found both");
+    const int asked = o.rings ? 4 * *o.rings : o.vertices;
+    if (o.rings && *o.rings < 2) throw Error(concat("expected at least 2 rings, found ", *o.rings));
+    if (!o.rings && asked < leastMadeVertices)
+        throw Error(concat("expected at least ", leastMadeVertices, " vertices, found ", asked));
+    if (asked > mostMadeVertices())
+        throw Error(concat("a molecule of ", asked, " vertices is larger than the fused path holds: at most ",
+                           mostMadeVertices(),
+                           o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : ""));
+    if (o.rings && o.springs == FromMesh::Springs::lattice)
+        throw Error("expected either rings or a lattice, found both");
+}
+
+MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
+    checkOptions(options);
+    return Maker(mesh, options).run();
+}
+
+}  // namespace shoal

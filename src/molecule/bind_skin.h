@@ -1,0 +1,35 @@
+// Hanging a mesh on a molecule's few vertices, as its skin.
+//
+// Moving least squares (Lancaster and Salkauskas 1981) over the nearest vertices, at most Skin::mostWeights:
+// of all weights that add up to 1 and reproduce the point, those with the least sum of weight^2 / kernel. The
+// kernel falls to 0 at the first vertex that is left out, so that weights change smoothly along the skin.
+#pragma once
+
+#include "molecule/molecule.h"
+
+namespace shoal {
+
+struct SkinMesh {
+    std::vector<glm::dvec3> positions;  // m, about the molecule's rest shape
+    std::vector<glm::dvec2> uvs;        // as many
+    std::vector<SkinTriangle> triangles;
+};
+
+// Weights are rounded to 1e-7, uvs to 1e-6, which the file keeps. Of vertices that lie in a plane, what the
+// plane does not reach is an offset along the molecule's normal.
+Skin bindSkin(const Molecule& molecule, const SkinMesh& mesh);
+
+// How a skin vertex turns with the molecule: the tangents t and b of the skin in the rest shape, with t x b
+// its normal, move as sum of along_k x_k + offset n and sum of across_k x_k + offset n. The weights of both
+// add up to 0 and reproduce the tangent, so that normals follow every affine motion exactly.
+struct SkinFrame {
+    std::vector<double> along, across;  // one a weight of the vertex
+    double alongOffset = 0, acrossOffset = 0;
+};
+
+// Of every vertex of the molecule's skin. Normals are smooth; vertices in one place share theirs unless they
+// differ by more than 40 degrees, as at the edge of a box.
+std::vector<SkinFrame> skinFrames(const Molecule& molecule);
+std::vector<glm::dvec3> skinNormals(const Skin& skin);  // the same normals, in the rest shape
+
+}  // namespace shoal

@@ -1,0 +1,115 @@
+// `shoal molecule`.
+#include "cli/shoal_command.h"
+#include "core/file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+const std::string minnow = sourceFile("molecules/minnow.obj");
+
+// A box of one sheet: no top.
+const char* const tray =
+    "o tray\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
+    "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+
+}  // namespace
+
+TEST_CASE("molecule from-mesh: writes a molecule that check accepts", "[cli][molecule]") {
+    const Scratch scratch;
+    const std::string out = scratch.path("fish.json");
+    const Outcome made =
+        runShoal({"molecule", "from-mesh", minnow, "-o", out, "--vertices", "20", "--pin", "z>0.9"});
+    INFO(made.err);
+    REQUIRE(made.code == 0);
+    CHECK(made.err.empty());
+    for (const char* part :
+         {"890 vertices, 1776 triangles", "a volume of", "molecule \"fish\": ", "pinned)", "flesh", "edges",
+          "Hz, damping ratio", "0 zero-stiffness modes", "stable step", "skin: ", "wrote "})
+        CHECK(made.out.find(part) != std::string::npos);
+    const Outcome checked = runShoal({"check", out, "--json"});
+    REQUIRE(checked.code == 0);
+    const JsonValue report = checked.json();
+    CHECK(member(member(report.items.at(0), "molecule"), "vertices").number <= 20);
+    CHECK(member(report.items.at(0), "warnings").items.empty());
+    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"fish.json"});
+}
+
+TEST_CASE("molecule from-mesh: the shipped minnow is what its command makes", "[cli][molecule]") {
+    const Scratch scratch;
+    const std::string out = scratch.path("minnow.json");
+    std::filesystem::copy(sourceFile("molecules/minnow.png"), scratch / "minnow.png");
+    const Outcome made = runShoal({"molecule", "from-mesh", minnow, "-o", out, "--rings", "6", "--texture",
+                                   "minnow.png", "--name", "minnow", "--json"});
+    INFO(made.err);
+    REQUIRE(made.code == 0);
+    const JsonValue report = made.json();
+    CHECK(member(report, "vertices").number == 24);
+    CHECK(member(report, "zeroModes").number == 0);
+    CHECK(member(report, "skinError").number < 1e-5);
+    CHECK(member(report, "warnings").items.empty());
+    const JsonValue fresh = readJson(out), shipped = readJson(sourceFile("molecules/minnow.json"));
+    CHECK(writeJson(member(fresh, "vertices")) == writeJson(member(shipped, "vertices")));
+    CHECK(writeJson(member(fresh, "springs")) == writeJson(member(shipped, "springs")));
+    // weights are least squares: to rounding
+    const JsonValue &a = member(member(fresh, "skin"), "weights"), &b = member(member(shipped, "skin"), "weights");
+    REQUIRE(a.items.size() == b.items.size());
+    REQUIRE(a.items[7].items.size() == b.items[7].items.size());
+    for (size_t i = 0; i < a.items[7].items.size(); ++i)
+        CHECK(a.items[7].items[i].number == Approx(b.items[7].items[i].number).margin(1e-6));
+}
+
+TEST_CASE("molecule from-mesh: leaves files alone", "[cli][molecule]") {
+    const Scratch scratch;
+    const std::string out = scratch.write("there.json", "mine");
+    refusal({"molecule", "from-mesh", minnow, "-o", out}, "is there already: give --force");
+    CHECK(readFile(out) == "mine");
+    CHECK(runShoal({"molecule", "from-mesh", minnow, "-o", out, "--force", "--no-skin"}).code == 0);
+    CHECK(readFile(out).find("shoal-molecule-1") != std::string::npos);
+    CHECK(readFile(out).find("skin") == std::string::npos);
+    // a disk that is full half way
+    const std::string full = scratch.path("full.json");
+    refusal({"molecule", "from-mesh", minnow, "-o", full}, "full.json", {.largestFile = 5000});
+    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"there.json"});
+    refusal({"molecule", "from-mesh", minnow, "-o", "/proc/nothing/out.json"}, "/proc/nothing");
+    refusal({"molecule", "from-mesh", minnow, "-o", scratch.folder().string()}, "is a folder");
+    refusal({"molecule", "from-mesh", minnow, "-o", scratch.path("out.obj")}, "ending in .json");
+    const Outcome shown = runShoal({"molecule", "from-mesh", minnow});
+    CHECK(shown.code == 0);
+    CHECK(shown.out.find("not written") != std::string::npos);
+}
+
+TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
+    const Scratch scratch;
+    const std::string open = scratch.write("tray.obj", tray);
+    const auto refuses = [](Words more, const std::string& part) {
+        Words words = {"molecule", "from-mesh"};
+        words.insert(words.end(), more.begin(), more.end());
+        refusal(words, part);
+    };
+    refuses({"nowhere.obj"}, "nowhere.obj: no such file");
+    refuses({scratch.folder().string()}, "is a folder");
+    refuses({scratch.write("text.obj", "nothing here\n")}, "text.obj");
+    refuses({scratch.write("line.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")}, "has no triangles");
+    refuses({open, "--springs", "lattice"}, "this mesh has none: 4 border edges");
+    refuses({open, "--springs", "latice"}, "did you mean \"lattice\"");
+    refuses({open, "--vertices", "1000"}, "larger than the fused path holds: at most 227");
+    refuses({open, "--vertices", "many"}, "expected a whole number");
+    refuses({open, "--vertices", "-4"}, "expected at least 4 vertices, found -4");
+    refuses({open, "--size", "0"}, "expected a size above 0");
+    refuses({open, "--size", "nan"}, "expected a size above 0");
+    refuses({open, "--mass", "heavy"}, "expected a number");
+    refuses({open, "--material", "lief"}, "did you mean \"leaf\"");
+    refuses({open, "--pin", "y=1"}, "--pin: expected a rule such as y<0.1");
+    refuses({open, "--pin-name", "cup"}, "no object, mesh or material \"cup\"; it has tray");
+    refuses({open, "--pin-paint", "rde"}, "--pin-paint: expected a colour");
+    refuses({open, "--pin-paint", "red"}, "no vertex colours");
+    refuses({open, "-o", scratch.path("a.json"), "--texture", "none.png"}, "none.png");
+    refuses({open, "--verices", "4"}, "unknown option --verices (did you mean \"--vertices\"?)");
+    refusal({"molecule", "from-mash", open}, "unknown command \"from-mash\" (did you mean \"from-mesh\"?)");
+    refusal({"molecule"}, "subcommand is required");
+    CHECK(filesIn(scratch.folder().string()).size() == 3);
+}

@@ -1,0 +1,378 @@
+// From a mesh to a molecule with its skin.
+#include <algorithm>
+#include <filesystem>
+#include <map>
+
+#include "author/from_mesh.h"
+#include "author/material_scale.h"
+#include "molecule/bind_skin.h"
+#include "molecule/check.h"
+#include "molecule/molecule_file.h"
+#include "scene/closed_surface.h"
+#include "support/bent.h"
+#include "support/catch.h"
+#include "support/meshes.h"
+#include "support/message_of.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+MadeMolecule made(const Mesh& mesh, FromMesh options = {}) {
+    if (options.name.empty()) options.name = "made";
+    return makeMolecule(mesh, options);
+}
+
+std::string refused(const Mesh& mesh, const FromMesh& options) {
+    return messageOf([&] { makeMolecule(mesh, options); });
+}
+
+std::vector<glm::dvec3> restOf(const Molecule& molecule) {
+    std::vector<glm::dvec3> out;
+    for (const Vertex& vertex : molecule.vertices)
+        out.push_back(vertex.position);
+    return out;
+}
+
+std::vector<glm::ivec3> trianglesOf(const Skin& skin) {
+    std::vector<glm::ivec3> out;
+    for (const SkinTriangle& t : skin.triangles)
+        out.emplace_back(t.a, t.b, t.c);
+    return out;
+}
+
+// The skin of simulated vertices that were moved, beside the skin's rest shape moved likewise.
+template <typename Move>
+SkinFigures moved(const Molecule& molecule, const Move& move) {
+    std::vector<glm::dvec3> vertices = restOf(molecule), shape;
+    for (glm::dvec3& p : vertices)
+        p = move(p);
+    for (const SkinVertex& vertex : molecule.skin.vertices)
+        shape.push_back(move(vertex.position));
+    return compareSkin(skinPositions(molecule, vertices), shape, trianglesOf(molecule.skin));
+}
+
+void checkBraced(const Molecule& molecule) {
+    const Analysis analysis = analyse(molecule, false);
+    CHECK(analysis.rigidModes == 6);
+    CHECK(analysis.zeroModes == 0);
+    CHECK(analysis.lowestFrequency > 0.01 * analysis.highestFrequency);
+}
+
+// A strip of paper in the xy plane, n x 2 n squares; y from 0 to 0.2.
+Mesh strip(int n) {
+    Mesh mesh;
+    for (int j = 0; j <= 2 * n; ++j)
+        for (int i = 0; i <= n; ++i) {
+            mesh.positions.emplace_back(0.1 * i / n - 0.05, 0.1 * j / n, 0);
+            mesh.uvs.emplace_back(double(i) / n, 0.5 * j / n);
+        }
+    for (int j = 0; j < 2 * n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const int a = j * (n + 1) + i;
+            mesh.triangles.push_back({a, a + 1, a + n + 2});
+            mesh.triangles.push_back({a, a + n + 2, a + n + 1});
+        }
+    mesh.objects = {{"strip", 0, int(mesh.triangles.size())}};
+    completeMesh(mesh);
+    return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("5,000 triangles become 24 braced vertices and a skin", "[from-mesh]") {
+    const Mesh mesh = club(50, 51);
+    REQUIRE(mesh.triangles.size() == 5000);
+    REQUIRE(examineSurface(mesh).closed());
+    const MadeMolecule out = made(mesh);
+    const Molecule& molecule = out.molecule;
+    CHECK(molecule.vertices.size() <= 24);
+    CHECK(molecule.vertices.size() >= 20);
+    CHECK(out.solid);
+    checkBraced(molecule);
+    for (const Warning& warning : check(molecule))
+        FAIL_CHECK(text(warning));
+
+    CHECK(molecule.skin.triangles.size() == 5000);
+    const double size = molecule.size();
+    CHECK(out.skinError < 1e-6 * size);
+    const double length = mesh.high.z - mesh.low.z;
+    const SkinFigures bend = moved(molecule, [&](auto& p) { return bent(p, 30 * degree, length); });
+    const SkinFigures twist = moved(molecule, [&](auto& p) { return twisted(p, 20 * degree, length); });
+    UNSCOPED_INFO("bent: " << bend.distance / size << " of the size off, volume " << bend.volumeError);
+    UNSCOPED_INFO("twisted: " << twist.distance / size << " of the size off, volume " << twist.volumeError);
+    CHECK(bend.flipped == 0);
+    CHECK(twist.flipped == 0);
+    CHECK(bend.volumeError < 0.02);
+    CHECK(twist.volumeError < 0.02);
+    CHECK(bend.distance < 0.03 * size);
+    CHECK(twist.distance < 0.03 * size);
+}
+
+TEST_CASE("mass, size and frequencies are as asked", "[from-mesh]") {
+    const Mesh mesh = club(24, 25);
+    FromMesh options;
+    options.size = 0.12;
+    MadeMolecule out = made(mesh, options);
+    CHECK(std::max({out.extent.x, out.extent.y, out.extent.z}) == Approx(0.12));
+    const ScaledMaterial& flesh = scaledMaterial("flesh");
+    CHECK(analyse(out.molecule, false).totalMass == Approx(out.volume * flesh.density).epsilon(0.01));
+    // a bar of this length, as wide as a club of this width
+    const double widest = lowestFrequency(flesh.modulus, flesh.density, 0.12, 0.02);
+    CHECK(out.lowestFrequency < widest);
+    CHECK(out.lowestFrequency > 0.2 * widest);
+
+    options.mass = 0.5;
+    options.frequency = 7;
+    options.damping = 0.2;
+    options.centre = true;
+    out = made(mesh, options);
+    const Analysis analysis = analyse(out.molecule, false);
+    CHECK(analysis.totalMass == Approx(0.5).epsilon(0.01));
+    CHECK(analysis.lowestFrequency == Approx(2 * std::numbers::pi * 7).epsilon(0.01));
+    // C = beta K with beta = 2 ratio / frequency
+    const Spring& spring = out.molecule.springs.front();
+    CHECK(spring.damping == Approx(0.4 / analysis.lowestFrequency * spring.stiffness).epsilon(0.01));
+    const double slack = 0.02;
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const SkinVertex& vertex : out.molecule.skin.vertices)
+        low = glm::min(low, vertex.position), high = glm::max(high, vertex.position);
+    CHECK(glm::length(low + high) < slack * 0.12);
+    // softer and stiffer, in the order of the scale
+    options = {};
+    double last = 0;
+    for (const char* name : {"jelly", "flesh", "rubber"}) {
+        options.material = name;
+        const double frequency = made(mesh, options).lowestFrequency;
+        CHECK(frequency > last);
+        last = frequency;
+    }
+}
+
+TEST_CASE("a made molecule is written and read back equal", "[from-mesh]") {
+    FromMesh options;
+    options.pins.rules.push_back(parsePinRule("z<0.1"));
+    const Molecule molecule = made(club(16, 17), options).molecule;
+    const std::string text = writeMolecule(molecule);
+    const Molecule again = parseMolecule(text, "again.json");
+    CHECK(writeMolecule(again) == text);
+    REQUIRE(again.vertices.size() == molecule.vertices.size());
+    REQUIRE(again.springs.size() == molecule.springs.size());
+    for (size_t i = 0; i < molecule.vertices.size(); ++i) {
+        CHECK(again.vertices[i].position == molecule.vertices[i].position);
+        CHECK(again.vertices[i].mass == molecule.vertices[i].mass);
+        CHECK(again.vertices[i].pinned == molecule.vertices[i].pinned);
+    }
+    REQUIRE(again.skin.vertices.size() == molecule.skin.vertices.size());
+    bool same = true;
+    for (size_t i = 0; i < molecule.skin.vertices.size(); ++i)
+        same = same && again.skin.vertices[i].position == molecule.skin.vertices[i].position &&
+               again.skin.vertices[i].uv == molecule.skin.vertices[i].uv &&
+               again.skin.vertices[i].offset == molecule.skin.vertices[i].offset;
+    CHECK(same);
+}
+
+TEST_CASE("rings lie across the longest side and bend sideways", "[from-mesh]") {
+    FromMesh options;
+    options.rings = 6;
+    const MadeMolecule out = made(club(24, 25), options);
+    const Molecule& molecule = out.molecule;
+    REQUIRE(molecule.vertices.size() == 24);
+    checkBraced(molecule);
+    for (int ring = 0; ring < 6; ++ring) {
+        const auto at = [&](int side) { return molecule.vertices[size_t(4 * ring + side)].position; };
+        for (int side = 1; side < 4; ++side)
+            CHECK(at(side).z == Approx(at(0).z));
+        CHECK(at(0).x > at(2).x);  // right, top, left, bottom
+        CHECK(at(1).y > at(3).y);
+        if (ring > 0) CHECK(at(0).z < molecule.vertices[size_t(4 * ring - 4)].position.z);
+    }
+    // muscles: along each flank
+    const auto sprung = [&](int a, int b) {
+        return std::any_of(molecule.springs.begin(), molecule.springs.end(),
+                           [&](const Spring& s) { return std::minmax(s.a, s.b) == std::minmax(a, b); });
+    };
+    for (int ring = 0; ring + 1 < 6; ++ring)
+        for (const int side : {0, 2})
+            CHECK(sprung(4 * ring + side, 4 * ring + side + 4));
+    for (const Warning& warning : check(molecule))
+        FAIL_CHECK(text(warning));
+    const double length = 1.2;
+    const SkinFigures bend = moved(molecule, [&](auto& p) { return bent(p, 30 * degree, length); });
+    CHECK(bend.flipped == 0);
+    CHECK(bend.volumeError < 0.02);
+}
+
+TEST_CASE("a lattice fills the volume with tetrahedra", "[from-mesh]") {
+    FromMesh options;
+    options.springs = FromMesh::Springs::lattice;
+    options.vertices = 60;
+    const MadeMolecule out = made(club(24, 25), options);
+    CHECK(out.molecule.vertices.size() <= 60);
+    CHECK(out.molecule.vertices.size() >= 30);
+    checkBraced(out.molecule);
+    // the boundary of the lattice is closed and faces outwards
+    Mesh hull;
+    for (const Vertex& vertex : out.molecule.vertices)
+        hull.positions.push_back(vertex.position);
+    for (const Triangle& t : out.molecule.triangles)
+        hull.triangles.push_back({t.a, t.b, t.c});
+    completeMesh(hull);
+    const SurfaceReport report = examineSurface(hull);
+    CHECK(report.unsound() == 0);
+    CHECK(report.volume == Approx(out.volume).epsilon(0.4));
+    // every edge of the lattice is one of two lengths
+    std::vector<double> lengths;
+    for (const Spring& spring : out.molecule.springs)
+        lengths.push_back(out.molecule.restLength(spring));
+    const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
+    CHECK(*most / *least == Approx(2 / std::sqrt(3.0)).epsilon(1e-3));
+    const std::string why = refused(strip(8), options);
+    CHECK(why.find("lattice") != std::string::npos);
+    CHECK(why.find("border edges") != std::string::npos);
+}
+
+TEST_CASE("a flat sheet is folded, and its skin stays flat", "[from-mesh]") {
+    FromMesh options;
+    options.vertices = 16;
+    const MadeMolecule out = made(strip(12), options);
+    CHECK_FALSE(out.solid);
+    CHECK(out.material == "leaf");
+    checkBraced(out.molecule);
+    CHECK(out.molecule.vertices.size() <= 16);
+    double height = 0, off = 0;
+    for (const Vertex& vertex : out.molecule.vertices)
+        height = std::max(height, std::abs(vertex.position.z));
+    for (const SkinVertex& vertex : out.molecule.skin.vertices)
+        off = std::max(off, std::abs(vertex.position.z));
+    CHECK(height > 0.005);
+    CHECK(off < 1e-6);
+    const ScaledMaterial& leaf = scaledMaterial("leaf");
+    CHECK(analyse(out.molecule, false).totalMass ==
+          Approx(0.1 * 0.2 * leaf.thickness * leaf.density).epsilon(0.01));
+    CHECK(std::any_of(out.notes.begin(), out.notes.end(),
+                      [](const std::string& note) { return note.find("folded") != std::string::npos; }));
+}
+
+TEST_CASE("pins survive by rule, by name and by paint", "[from-mesh]") {
+    Mesh mesh = club(24, 25);
+    mesh.parts = {{"handle", "wood", 0, 60}};
+    mesh.colors.assign(mesh.positions.size(), glm::dvec3(1));
+    for (size_t i = 0; i < mesh.positions.size(); ++i)
+        if (mesh.positions[i].z > 0.35) mesh.colors[i] = {0.9, 0.1, 0.05};
+    const auto pinnedBeyond = [&](const FromMesh& options, auto&& where) {
+        const Molecule molecule = made(mesh, options).molecule;
+        int pinned = 0;
+        for (const Vertex& vertex : molecule.vertices) {
+            pinned += vertex.pinned ? 1 : 0;
+            if (vertex.pinned) CHECK(where(vertex.position));
+        }
+        return pinned;
+    };
+    FromMesh rule;
+    rule.pins.rules = {parsePinRule("z<0.2")};
+    CHECK(pinnedBeyond(rule, [](const glm::dvec3& p) { return p.z < -0.2; }) >= 2);
+    FromMesh metres;
+    metres.pins.rules = {parsePinRule("z>0.3m")};
+    CHECK(pinnedBeyond(metres, [](const glm::dvec3& p) { return p.z > 0.2; }) >= 2);
+    FromMesh paint;
+    paint.pins.paints = {"red"};
+    CHECK(pinnedBeyond(paint, [](const glm::dvec3& p) { return p.z > 0.2; }) >= 2);
+    FromMesh name;
+    name.pins.names = {"wood"};
+    CHECK(pinnedBeyond(name, [](const glm::dvec3&) { return true; }) >= 1);
+
+    FromMesh wrong;
+    wrong.pins.names = {"iron"};
+    CHECK(refused(mesh, wrong).find("it has club, handle, wood") != std::string::npos);
+    wrong = {};
+    wrong.pins.paints = {"blue"};
+    CHECK(refused(mesh, wrong) == "no vertex of the mesh is painted blue");
+    wrong = {};
+    wrong.pins.rules = {parsePinRule("y>2m")};
+    CHECK(refused(mesh, wrong) == "no vertex of the mesh meets y>2m");
+    for (const char* text : {"", "y", "y<", "q<1", "y=1", "y<1cm", "y<nan", "y<0.1m "})
+        CHECK(messageOf([&] { parsePinRule(text); }).find("expected a rule such as") != std::string::npos);
+    for (const char* text : {"", "rad", "1,2,0", "1,0", "1,0,0,0"})
+        CHECK(messageOf([&] { parsePaint(text); }).find("expected a colour") != std::string::npos);
+}
+
+TEST_CASE("what makes no molecule is refused with its reason", "[from-mesh]") {
+    const Mesh mesh = club(8, 9);
+    FromMesh options;
+    const auto with = [&](auto&& change) {
+        options = {};
+        change(options);
+        return refused(mesh, options);
+    };
+    CHECK(with([](FromMesh& o) { o.vertices = 500; }).find("the fused path holds: at most 227") !=
+          std::string::npos);
+    CHECK(with([](FromMesh& o) { o.rings = 57; }).find("at most 227, which are 56 rings") !=
+          std::string::npos);
+    CHECK(with([](FromMesh& o) { o.vertices = 3; }) == "expected at least 4 vertices, found 3");
+    CHECK(with([](FromMesh& o) { o.rings = 1; }) == "expected at least 2 rings, found 1");
+    CHECK(with([](FromMesh& o) { o.size = -1; }).find("expected a size above 0") != std::string::npos);
+    CHECK(with([](FromMesh& o) { o.damping = 5; }).find("damping ratio from 0 to 2") != std::string::npos);
+    CHECK(with([](FromMesh& o) { o.material = "flush"; }).find("did you mean \"flesh\"") !=
+          std::string::npos);
+    CHECK(with([](FromMesh& o) { o.mass = o.density = 1; }).find("either") != std::string::npos);
+    Mesh point = square(0);
+    CHECK(refused(point, {}).find("in one place") != std::string::npos);
+    options = {};
+    options.rings = 3;
+    CHECK(refused(square(1), options) == "rings go around a body; this mesh is flat");
+}
+
+TEST_CASE("separate parts and meshes of few vertices hold together", "[from-mesh]") {
+    Mesh tubes;
+    addTube(tubes, "a", {0, 0, 0}, 0.1, 1, 12, 6);
+    addTube(tubes, "b", {0.5, 0, 0.1}, 0.1, 1, 12, 6);
+    addTube(tubes, "c", {0.2, 0, 0.6}, 0.1, 1, 12, 6);
+    completeMesh(tubes);
+    const MadeMolecule out = made(tubes);
+    CHECK(out.molecule.vertices.size() <= 24);
+    checkBraced(out.molecule);
+    Mesh few = square(0.1);
+    const MadeMolecule quad = made(few);
+    CHECK(quad.molecule.vertices.size() == 4);
+    CHECK(analyse(quad.molecule, false).zeroModes == 0);
+}
+
+// Assimp's own models are not ours to ship: Debian has them in the package assimp-testmodels.
+TEST_CASE("meshes that others made become molecules or are refused with a reason", "[from-mesh][models]") {
+    const std::string folder = "/usr/share/assimp/models/";
+    if (!std::filesystem::exists(folder)) {
+        WARN("skipped: Assimp's models are not installed (on Debian: apt install assimp-testmodels)");
+        return;
+    }
+    struct Model {
+        const char* file;
+        bool made;
+    };
+    int seen = 0;
+    for (const Model& model :
+         {Model{"OBJ/spider.obj", true}, Model{"OBJ/WusonOBJ.obj", true}, Model{"OBJ/box.obj", true},
+          Model{"OBJ/concave_polygon.obj", true}, Model{"OBJ/cube_with_vertexcolors.obj", true},
+          Model{"PLY/Wuson.ply", true}, Model{"STL/Spider_ascii.stl", true}, Model{"OFF/Wuson.off", true},
+          Model{"3DS/fels.3ds", true}, Model{"Collada/duck.dae", true}, Model{"OBJ/point_cloud.obj", false},
+          Model{"OBJ/testline.obj", false}}) {
+        INFO(model.file);
+        if (!std::filesystem::exists(folder + model.file)) continue;
+        ++seen;
+        const std::string message = messageOf([&] {
+            FromMesh options;
+            options.size = 0.2;
+            const MadeMolecule out = made(loadMesh(folder + model.file), options);
+            CHECK(out.molecule.vertices.size() <= 24);
+            CHECK(analyse(out.molecule, false).zeroModes == 0);
+            CHECK(out.skinError < 1e-5 * out.molecule.size());
+            parseMolecule(writeMolecule(out.molecule), "again.json");
+        });
+        CHECK(message.empty() == model.made);
+        if (!message.empty()) CHECK(message.find("has no triangles") != std::string::npos);
+    }
+    CHECK(seen >= 10);
+}
