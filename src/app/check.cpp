@@ -61,6 +61,12 @@ Verdict checkMolecule(const std::string& file) {
                molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
                many(molecule.springs.size(), "spring"), ", ", many(molecule.triangles.size(), "triangle"),
                ", mass ", free.totalMass, " kg, rest energy ", free.restEnergy, " J");
+    if (!molecule.skin.empty()) {
+        out.summary += concat("\n  skin: ", molecule.skin.vertices.size(), " vertices, ",
+                              many(molecule.skin.triangles.size(), "triangle"));
+        out.facts.add("skinVertices", JsonValue::makeNumber(double(molecule.skin.vertices.size())))
+            .add("skinTriangles", JsonValue::makeNumber(double(molecule.skin.triangles.size())));
+    }
     if (molecule.springs.empty()) return out;
     out.summary += concat("\n  frequencies ", free.lowestFrequency, " to ", free.highestFrequency, " rad/s, ",
                           many(size_t(free.zeroModes), "zero-stiffness mode"), "\n  stable steps: euler ",

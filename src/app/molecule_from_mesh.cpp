@@ -103,7 +103,7 @@ std::string asText(const Report& r) {
                   made.repairs, " repairs");
     const double highest = r.analysis.highestFrequency / (2 * pi);
     out += concat("\n  frequencies ", round3(made.lowestFrequency), " to ", round3(highest),
-                  " Hz, damping ratio ", made.dampingRatio, " to ",
+                  " Hz, damping ratio ", round3(made.dampingRatio), " to ",
                   round3(made.dampingRatio * highest / made.lowestFrequency), ", ",
                   many(size_t(r.analysis.zeroModes), "zero-stiffness mode", "zero-stiffness modes"));
     out += concat("\n  stable step ", round3(r.analysis.stableStepLeapfrog),

@@ -46,7 +46,8 @@ Triangles collapse(Triangles triangles, const std::vector<glm::vec3>& positions,
         Triangles out(from.size());
         constexpr float anyError = 1e10f;
         out.resize(meshopt_simplify(out.data(), from.data(), from.size(), &positions[0].x, positions.size(),
-                                    sizeof(glm::vec3), 3 * count, anyError, 0, nullptr));
+                                    sizeof(glm::vec3), std::min(3 * count, from.size()), anyError, 0,
+                                    nullptr));
         return out;
     };
     // large meshes once, so that the search below is quick

@@ -15,6 +15,7 @@
 #include "compile/path.h"
 #include "core/error.h"
 #include "molecule/bind_skin.h"
+#include "molecule/skin_file.h"
 #include "scene/closed_surface.h"
 
 namespace shoal {
@@ -378,6 +379,11 @@ class Maker {
 
     void addSkin() {
         const SkinMesh mesh = skinOf(mesh_);
+        if (mesh.positions.size() > size_t(maxSkinVertices) ||
+            mesh.triangles.size() > size_t(maxSkinTriangles))
+            throw Error(concat("a skin of ", mesh.positions.size(), " vertices and ", mesh.triangles.size(),
+                               " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
+                               maxSkinTriangles, ": simplify the mesh, or leave the skin out"));
         molecule().skin = bindSkin(molecule(), mesh);
         for (size_t i = 0; i < mesh.positions.size(); ++i)
             made_.skinError = std::max(

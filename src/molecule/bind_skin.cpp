@@ -180,6 +180,16 @@ Skin bindSkin(const Molecule& molecule, const SkinMesh& mesh) {
     return std::move(bound.skin);
 }
 
+void rebindSkin(Molecule& molecule) {
+    SkinMesh mesh;
+    for (const SkinVertex& vertex : molecule.skin.vertices) {
+        mesh.positions.push_back(vertex.position);
+        mesh.uvs.push_back(vertex.uv);
+    }
+    mesh.triangles = molecule.skin.triangles;
+    molecule.skin = bindSkin(molecule, mesh);
+}
+
 std::vector<glm::dvec3> skinNormals(const Skin& skin) {
     constexpr double crease = 0.766;  // cosine of 40 degrees
     std::vector<glm::dvec3> own(skin.vertices.size(), glm::dvec3(0));

@@ -19,6 +19,9 @@ struct SkinMesh {
 // plane does not reach is an offset along the molecule's normal.
 Skin bindSkin(const Molecule& molecule, const SkinMesh& mesh);
 
+// Hangs a molecule's skin anew, at the places that it has: after vertices were added, removed or renumbered.
+void rebindSkin(Molecule& molecule);
+
 // How a skin vertex turns with the molecule: the tangents t and b of the skin in the rest shape, with t x b
 // its normal, move as sum of along_k x_k + offset n and sum of across_k x_k + offset n. The weights of both
 // add up to 0 and reproduce the tangent, so that normals follow every affine motion exactly.

@@ -61,7 +61,8 @@ class Collector {
         object.triangleCount = static_cast<int>(mesh.triangles.size()) - object.firstTriangle;
         if (object.triangleCount > 0) mesh.objects.push_back(object);
         for (unsigned i = 0; i < node.mNumChildren; ++i)
-            visit(*node.mChildren[i], transform, depth + 1);
+            if (node.mChildren[i])
+                visit(*node.mChildren[i], transform, depth + 1);  // RAW files leave some out
     }
 
     Mesh mesh;

@@ -138,6 +138,20 @@ TEST_CASE("a skin follows every affine motion exactly, and so do its normals", "
     }
 }
 
+TEST_CASE("a skin stays in place when its molecule gets other vertices", "[skin]") {
+    double radius = 0;
+    Molecule m = ball(radius);
+    const Skin before = m.skin;
+    m.vertices.erase(m.vertices.begin() + 3);
+    rebindSkin(m);
+    REQUIRE(m.skin.vertices.size() == before.vertices.size());
+    for (size_t i = 0; i < before.vertices.size(); ++i) {
+        CHECK(glm::distance(m.skin.vertices[i].position, before.vertices[i].position) < 1e-5);
+        for (const SkinWeight& weight : m.skin.vertices[i].weights)
+            CHECK(size_t(weight.vertex) < m.vertices.size());
+    }
+}
+
 TEST_CASE("where vertices lie in a plane, a skin keeps its distance along the normal", "[skin]") {
     Molecule m;
     for (int i = 0; i < 9; ++i)
