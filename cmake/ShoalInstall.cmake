@@ -23,6 +23,8 @@ file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/ShoalConfig.cmake.in [[
 set_and_check(SHOAL_SHADERS "@PACKAGE_SHOAL_SHADERS@")
 include(CMakeFindDependencyMacro)
 find_dependency(PNG)
+find_dependency(ZLIB)
+find_dependency(pugixml)
 find_dependency(GLEW)
 find_dependency(glfw3)
 find_dependency(assimp)

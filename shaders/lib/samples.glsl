@@ -49,3 +49,40 @@ vec3 gridVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap)
     }
     return sum;
 }
+
+// A sequence of grids behind one another, linear in time. place: the time in frames from the first; where
+// the sequence repeats, the first follows the last.
+vec3 gridSequenceVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, bool wrap, float place, int frames,
+                          bool repeats)
+{
+    float last = float(frames - 1);
+    place = repeats ? place - float(frames) * floor(place / float(frames)) : clamp(place, 0.0, last);
+    float first = min(floor(place), last);
+    int here = int(first);
+    int next = here + 1 < frames ? here + 1 : repeats ? 0 : here;
+    int cells = resolution.x * resolution.y * resolution.z;
+    return mix(gridVelocity(x, perMetre, resolution, base + here * cells, wrap),
+               gridVelocity(x, perMetre, resolution, base + next * cells, wrap), place - first);
+}
+
+// The place of a time among frames whose times, from the first on, rise at samples base .. base + frames - 1;
+// interval: from the last frame to the first where the sequence repeats, else 0.
+float placeAmong(float time, int base, int frames, float interval)
+{
+    float last = sampleAt(base + frames - 1).x;
+    if (interval > 0.0) {
+        float period = last + interval;
+        time = min(time - period * floor(time / period), period);
+        if (time >= last) return float(frames - 1) + (time - last) / interval;
+    }
+    int low = 0;
+    int high = frames - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        bool later = time < sampleAt(base + middle).x;
+        high = later ? middle : high;
+        low = later ? low : middle;
+    }
+    float before = sampleAt(base + low).x;
+    return float(low) + clamp((time - before) / (sampleAt(base + high).x - before), 0.0, 1.0);
+}

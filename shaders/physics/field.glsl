@@ -58,3 +58,36 @@ vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period
     }
     return sum;
 }
+
+// One wave train of linear theory; x is relative to a point of the still surface. speed: amplitude times angular
+// frequency, over 1 - e^(-2 wavenumber depth); top: the sum of all trains' amplitudes. As exponentials,
+// because cosh and sinh of deep water overflow: cosh k(y + d) / sinh kd = (e^ky + e^-k(y + 2d)) / (1 - e^-2kd).
+vec3 waveVelocity(vec3 x, float time, vec2 direction, float wavenumber, float angularFrequency, float speed, float phase,
+                  float depth, float top)
+{
+    float y = clamp(x.y, -depth, top);
+    float fromSurface = exp(wavenumber * y);
+    float fromBottom = exp(-wavenumber * (y + 2.0f * depth));
+    float a = wavenumber * (direction.x * x.x + direction.y * x.z) - angularFrequency * time + phase;
+    float along = speed * (fromSurface + fromBottom) * cos(a);
+    return vec3(direction.x * along, speed * (fromSurface - fromBottom) * sin(a), direction.y * along);
+}
+
+// x is relative to the eye at the ground; inflow: the tangent of its angle. Where s is above 40 the wind is below
+// 1e-8 of its peak.
+vec3 hurricaneVelocity(vec3 x, float speed, float radius, float shape, float inflow, float height, float coriolis)
+{
+    float r = max(length(vec2(x.x, x.z)), 1e-6f * radius);
+    float s = pow(radius / r, shape);
+    if (s > 40.0f || x.y < 0.0f || x.y > height) return vec3(0.0f);
+    float pressure = speed * speed * s * exp(1.0f - s);
+    float turning = 0.5f * coriolis * r;
+    float root = max(sqrt(pressure + turning * turning), 1e-15f);
+    float v = pressure / (root + turning);
+    float slope = (0.5f * shape * (s - 1.0f) * pressure / r + 0.5f * coriolis * turning) / root - 0.5f * coriolis;
+    float a = 3.14159265f * x.y / height;
+    float around = (speed < 0.0f ? -v : v) * cos(0.5f * a) / r;
+    float inwards = inflow * v * cos(a) / r;
+    float up = inflow * (v / r + slope) * height * 0.318309886f * sin(a);
+    return vec3(around * x.z - inwards * x.x, up, -around * x.x - inwards * x.z);
+}

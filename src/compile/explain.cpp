@@ -133,6 +133,8 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         out << "fields   " << name(plan.fieldSampling) << "\n";
     out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true, inPlace)) << ", tables "
         << mebibytes(plan.tableBytes()) << "\n";
+    for (const std::string& grid : plan.grids)
+        out << "         " << grid << "\n";
     tellContact(out, plan);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
@@ -207,6 +209,12 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
         .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true, inPlace))))
         .add("tableBytes", JsonValue::makeNumber(double(plan.tableBytes())))
         .add("groups", std::move(groups));
+    if (!plan.grids.empty()) {
+        JsonValue grids = JsonValue::makeArray();
+        for (const std::string& grid : plan.grids)
+            grids.items.push_back(JsonValue::makeString(grid));
+        out.add("grids", std::move(grids));
+    }
     if (!plan.contact.any()) return out;
     JsonValue contact = JsonValue::makeObject();
     contact.add("spheres", JsonValue::makeNumber(plan.contact.spheres))

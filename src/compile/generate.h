@@ -25,6 +25,8 @@ struct GeneratedFields : Generated {
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
 GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
+// What each grid among them takes of the samples, a line each, for people.
+std::vector<std::string> describeGrids(const std::vector<Field>& fields);
 // 4-vectors of uniforms that fields, and colliders, may each take: within what OpenGL 3.3 promises a fragment
 // shader (1024 components), with room for the passes' own.
 constexpr size_t maxParameters = 200;

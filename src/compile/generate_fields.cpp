@@ -2,7 +2,9 @@
 // `emit` here, its reader in scene/, its double-precision twin in reference/fields.cpp, one test.
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 #include <numbers>
+#include <sstream>
 
 #include "compile/generate.h"
 
@@ -95,8 +97,59 @@ class FieldWriter {
             samples_->emplace_back(value, 0.0f);
         const glm::dvec3 perMetre = glm::dvec3(f.resolution) / (f.high - f.low);
         const std::string o = origin(f.low), scale = slot(perMetre);
-        return concat("gridVelocity(", o, ", ", scale, ".xyz, ivec3(", f.resolution.x, ", ", f.resolution.y,
-                      ", ", f.resolution.z, "), ", base, ", ", f.wrap ? "true" : "false", ")");
+        const std::string grid =
+            concat("Velocity(", o, ", ", scale, ".xyz, ivec3(", f.resolution.x, ", ", f.resolution.y, ", ",
+                   f.resolution.z, "), ", base, ", ", f.wrap ? "true" : "false");
+        if (f.times.empty()) return concat("grid", grid, ")");
+        return concat("gridSequence", grid, ", ", place(f), ", ", f.times.size(), ", ",
+                      f.repeats ? "true" : "false", ")");
+    }
+
+    // The time in frames of the sequence.
+    std::string place(const GridField& f) {
+        const size_t frames = f.times.size();
+        const double interval = (f.times.back() - f.times.front()) / double(frames - 1);
+        bool even = true;
+        for (size_t i = 0; i < frames; ++i)
+            even = even && std::abs(f.times[i] - f.times.front() - double(i) * interval) < 1e-6 * interval;
+        const std::string s =
+            slot({f.times.front(), 1 / interval, f.period() - (f.times.back() - f.times.front())});
+        const std::string since = concat("(time - ", s, ".x)");
+        if (even) return concat(since, " * ", s, ".y");
+        const size_t base = samples_->size();
+        for (const double time : f.times)
+            samples_->emplace_back(float(time - f.times.front()), 0.0f, 0.0f, 0.0f);
+        return concat("placeAmong(", since, ", ", base, ", ", frames, ", ", f.repeats ? s + ".z" : "0.0",
+                      ")");
+    }
+
+    std::string emit(const WavesField& f) {
+        constexpr double deep = 1e9;  // m
+        const std::string o = origin(f.origin);
+        const double depth = f.depth.value_or(deep);
+        double top = 0;
+        for (const WaveTrain& train : f.trains)
+            top += train.amplitude;
+        const std::string water = slot({depth, top, 0});
+        std::string sum;
+        for (const WaveTrain& train : f.trains) {
+            const double k = 2 * std::numbers::pi / train.wavelength;
+            const double frequency = std::sqrt(f.gravity * k * std::tanh(k * depth));
+            const glm::dvec2 along = glm::normalize(glm::dvec2(train.direction.x, train.direction.z));
+            const std::string a = slot({along, k}, frequency),
+                              b = slot({train.amplitude * frequency / -std::expm1(-2 * k * depth),
+                                        train.phase, 0});
+            sum += concat(sum.empty() ? "(" : " + ", "waveVelocity(", o, ", time, ", a, ".xy, ", a, ".z, ", a,
+                          ".w, ", b, ".x, ", b, ".y, ", water, ".x, ", water, ".y)");
+        }
+        return sum + ")";
+    }
+
+    std::string emit(const HurricaneField& f) {
+        const std::string o = origin(f.origin), a = slot({f.speed, f.radius, f.shape}, std::tan(f.inflow)),
+                          b = slot({f.height, f.coriolis, 0});
+        return concat("hurricaneVelocity(", o, ", ", a, ".x, ", a, ".y, ", a, ".z, ", a, ".w, ", b, ".x, ", b,
+                      ".y)");
     }
 
     std::vector<glm::vec4>* samples_;
@@ -114,6 +167,24 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
                parameterArray("fieldParameters", out.parameters.size()),
                "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                out.source, "    return u;\n}\n");
+    return out;
+}
+
+std::vector<std::string> describeGrids(const std::vector<Field>& fields) {
+    std::vector<std::string> out;
+    for (const Field& field : fields) {
+        const GridField* grid = std::get_if<GridField>(&field.shape);
+        if (!grid) continue;
+        std::ostringstream line;
+        line << "grid " << (field.name.empty() ? "" : "\"" + field.name + "\" ") << "of "
+             << grid->resolution.x << " x " << grid->resolution.y << " x " << grid->resolution.z << " cells";
+        if (!grid->times.empty())
+            line << ", " << grid->times.size() << " frames from " << grid->times.front() << " to "
+                 << grid->times.back() << " s" << (grid->repeats ? ", again and again" : "");
+        line << ": " << std::fixed << std::setprecision(2)
+             << double(grid->values.size() * sizeof(glm::vec4)) / (1 << 20) << " MiB";
+        out.push_back(line.str());
+    }
     return out;
 }
 
@@ -135,8 +206,8 @@ std::string inComment(const std::string& name) {
 }
 
 const char* kindName(const FieldShape& shape) {
-    static constexpr const char* names[] = {"uniform", "oscillating", "gust",      "shear", "vortex",
-                                            "abc",     "taylorGreen", "curlNoise", "grid"};
+    static constexpr const char* names[] = {"uniform",     "oscillating", "gust", "shear", "vortex",   "abc",
+                                            "taylorGreen", "curlNoise",   "grid", "waves", "hurricane"};
     return names[shape.index()];
 }
 

@@ -303,11 +303,15 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldCount = scene.fields.size();
     plan.colliderCount = scene.colliders.size();
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        return std::holds_alternative<GustField>(field.shape) ||
+        const WavesField* waves = std::get_if<WavesField>(&field.shape);
+        return (waves && waves->trains.size() > 4) || std::holds_alternative<GustField>(field.shape) ||
                std::holds_alternative<CurlNoiseField>(field.shape) ||
                std::holds_alternative<GridField>(field.shape);
     });
-    if (any(&Needs::fields)) fields = generateFields(scene.fields, plan.samples);
+    if (any(&Needs::fields)) {
+        fields = generateFields(scene.fields, plan.samples);
+        plan.grids = describeGrids(scene.fields);
+    }
     if (any(&Needs::collide) || any(&Needs::avoids))
         colliders = generateColliders(scene.colliders, plan.samples);
     if (fields.parameters.size() > maxParameters || colliders.parameters.size() > maxParameters)

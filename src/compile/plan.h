@@ -113,9 +113,10 @@ struct Plan {
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses
     size_t fieldCount = 0, colliderCount = 0;
-    bool longFields = false;  // noise or grids: too much text to repeat for every vertex
+    bool longFields = false;  // noise, grids or many waves: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
+    std::vector<std::string> grids;  // what each field's grid takes of them, for people
 
     std::vector<Warning> warnings;
 

@@ -70,7 +70,8 @@ glm::dvec3 velocity(const CurlNoiseField& field, const glm::dvec3& x, double tim
     return sum;
 }
 
-glm::dvec3 velocity(const GridField& field, const glm::dvec3& x, double) {
+// Of one frame of a grid.
+glm::dvec3 gridVelocity(const GridField& field, const glm::dvec3& x, size_t frame) {
     glm::ivec3 low, high;
     glm::dvec3 share;
     for (int d = 0; d < 3; ++d) {
@@ -96,11 +97,68 @@ glm::dvec3 velocity(const GridField& field, const glm::dvec3& x, double) {
             weight *= upper ? share[d] : 1 - share[d];
         }
         const size_t index =
+            frame * field.cells() +
             (size_t(cell.z) * size_t(field.resolution.y) + size_t(cell.y)) * size_t(field.resolution.x) +
             size_t(cell.x);
         sum += weight * glm::dvec3(field.values[index]);
     }
     return sum;
+}
+
+glm::dvec3 velocity(const GridField& field, const glm::dvec3& x, double time) {
+    const std::vector<double>& times = field.times;
+    if (times.empty()) return gridVelocity(field, x, 0);
+    if (field.repeats) time -= std::floor((time - times.front()) / field.period()) * field.period();
+    const size_t next = size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    if (next == 0) return gridVelocity(field, x, 0);
+    if (next == times.size() && !field.repeats) return gridVelocity(field, x, next - 1);
+    const double before = times[next - 1];
+    const double after = next < times.size() ? times[next] : times.front() + field.period();
+    return glm::mix(gridVelocity(field, x, next - 1), gridVelocity(field, x, next % times.size()),
+                    (time - before) / (after - before));
+}
+
+glm::dvec3 velocity(const WavesField& field, const glm::dvec3& x, double time) {
+    const glm::dvec3 d = x - field.origin;
+    double top = 0;
+    for (const WaveTrain& train : field.trains)
+        top += train.amplitude;
+    glm::dvec3 sum(0);
+    for (const WaveTrain& train : field.trains) {
+        const double k = twoPi / train.wavelength, amplitude = train.amplitude;
+        const glm::dvec3 along = glm::normalize(glm::dvec3(train.direction.x, 0, train.direction.z));
+        // in water deeper than this the bottom is not felt within double precision, and cosh would overflow
+        const bool deep = !field.depth || k * *field.depth > 100;
+        const double y = std::min(deep ? d.y : std::max(d.y, -*field.depth), top);
+        const double omega = std::sqrt(field.gravity * k * (deep ? 1 : std::tanh(k * *field.depth)));
+        const double level =
+            deep ? std::exp(k * y) : std::cosh(k * (y + *field.depth)) / std::sinh(k * *field.depth);
+        const double upright =
+            deep ? std::exp(k * y) : std::sinh(k * (y + *field.depth)) / std::sinh(k * *field.depth);
+        const double a = k * glm::dot(along, d) - omega * time + train.phase;
+        sum += amplitude * omega * (along * (level * std::cos(a)) + glm::dvec3(0, upright * std::sin(a), 0));
+    }
+    return sum;
+}
+
+glm::dvec3 velocity(const HurricaneField& field, const glm::dvec3& x, double) {
+    const glm::dvec3 d = x - field.origin;
+    const double r = std::hypot(d.x, d.z), part = d.y / field.height;
+    if (r < 1e-6 * field.radius || part < 0 || part > 1) return glm::dvec3(0);
+    const double s = std::pow(field.radius / r, field.shape);
+    const double gradient = field.speed * field.speed * s * std::exp(1 - s);  // r dp/dr over the density
+    const double f = field.coriolis;
+    const double root = std::sqrt(gradient + r * r * f * f / 4);
+    if (root == 0 || s > 600) return glm::dvec3(0);
+    // not root - r f / 2, which cancels far out
+    const double v = gradient / (root + r * f / 2);
+    const double rise = gradient * field.shape * (s - 1) / r;  // d gradient / dr
+    const double slope = (rise + r * f * f / 2) / (2 * root) - f / 2;
+    const glm::dvec3 out(d.x / r, 0, d.z / r), around = glm::cross(glm::dvec3(0, 1, 0), out);
+    const double pi = twoPi / 2, tangent = std::tan(field.inflow);
+    return around * (std::copysign(v, field.speed) * std::cos(pi * part / 2)) -
+           out * (tangent * v * std::cos(pi * part)) +
+           glm::dvec3(0, tangent * (v / r + slope) * field.height / pi * std::sin(pi * part), 0);
 }
 
 bool holds(const Box& box, const glm::dvec3& x) {

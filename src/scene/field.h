@@ -81,17 +81,65 @@ struct CurlNoiseField {
     uint32_t seed = 0;
 };
 
-// A regular grid of velocities, trilinear between cell centres.
+// A regular grid of velocities, trilinear between cell centres; a sequence of such grids, linear in time.
 struct GridField {
-    std::string file;
+    std::string file;  // of a sequence the first
     glm::ivec3 resolution{0};
     glm::dvec3 low{0}, high{0};     // m, in the scene's axes: the outer faces of the outer cells
-    std::vector<glm::vec3> values;  // m/s, x fastest, then y, then z
+    std::vector<glm::vec3> values;  // m/s, x fastest, then y, then z, then the frame
     bool wrap = false;              // repeat outside the bounds, else clamp to the border
+
+    // s, of a sequence's frames, rising, at least two; empty: one grid, at all times. Before the first and
+    // after the last the ends hold; where it repeats, the first follows the last as it follows the one before
+    // it.
+    std::vector<double> times;
+    bool repeats = false;
+
+    size_t cells() const { return size_t(resolution.x) * size_t(resolution.y) * size_t(resolution.z); }
+    double period() const { return times.back() - times.front() + times.back() - times[times.size() - 2]; }
+};
+
+// One wave train: the surface is amplitude cos(k . x - omega t + phase) above its level, k = 2 pi /
+// wavelength along the direction, omega^2 = gravity k tanh(k depth).
+struct WaveTrain {
+    glm::dvec3 direction{1, 0, 0};  // of travel; only x and z count
+    double amplitude = 0.2;         // m, half the height; k times it below 1, where crests would curl over
+    double wavelength = 6;          // m
+    double phase = 0;               // rad, at the origin at time 0
+};
+
+// Water under waves (Fournier and Reeves 1986, "A simple model of ocean waves"): orbits are circles whose
+// radius falls as e^(ky) in deep water, and ellipses that flatten to lines at the bottom of shallow water.
+// For y from -depth to the sum of the amplitudes, and beyond as there,
+//   u = amplitude omega (cosh k(y + depth) cos a, sinh k(y + depth) sin a) / sinh(k depth), a as above,
+// along the direction and up. Free of divergence and of rotation.
+struct WavesField {
+    glm::dvec3 origin{0};         // m, of the still surface
+    std::optional<double> depth;  // m, of the bottom below it; without it the water is deep
+    double gravity = 9.81;        // m/s^2
+    std::vector<WaveTrain> trains;
+};
+
+// Holland's gradient wind (1980, "An analytic model of the wind and pressure profiles in hurricanes", eq. 5)
+// around the vertical, anticlockwise seen from above where `speed` is positive, with an inflow below and an
+// outflow above. With r from the axis, h above the origin, s = (radius / r)^shape, f = coriolis:
+//   V(r) = sqrt(speed^2 s e^(1 - s) + (r f / 2)^2) - r f / 2
+//   around  V cos(pi h / (2 height)),  inwards  tan(inflow) V cos(pi h / height),
+//   up      tan(inflow) (V / r + dV/dr) (height / pi) sin(pi h / height)
+// which is free of divergence: what flows in rises where V / r + dV/dr is large, in the eyewall inside
+// the radius, and leaves above. No wind below the origin and above the height.
+struct HurricaneField {
+    glm::dvec3 origin{0};   // m, of the eye at the ground
+    double speed = 50;      // m/s, the most at the ground, without inflow (and without coriolis)
+    double radius = 30000;  // m, where that is
+    double shape = 1.5;     // Holland's B, 1 to 2.5 in nature
+    double inflow = 0.35;   // rad, at the ground
+    double height = 15000;  // m
+    double coriolis = 0;    // 1/s, at least 0
 };
 
 using FieldShape = std::variant<UniformField, OscillatingField, GustField, ShearField, VortexField, AbcField,
-                                TaylorGreenField, CurlNoiseField, GridField>;
+                                TaylorGreenField, CurlNoiseField, GridField, WavesField, HurricaneField>;
 
 struct Field {
     std::string name;

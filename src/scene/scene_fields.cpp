@@ -1,7 +1,11 @@
 // "fields": what moves the fluid.
 
+#include <algorithm>
+#include <numbers>
+
 #include "core/file.h"
-#include "scene/read_fga.h"
+#include "scene/field_file.h"
+#include "scene/file_sequence.h"
 #include "scene/scene_reader.h"
 
 namespace shoal {
@@ -99,29 +103,93 @@ CurlNoiseField readCurlNoise(JsonReader& r) {
     return field;
 }
 
-GridField readGrid(JsonReader& r) {
-    const std::string file = needFile(r, "file");
-    if (lowerExtension(file) != ".fga")
-        throw Error(r.at("file"), "expected a vector field as .fga, found \"" + file + "\"");
+WavesField readWaves(JsonReader& r) {
+    WavesField field;
+    r.get("origin", field.origin);
+    getOptional(r, "depth", field.depth, aboveZero());
+    r.get("gravity", field.gravity, aboveZero());
+    r.require("trains");
+    for (JsonReader& t : r.objects("trains")) {
+        WaveTrain train;
+        t.get("direction", train.direction);
+        train.direction.y = 0;
+        if (!(glm::length(train.direction) > 0))
+            throw Error(t.at("direction"),
+                        "expected a direction with a part along x or z: waves travel level");
+        t.need("amplitude", train.amplitude, Range::atLeast(0));
+        t.need("wavelength", train.wavelength, aboveZero());
+        t.get("phase", train.phase);
+        const double most = train.wavelength / (2 * std::numbers::pi);
+        if (train.amplitude >= most)
+            throw Error(t.at("amplitude"),
+                        concat("expected less than ", most, " m: crests of ", train.wavelength,
+                               " m length would curl over, found ", train.amplitude));
+        if (field.depth && train.amplitude >= *field.depth)
+            throw Error(t.at("amplitude"), concat("expected less than the depth of ", *field.depth,
+                                                  " m, found ", train.amplitude));
+        t.finish();
+        field.trains.push_back(train);
+    }
+    constexpr size_t most = 32;
+    if (field.trains.empty() || field.trains.size() > most)
+        throw Error(r.at("trains"), concat("expected 1 to ", most, " trains, found ", field.trains.size()));
+    return field;
+}
 
-    FgaOptions options;
-    int axes = 0;
-    r.choose("axes", {"yUp", "zUp", "unreal"}, axes);
+HurricaneField readHurricane(JsonReader& r) {
+    HurricaneField field;
+    r.get("origin", field.origin);
+    r.get("speed", field.speed);
+    r.get("radius", field.radius, aboveZero());
+    r.get("shape", field.shape, Range::between(0.5, 3));
+    r.get("inflow", field.inflow, Range::between(0, 1.2));
+    r.get("height", field.height, aboveZero());
+    r.get("coriolis", field.coriolis, Range::between(0, 1));
+    return field;
+}
+
+GridField readGrid(JsonReader& r) {
+    const FileSequence sequence = readFileSequence(r);
+    const std::string ending = lowerExtension(sequence.files[0]);
+    const std::vector<std::string>& endings = fieldFileEndings();
+    if (std::find(endings.begin(), endings.end(), ending) == endings.end())
+        throw Error(r.at("file"), "expected a vector field as .fga, .vf, .vti or .raw, found \"" +
+                                      sequence.files[0] + "\"");
+    std::string layout;
+    if (ending == ".raw") layout = needFile(r, "layout");
+
+    FieldOptions options;
+    int axes = 0, outside = 0;
+    r.choose("axes", {"yUp", "zUp", "unreal", "unity"}, axes);
     options.axes = static_cast<FieldAxes>(axes);
     r.get("scale", options.scale, aboveZero());
     getOptional(r, "velocityScale", options.velocityScale, Range::any());
-    r.get("origin", options.origin);
-    int outside = 0;
+    if (Box bounds; getBox(r, "bounds", bounds)) options.bounds = bounds;
+    if (r.get("origin", options.origin) && options.bounds)
+        throw Error(r.at("origin"), "\"bounds\" says where the field lies: \"origin\" has no effect");
     r.choose("outside", {"clamp", "wrap"}, outside);
     options.wrap = outside == 1;
-    return readFga(file, options);
+    if (ending == ".vti") r.get("array", options.array);
+
+    GridField field;
+    field.times = sequence.times;
+    field.repeats = sequence.repeats;
+    for (const std::string& file : sequence.files) {
+        addFrame(field, readFieldFile(file, options, layout), options, file);
+        if (field.cells() * sequence.files.size() > size_t(maxFieldCells))
+            throw Error(r.at("sequence"), concat(sequence.files.size(), " frames of ", field.cells(),
+                                                 " cells are more than the ", maxFieldCells,
+                                                 " cells (2^24) that a field may have"));
+    }
+    return field;
 }
 
 FieldShape readShape(JsonReader& r) {
     int type = 0;
     r.require("type");
     r.choose("type",
-             {"uniform", "oscillating", "gust", "shear", "vortex", "abc", "taylorGreen", "curlNoise", "grid"},
+             {"uniform", "oscillating", "gust", "shear", "vortex", "abc", "taylorGreen", "curlNoise", "grid",
+              "waves", "hurricane"},
              type);
     switch (type) {
     case 0:
@@ -140,8 +208,12 @@ FieldShape readShape(JsonReader& r) {
         return readTaylorGreen(r);
     case 7:
         return readCurlNoise(r);
-    default:
+    case 8:
         return readGrid(r);
+    case 9:
+        return readWaves(r);
+    default:
+        return readHurricane(r);
     }
 }
 

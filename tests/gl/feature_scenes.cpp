@@ -256,6 +256,18 @@ std::vector<Field> everyField() {
     for (int i = 0; i < 60; ++i)
         grid.values.emplace_back(0.3f * float(i % 5) - 0.5f, 0.1f * float(i % 11),
                                  0.2f * float(i % 7) - 0.6f);
+    GridField film = grid;  // evenly in time, and not
+    film.times = {0.004, 0.02, 0.05};
+    film.values.resize(180);
+    for (size_t i = 60; i < 180; ++i)
+        film.values[i] = film.values[i - 60] * 1.5f - glm::vec3(0.1f, 0, 0.2f);
+    GridField loop = film;
+    loop.times = {0, 0.01, 0.02};
+    loop.repeats = true;
+    WavesField waves;
+    waves.depth = 3;
+    waves.trains = {{{1, 0, 0.5}, 0.3, 4, 0.2}, {{-1, 0, 1}, 0.1, 2, 1}};
+    const HurricaneField storm{{0.5, -1, 0.2}, 4, 0.7, 1.4, 0.3, 6, 0.1};
     std::vector<Field> out{field(UniformField{{1, 0.2, -0.5}}),
                            field(gust),
                            field(shear()),
@@ -264,7 +276,12 @@ std::vector<Field> everyField() {
                            field(cells),
                            field(eddies),
                            field(grid),
-                           field(OscillatingField{{1, -0.4, 2}, 3, 0.6})};
+                           field(OscillatingField{{1, -0.4, 2}, 3, 0.6}),
+                           field(film),
+                           field(loop),
+                           field(waves),
+                           field(storm)};
+    out[9].weight = 0.2, out[10].weight = 0.2;
     out[0].weight = 0.8;
     out[2].weight = 0.5;
     out[3].box = Box{{-1.5, -5, -1.5}, {1.5, 6, 1.5}};

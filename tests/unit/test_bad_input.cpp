@@ -71,6 +71,22 @@ TEST_CASE("bad input: files that a scene names", "[badInput]") {
     CHECK_THAT(wrong.scene("hill.obj", "bad.obj"), Contains("bad.obj: has no triangles, expected"));
 }
 
+TEST_CASE("bad input: waves and hurricanes", "[badInput]") {
+    const Wrong wrong;
+    CHECK_THAT(wrong.scene("\"direction\": [1, 0, 1], \"phase\"", "\"direction\": [0, 1, 0], \"phase\""),
+               Contains("waves travel level (at $.fields[9].trains[0].direction)"));
+    CHECK_THAT(wrong.scene("\"amplitude\": 0.1", "\"amplitude\": 0.7"),
+               Contains("would curl over, found 0.7"));
+    CHECK_THAT(wrong.scene("\"depth\": 3", "\"depth\": 0.05"),
+               Contains("less than the depth of 0.05 m, found 0.1"));
+    CHECK_THAT(wrong.scene("\"amplitude\": 0.1, ", ""), Contains("$.fields[9].trains[0]"));
+    CHECK_THAT(wrong.scene("\"gravity\": 9,", "\"gravity\": 0,"), Contains("$.fields[9].gravity"));
+    CHECK_THAT(wrong.scene("\"radius\": 4, \"shape\"", "\"radius\": 0, \"shape\""),
+               Contains("$.fields[10].radius"));
+    CHECK_THAT(wrong.scene("\"inflow\": 0.3", "\"inflow\": 1.6"), Contains("$.fields[10].inflow"));
+    CHECK_THAT(wrong.scene("\"shape\": 1.2", "\"shape\": 9"), Contains("$.fields[10].shape"));
+}
+
 TEST_CASE("bad input: scenes that are not scenes", "[badInput]") {
     const Wrong wrong;
     const auto whole = [](const std::string& text) { return failure([&] { parseScene(text, "s.json"); }); };

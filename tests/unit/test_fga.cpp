@@ -21,9 +21,16 @@ const glm::vec3& cell(const GridField& grid, int x, int y, int z) {
     return grid.values[size_t(x + grid.resolution.x * (y + grid.resolution.y * z))];
 }
 
-std::string message(const std::string& text, const FgaOptions& options = {}) {
+// In the scene's axes and units.
+GridField read(const std::string& text, const FieldOptions& options = {}) {
+    GridField grid;
+    addFrame(grid, parseFga(text, "field.fga"), options, "field.fga");
+    return grid;
+}
+
+std::string message(const std::string& text, const FieldOptions& options = {}) {
     try {
-        parseFga(text, "field.fga", options);
+        read(text, options);
     } catch (const Error& error) {
         return error.what();
     }
@@ -33,7 +40,7 @@ std::string message(const std::string& text, const FgaOptions& options = {}) {
 }  // namespace
 
 TEST_CASE("fga as it is", "[fga]") {
-    const GridField grid = parseFga(numbered(), "field.fga");
+    const GridField grid = read(numbered());
     CHECK(grid.resolution == glm::ivec3(2, 3, 4));
     CHECK(grid.low == glm::dvec3(0));
     CHECK(grid.high == glm::dvec3(2, 6, 12));
@@ -45,7 +52,7 @@ TEST_CASE("fga as it is", "[fga]") {
 }
 
 TEST_CASE("fga with z up, right-handed", "[fga]") {
-    const GridField grid = parseFga(numbered(), "field.fga", {.axes = FieldAxes::zUp});
+    const GridField grid = read(numbered(), {.axes = FieldAxes::zUp});
     CHECK(grid.resolution == glm::ivec3(2, 4, 3));
     CHECK(grid.low == glm::dvec3(0, 0, -6));
     CHECK(grid.high == glm::dvec3(2, 12, 0));
@@ -55,8 +62,8 @@ TEST_CASE("fga with z up, right-handed", "[fga]") {
 }
 
 TEST_CASE("fga from Unreal, left-handed with z up, in centimetres", "[fga]") {
-    const FgaOptions options{.axes = FieldAxes::unreal, .scale = 0.01, .origin = {1, 2, 3}, .wrap = true};
-    const GridField grid = parseFga(numbered(), "field.fga", options);
+    const FieldOptions options{.axes = FieldAxes::unreal, .scale = 0.01, .origin = {1, 2, 3}, .wrap = true};
+    const GridField grid = read(numbered(), options);
     CHECK(grid.wrap);
     CHECK(grid.resolution == glm::ivec3(2, 4, 3));
     CHECK(grid.low == glm::dvec3(1, 2, 3));
@@ -65,14 +72,14 @@ TEST_CASE("fga from Unreal, left-handed with z up, in centimetres", "[fga]") {
 }
 
 TEST_CASE("fga velocities may have a scale of their own", "[fga]") {
-    const GridField grid = parseFga(numbered(), "field.fga", {.scale = 0.01, .velocityScale = 2.0});
+    const GridField grid = read(numbered(), {.scale = 0.01, .velocityScale = 2.0});
     CHECK(grid.high.x == Approx(0.02));
     CHECK(cell(grid, 1, 0, 0) == glm::vec3(200, 2, 4));
 }
 
 TEST_CASE("fga separators: commas, white space, or both", "[fga]") {
     const char* text = "\xEF\xBB\xBF 1 1 1\r\n -1, -1 ,-1 1 1\t1\n+0.5 -2.5e-1,1";
-    CHECK(parseFga(text, "field.fga").values.at(0) == glm::vec3(0.5f, -0.25f, 1));
+    CHECK(read(text).values.at(0) == glm::vec3(0.5f, -0.25f, 1));
 }
 
 TEST_CASE("fga mistakes name line and column", "[fga]") {

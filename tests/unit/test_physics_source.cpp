@@ -101,6 +101,42 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
           }) < 3e-5);
 }
 
+TEST_CASE("shader waves agree with the reference, in deep water and shallow", "[physics][waves]") {
+    for (const double depth : {0.0, 40.0, 2.0, 0.3}) {
+        WavesField waves;
+        if (depth > 0) waves.depth = depth;
+        waves.origin = {0.5, 4, -0.25};
+        waves.trains = {{{1, 0, 2}, 0.2, 6, 0.5}};
+        const WaveTrain& train = waves.trains[0];
+        const double k = 2 * std::numbers::pi / train.wavelength, h = waves.depth.value_or(1e9);
+        const double omega = std::sqrt(9.81 * k * std::tanh(k * h));
+        const double speed = train.amplitude * omega / -std::expm1(-2 * k * h);
+        const glm::vec2 along = glm::normalize(glm::vec2(1, 2));
+        // up to 1 m/s (3 m/s where it is shallow) with an argument, up to 35, that has lost 4e-6
+        CHECK(worst(waves, [&](vec3 x, float time) {
+                  return shader::waveVelocity(x - vec3(waves.origin), time, along, float(k), float(omega),
+                                              float(speed), 0.5f, float(h), 0.2f);
+              }) < 2e-5);
+    }
+}
+
+TEST_CASE("the shader's hurricane agrees with the reference", "[physics][hurricane]") {
+    for (const double coriolis : {0.0, 0.5}) {
+        const HurricaneField storm{{0, -4, 0}, 12, 3, 1.6, 0.4, 10, coriolis};
+        // 12 m/s through a power, an exponential and a root
+        CHECK(worst(storm, [&](vec3 x, float) {
+                  return shader::hurricaneVelocity(x - vec3(0, -4, 0), 12, 3, 1.6f, std::tan(0.4f), 10,
+                                                   float(coriolis));
+              }) < 5e-5);
+    }
+    // nowhere a division by 0
+    for (const vec3 x : {vec3(0), vec3(0, 5, 0), vec3(1e-9f, 5, 0), vec3(1e15f, 5, 1e15f), vec3(0, 1e15f, 0)})
+        for (const float speed : {0.0f, 1e-9f, 1e3f})
+            for (const float radius : {1e-9f, 1.0f, 1e9f})
+                CHECK(glm::all(glm::lessThan(
+                    glm::abs(shader::hurricaneVelocity(x, speed, radius, 3, 0.4f, 10, 0)), vec3(1e12f))));
+}
+
 TEST_CASE("shader springs agree with the reference", "[physics]") {
     const Molecule molecule = test::pair(1, 1, 300, 2);
     const reference::Problem problem{.molecule = &molecule};

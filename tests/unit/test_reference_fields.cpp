@@ -97,6 +97,24 @@ TEST_CASE("a grid is trilinear between cell centres and clamps or wraps", "[refe
     same(fieldVelocity(grid, {2, 0.25, 2.25}, 0), seam, 1e-6);
 }
 
+TEST_CASE("a sequence of grids is linear in time, holds its ends or repeats", "[reference][field]") {
+    GridField grid;
+    grid.resolution = {1, 1, 1};
+    grid.low = {0, 0, 0}, grid.high = {1, 1, 1};
+    grid.values = {{1, 0, 0}, {3, 2, 0}, {0, 0, 6}};
+    grid.times = {1, 2, 4};
+    const glm::dvec3 x(0.3);
+    same(fieldVelocity(grid, x, -5), {1, 0, 0});
+    same(fieldVelocity(grid, x, 1.25), {1.5, 0.5, 0});
+    same(fieldVelocity(grid, x, 2), {3, 2, 0});
+    same(fieldVelocity(grid, x, 3), {1.5, 1, 3});
+    same(fieldVelocity(grid, x, 70), {0, 0, 6});
+    grid.repeats = true;  // from 4 s to 6 s back to the first
+    same(fieldVelocity(grid, x, 5), {0.5, 0, 3});
+    same(fieldVelocity(grid, x, 1.25 + 5 * 7), {1.5, 0.5, 0});
+    same(fieldVelocity(grid, x, 0.5), {0.75, 0, 1.5});
+}
+
 TEST_CASE("gradient noise vanishes on the lattice and has mean 0", "[reference][field]") {
     CHECK(gradientNoise({3, -4, 5}, 1) == 0);
     double sum = 0, square = 0, most = 0;

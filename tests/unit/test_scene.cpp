@@ -43,7 +43,7 @@ TEST_CASE("a scene keeps what its file says", "[scene]") {
 TEST_CASE("a scene's fields", "[scene]") {
     const Scratch scratch;
     const Scene scene = readScene(writeSmallScene(scratch));
-    REQUIRE(scene.fields.size() == 9);
+    REQUIRE(scene.fields.size() == 11);
     CHECK(scene.fields[0].name == "wind");
     CHECK(scene.fields[0].weight == 0.5);
     REQUIRE(scene.fields[0].box);
@@ -68,6 +68,23 @@ TEST_CASE("a scene's fields", "[scene]") {
     CHECK(oscillating.velocity == glm::dvec3(0.5, 0, 2));
     CHECK(oscillating.frequency == 1.5);
     CHECK(oscillating.phase == -0.25);
+    const WavesField& waves = shape<WavesField>(scene.fields[9]);
+    CHECK(waves.origin.y == 2);
+    CHECK(waves.depth == 3.0);
+    CHECK(waves.gravity == 9);
+    REQUIRE(waves.trains.size() == 1);
+    CHECK(waves.trains[0].direction == glm::dvec3(1, 0, 1));
+    CHECK(waves.trains[0].amplitude == 0.1);
+    CHECK(waves.trains[0].wavelength == 4);
+    CHECK(waves.trains[0].phase == 0.5);
+    const HurricaneField& storm = shape<HurricaneField>(scene.fields[10]);
+    CHECK(storm.origin.x == 1);
+    CHECK(storm.speed == 9);
+    CHECK(storm.radius == 4);
+    CHECK(storm.shape == 1.2);
+    CHECK(storm.inflow == 0.3);
+    CHECK(storm.height == 5);
+    CHECK(storm.coriolis == 0.001);
 }
 
 TEST_CASE("a scene's models and colliders", "[scene]") {

@@ -126,6 +126,14 @@ std::vector<Field> everyField() {
     clamped.values.resize(2);
     GridField wrapped = clamped;
     wrapped.wrap = true;
+    GridField film = clamped;
+    film.values.resize(6);
+    film.times = {0, 1, 2};
+    GridField loop = film;
+    loop.times = {0, 1, 3};
+    loop.repeats = true;
+    WavesField waves;
+    waves.trains.resize(2);
     CurlNoiseField eddies;
     eddies.octaves = 4;
     eddies.seed = 0xffffffffu;  // beyond an int
@@ -136,7 +144,9 @@ std::vector<Field> everyField() {
             field(VortexField{}),        field(AbcField{}),
             field(TaylorGreenField{}),   field(eddies),
             field(std::move(clamped)),   field(std::move(wrapped), true),
-            field(OscillatingField{})};
+            field(OscillatingField{}),   field(std::move(film)),
+            field(std::move(loop)),      field(std::move(waves)),
+            field(HurricaneField{})};
 }
 
 std::vector<Collider> everyCollider() {

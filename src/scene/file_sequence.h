@@ -1,0 +1,22 @@
+// Numbered files: "wind-####.vti" with first, last and step stands for wind-0000.vti, wind-0001.vti, ...
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "core/json.h"
+
+namespace shoal {
+
+struct FileSequence {
+    std::vector<std::string> files;  // one where the name is not a pattern
+    std::vector<double> times;  // s, rising, one a file; empty where there is one file without "sequence"
+    bool repeats = false;
+};
+
+// "file" and "sequence" of an object. Without "first" and "last" they are the lowest and highest number in
+// the folder. Error, located: no such file, a number missing in between, a pattern without "sequence" or the
+// other way round, fewer than two files, times that do not rise or are not one a file.
+FileSequence readFileSequence(JsonReader& reader);
+
+}  // namespace shoal
