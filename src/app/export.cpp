@@ -79,13 +79,38 @@ std::string ply(Simulation& simulation, const Scene& scene) {
 
 std::string exportName(const std::string& target, int frame, bool several) {
     const std::string kind = lowerExtension(target);
-    if (kind == ".csv" || kind == ".ply") return numbered(target, frame, several);
+    if (kind == ".pvd") return numbered(fs::path(target).replace_extension(".vtp").string(), frame, true);
+    if (kind == ".csv" || kind == ".ply" || kind == ".vtp") return numbered(target, frame, several);
     return numbered((fs::path(target) / "state.csv").string(), frame, true);
 }
 
-void exportState(const std::string& file, Simulation& simulation, const Scene& scene) {
-    const bool asPly = lowerExtension(file) == ".ply";
-    writeFile(file, std::string_view(asPly ? ply(simulation, scene) : csv(simulation)));
+Exporter::Exporter(const Options& options, int first, int last)
+    : options_(options), first_(first), last_(last) {
+    if (options.exportEvery && *options.exportEvery > last - first)
+        throw Error(
+            concat("--export-every ", *options.exportEvery, " is beyond the last frame, ", last - first));
+}
+
+bool Exporter::asksFor(int frame) const {
+    if (options_.exports.empty()) return false;
+    // an index of a single frame is of no use
+    const bool all = options_.exportFrames.empty() && lowerExtension(options_.exports) == ".pvd";
+    if (options_.exportEvery || all) return (frame - first_) % options_.exportEvery.value_or(1) == 0;
+    return app::asksFor(options_.exportFrames, frame, last_);
+}
+
+std::string Exporter::write(Simulation& simulation, const Scene& scene) {
+    const bool several = options_.exportFrames.size() > 1 || options_.exportEvery;
+    const std::string file = exportName(options_.exports, simulation.frames(), several);
+    const std::string kind = lowerExtension(file);
+    if (kind == ".vtp")
+        writeVtp(file, simulation, scene, options_.exportCells);
+    else
+        writeFile(file, std::string_view(kind == ".ply" ? ply(simulation, scene) : csv(simulation)));
+    if (lowerExtension(options_.exports) != ".pvd") return file;
+    if (!index_) index_.emplace(options_.exports, options_.resume.empty() ? 0 : simulation.time());
+    index_->add(simulation.time(), fs::path(file).filename().string());
+    return file;
 }
 
 }  // namespace shoal::app

@@ -16,7 +16,8 @@ namespace shoal::app {
 namespace {
 
 struct Texts {
-    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice;
+    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice,
+                exportCells = "surface";
     std::vector<std::string> solvers, samplings;
 };
 
@@ -99,10 +100,16 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
         ->check(wholeNumber())
         ->capture_default_str();
-    command.add_option("--export", options.exports, "State: folder (CSV), or a name ending in .csv or .ply");
+    command.add_option(
+        "--export", options.exports,
+        "State: folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)");
     command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
         ->delimiter(',')
         ->check(wholeNumber());
+    command.add_option("--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)")
+        ->check(wholeNumber());
+    command.add_option("--export-cells", texts.exportCells,
+                       ".vtp, .pvd: surface, springs or vertices (default: surface)");
     command.add_option("--save", options.save, "File for the state at the end, to resume from");
     command.add_option("--save-frames", options.saveFrames, "Frames to save (default: the last)")
         ->delimiter(',')
@@ -179,6 +186,17 @@ void addField(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--size", texts.size, "Largest size of the picture in pixels")->capture_default_str();
     command.add_option("--only", options.only, "Of a scene: fields with this in their name");
     command.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+void readExportCells(const std::string& word, Options& options) {
+    static const std::vector<std::string> words = {"surface", "springs", "vertices"};
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end())
+        throw Error(concat("--export-cells: unknown word \"", word, "\"", suggestion(word, words)));
+    options.exportCells = static_cast<ExportCells>(found - words.begin());
+    const std::string kind = lowerExtension(options.exports);
+    if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
+        throw Error("--export-cells is of --export to .vtp or .pvd");
 }
 
 // x, y or z, and where.
@@ -343,6 +361,10 @@ void checkRanges(const Options& options) {
     if (!options.saveFrames.empty() && options.save.empty()) throw Error("--save-frames needs --save");
     if (!options.exportFrames.empty() && options.exports.empty())
         throw Error("--export-frames needs --export");
+    if (options.exportEvery && options.exports.empty()) throw Error("--export-every needs --export");
+    if (options.exportEvery && !options.exportFrames.empty())
+        throw Error("--export-every and --export-frames exclude each other");
+    atLeast("--export-every", options.exportEvery, 1);
     if (options.captureEvery != 1 && options.capture.empty()) throw Error("--capture-every needs --capture");
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
@@ -353,7 +375,7 @@ void checkRanges(const Options& options) {
     if (!options.plot.empty() && plot != ".svg" && plot != ".png")
         throw Error(concat("--plot: expected a name ending in .svg or .png, found \"", options.plot, "\""));
     checkTarget("--capture", options.capture, {".png", ".mp4", ".mkv", ".webm", ".mov"});
-    checkTarget("--export", options.exports, {".csv", ".ply"});
+    checkTarget("--export", options.exports, {".csv", ".ply", ".vtp", ".pvd"});
     if (!options.screenshot.empty() && (options.headless || !options.frames))
         throw Error(
             "--screenshot is of the window after --frames: it needs --frames and excludes --headless");
@@ -438,6 +460,7 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     readLists(texts, options);
     parseSize(texts.size, options);
     checkRanges(options);
+    readExportCells(texts.exportCells, options);
     readSlice(texts.slice, options);
     checkMeasure(options);
     checkBench(options);

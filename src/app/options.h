@@ -14,6 +14,13 @@
 
 namespace shoal::app {
 
+// What of a state's molecules becomes cells of a .vtp file.
+enum class ExportCells {
+    surface,   // triangles, and vertices of groups that have none
+    springs,   // springs, and vertices of groups that have none
+    vertices,  // vertices alone
+};
+
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
@@ -42,8 +49,10 @@ struct Options {
 
     std::string capture;   // folder, or a video's name
     int captureEvery = 1;  // frames
-    std::string exports;   // folder, or a name that ends in .csv or .ply
+    std::string exports;   // folder, or a name that ends in .csv, .ply, .vtp or .pvd
     std::vector<int> exportFrames;
+    std::optional<int> exportEvery;  // frames
+    ExportCells exportCells = ExportCells::surface;
     std::string save;             // a checkpoint
     std::vector<int> saveFrames;  // empty: the last
     std::string resume;           // a checkpoint to go on from

@@ -7,6 +7,7 @@
 #include <iostream>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "app/checkpoints.h"
 #include "app/data_paths.h"
@@ -90,6 +91,7 @@ class HeadlessRun {
         every_ = nothingAsked ? std::max(1, frames_ / 8) : options.captureEvery;
         checkFrames("--export-frames", options.exportFrames, first_, last_);
         checkFrames("--save-frames", options.saveFrames, first_, last_);
+        exporter_.emplace(options, first_, last_);
         if (target.empty()) return;
         RenderOptions size;
         size.width = options.width;
@@ -196,11 +198,7 @@ class HeadlessRun {
     }
     // What frames leave in files beside pictures.
     void writeIfAsked(int frame) {
-        if (!options_.exports.empty() && asksFor(options_.exportFrames, frame, last_)) {
-            const std::string file = exportName(options_.exports, frame, options_.exportFrames.size() > 1);
-            exportState(file, simulation_, loaded_.scene);
-            note(file);
-        }
+        if (exporter_->asksFor(frame)) note(exporter_->write(simulation_, loaded_.scene));
         if (!options_.save.empty() && asksFor(options_.saveFrames, frame, last_)) {
             const std::string file = numbered(options_.save, frame, options_.saveFrames.size() > 1);
             saveState(file, simulation_);
@@ -217,6 +215,7 @@ class HeadlessRun {
     Simulation simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;
+    std::optional<Exporter> exporter_;
     RunReport report_;
 };
 
