@@ -1,5 +1,5 @@
 // Fluid velocities u(x, t) of the analytic fields, in m/s. `x` is relative to the field's origin, which the
-// caller subtracted from the molecule's anchor exactly. Formulas and units: src/scene/scene.h.
+// caller subtracted from the molecule's anchor exactly. Formulas and units: src/scene/field.h.
 // Read as C++ through GLM by the tests. Needs physics/noise.glsl.
 #include "physics/noise.glsl"
 

@@ -1,4 +1,4 @@
-// Adding a field: its struct in scene/scene.h, its formula in shaders/physics/field.glsl, one overload of
+// Adding a field: its struct in scene/field.h, its formula in shaders/physics/field.glsl, one overload of
 // `emit` here, its reader in scene/, its double-precision twin in reference/fields.cpp, one test.
 #include <algorithm>
 #include <cmath>

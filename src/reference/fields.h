@@ -1,4 +1,4 @@
-// Fluid velocity of a scene's fields in double precision. Formulas and units: scene/scene.h.
+// Fluid velocity of a scene's fields in double precision. Formulas and units: scene/field.h.
 #pragma once
 
 #include <vector>

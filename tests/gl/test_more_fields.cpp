@@ -1,0 +1,72 @@
+// Sequences of grids, waves and hurricanes on both paths, against the recurrence in double precision.
+#include "gl/agreement.h"
+#include "gl/numerics.h"
+#include "reference/discrete.h"
+#include "support/catch.h"
+
+namespace shoal {
+
+using test::at;
+
+namespace {
+
+GridField film(std::vector<double> times, bool repeats) {
+    GridField out;
+    out.resolution = {3, 4, 5};
+    out.low = {-3, 0, -2};
+    out.high = {3, 5, 4};
+    out.times = std::move(times);
+    out.repeats = repeats;
+    for (size_t i = 0; i < 60 * out.times.size(); ++i)
+        out.values.emplace_back(0.5f * float(i % 7) - 1.5f, 0.3f * float(i % 11) - 1.5f,
+                                0.4f * float(i % 13) - 2.4f);
+    return out;
+}
+
+WavesField sea(std::optional<double> depth) {
+    WavesField out;
+    out.origin = {0.5, 3, 0};
+    out.depth = depth;
+    out.trains = {{{1, 0, 0.4}, 0.4, 7, 0.3}, {{-0.2, 0, 1}, 0.2, 3, 1}, {{1, 0, -1}, 0.1, 1.7, 2}};
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("sequences, waves and hurricanes move molecules as the reference says", "[numerics][fields]") {
+    const std::vector<FieldShape> shapes = {film({0, 0.25, 0.5, 0.75}, false),
+                                            film({0.1, 0.2, 0.3}, true),
+                                            film({0.05, 0.2, 0.6}, false),
+                                            film({-0.1, 0, 0.17, 0.25}, true),
+                                            sea({}),
+                                            sea(3.0),
+                                            HurricaneField{{0.5, -1, 0.2}, 6, 1.5, 1.4, 0.4, 9, 0.2},
+                                            HurricaneField{{0, -1, 0}, -6, 1.5, 2.2, 0.4, 9}};
+    const Molecule leaf = test::leaf(200, 1);
+    std::vector<Path> paths = {Path::pingPong};
+    if (test::canFuse()) paths.push_back(Path::fused);
+    for (const Path path : paths)
+        for (size_t i = 0; i < shapes.size(); ++i) {
+            Scene scene = test::sceneOf(
+                leaf, SolverKind::leapfrog,
+                {at({1, 2, 1}, test::turned(), 0.75), at({-0.6, 1, 0.4}), at({0.1, 2.6, -0.8})});
+            scene.groups[0].drag = {3, 1.5};
+            scene.fields = {test::field(shapes[i])};
+            test::setSteps(scene, 1 / 60.0, 4);
+            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = path});
+            std::vector<reference::State> expected;
+            for (int m = 0; m < 3; ++m) {
+                expected.push_back(test::stateOf(simulation.snapshot(0), m));
+                reference::frame(test::problemOf(scene, m), expected.back(), SolverKind::leapfrog, 0.5, 120);
+            }
+            test::run(simulation, 30);
+            for (int m = 0; m < 3; ++m) {
+                const reference::State state = test::stateOf(simulation.snapshot(0), m);
+                const double error = reference::relativeError(state, expected[size_t(m)], 1);
+                INFO(name(path) << ", field " << i << ", molecule " << m << ", off by " << error);
+                CHECK(error < 1e-5);
+            }
+        }
+}
+
+}  // namespace shoal
