@@ -68,7 +68,7 @@ vec3 waveVelocity(vec3 x, float time, vec2 direction, float wavenumber, float an
     float y = clamp(x.y, -depth, top);
     float fromSurface = exp(wavenumber * y);
     float fromBottom = exp(-wavenumber * (y + 2.0f * depth));
-    float a = wavenumber * (direction.x * x.x + direction.y * x.z) - angularFrequency * time + phase;
+    float a = phase + wavenumber * (direction.x * x.x + direction.y * x.z) - angularFrequency * time;
     float along = speed * (fromSurface + fromBottom) * cos(a);
     return vec3(direction.x * along, speed * (fromSurface - fromBottom) * sin(a), direction.y * along);
 }

@@ -18,6 +18,7 @@ int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
 int editCommand(const Options& options);
 int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mesh
+int moleculeShowCommand(const Options& options);      // shoal molecule show
 
 // A scene and its plan with the options applied; warnings go to standard error.
 struct Loaded {

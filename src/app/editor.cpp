@@ -10,12 +10,12 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "app/editor_commands.h"
 #include "app/editor_panels.h"
 #include "app/interface.h"
 #include "app/keys.h"
 #include "app/orbit_camera.h"
 #include "app/screenshot.h"
+#include "author/edit.h"
 #include "core/cache_folder.h"
 #include "gpu/context.h"
 #include "molecule/molecule_file.h"
@@ -114,7 +114,7 @@ class EditorWindow {
 
     // What hangs on the molecule, when it has changed; and how it is played.
     void follow() {
-        EditorDocument& document = editor_.document;
+        Document& document = editor_.document;
         if (document.version() != editor_.version) {
             editor_.version = document.version();
             dropStaleSelection();
@@ -123,6 +123,9 @@ class EditorWindow {
             if (document.problem().empty()) {
                 const Molecule& m = document.molecule();
                 editor_.findings = findingsOf(m);
+                for (Finding& finding : editor_.findings)
+                    if (finding.kind == Finding::Kind::soft)
+                        finding.mendBy("Brace it", [](Draft& draft) { braceSoftModes(draft); });
                 editor_.analysis = analyse(m, editor_.stage.pinsHold);
                 editor_.modes = modesOf(m, editor_.stage.pinsHold && m.hasPins(), modesShown);
                 if (editor_.wobbling && *editor_.wobbling >= editor_.modes.size()) editor_.wobbling.reset();
@@ -510,7 +513,7 @@ class EditorWindow {
     // ---- What was asked for
 
     void obey(EditorAction action) {
-        EditorDocument& document = editor_.document;
+        Document& document = editor_.document;
         switch (action) {
         case EditorAction::save:
             return save();

@@ -46,7 +46,7 @@ void tip(const char* words) {
 
 EditorAction drawHead(Editor& editor) {
     EditorAction action = EditorAction::none;
-    EditorDocument& document = editor.document;
+    Document& document = editor.document;
     const std::string name = std::filesystem::path(document.file()).filename().string();
     ImGui::Text("%s%s", name.c_str(), document.unsaved() ? " *" : "");
     tip(document.file().c_str());

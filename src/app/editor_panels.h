@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "app/editor_cost.h"
-#include "app/editor_document.h"
 #include "app/editor_stage.h"
 #include "app/editor_view.h"
+#include "author/document.h"
 #include "molecule/analysis.h"
 #include "molecule/findings.h"
 #include "molecule/modes.h"
@@ -20,7 +20,7 @@ enum class Tool { select, vertex, spring, triangle };
 
 // All that the panels show and change.
 struct Editor {
-    EditorDocument document;
+    Document document;
     StageSettings stage;
     Overlay overlay;
     Tool tool = Tool::select;

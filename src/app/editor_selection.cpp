@@ -8,9 +8,9 @@
 #include <numbers>
 
 #include "app/edit_widgets.h"
-#include "app/editor_commands.h"
 #include "app/editor_panels.h"
 #include "app/interface.h"
+#include "author/edit.h"
 
 namespace shoal::app {
 
@@ -153,7 +153,7 @@ void drawMuscle(Editor& editor, const std::set<int>& all, const Spring& first) {
 }
 
 void drawSprings(Editor& editor) {
-    const Selected chosen{{}, springsOf(editor.document.molecule(), editor.overlay.selection), {}};
+    const Selected chosen{{}, selectedSprings(editor.document.molecule(), editor.overlay.selection), {}};
     if (chosen.springs.empty()) return;
     const std::set<int> all = withMirror(editor.document.molecule(), chosen, editor.mirrorAxis).springs;
     ImGui::Spacing();

@@ -8,7 +8,7 @@
 
 #include <imgui.h>
 
-#include "molecule/molecule.h"
+#include "author/edit.h"
 #include "render/view.h"
 
 namespace shoal::app {
@@ -30,12 +30,6 @@ class Projector {
     glm::dvec3 eye_, ahead_, right_, up_;
     double tangent_;
     ImVec2 size_;
-};
-
-struct Selected {
-    std::set<int> vertices, springs, triangles;
-    bool empty() const { return vertices.empty() && springs.empty() && triangles.empty(); }
-    bool operator==(const Selected&) const = default;
 };
 
 // What is drawn besides the picture.

@@ -42,6 +42,9 @@ int main(int argc, char** argv) {
             case Options::Command::moleculeFromMesh:
                 code = moleculeFromMeshCommand(*options);
                 break;
+            case Options::Command::moleculeShow:
+                code = moleculeShowCommand(*options);
+                break;
             }
         }
         std::cout.flush();

@@ -313,13 +313,6 @@ std::string explainExtras(CLI::App& app, int argc, char** argv) {
     return {};
 }
 
-void parseSize(const std::string& text, Options& options) {
-    char end = 0;
-    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 ||
-        options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
-        throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
-}
-
 // A name with an ending that we do not write is a mistake, not a folder.
 void checkTarget(const char* option, const std::string& target, const std::vector<std::string>& known) {
     const std::string extension = lowerExtension(target);
@@ -394,6 +387,13 @@ void checkRanges(const Options& options) {
 
 }  // namespace
 
+void parseSize(const std::string& text, Options& options) {
+    char end = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &end) != 2 ||
+        options.width < 1 || options.height < 1 || options.width > 16384 || options.height > 16384)
+        throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
+}
+
 FieldSampling samplingNamed(const char* option, const std::string& word) {
     std::vector<std::string> words;
     for (const FieldSampling one :
@@ -452,13 +452,13 @@ std::optional<Options> parseOptions(int argc, char** argv) {
                       : field->parsed()   ? Options::Command::field
                       : edit->parsed()    ? Options::Command::edit
                                           : Options::Command::info;
-    finishMolecule(app, options);
     options.context = gpu::contextKind(texts.context);
     options.path = path(texts.path);
     if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);
     options.lanes = lanes(texts.lanes);
     readLists(texts, options);
     parseSize(texts.size, options);
+    finishMolecule(app, options);
     checkRanges(options);
     readExportCells(texts.exportCells, options);
     readSlice(texts.slice, options);

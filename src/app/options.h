@@ -24,7 +24,18 @@ enum class ExportCells {
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 struct Options {
-    enum class Command { run, check, explain, info, bench, measure, field, edit, moleculeFromMesh };
+    enum class Command {
+        run,
+        check,
+        explain,
+        info,
+        bench,
+        measure,
+        field,
+        edit,
+        moleculeFromMesh,
+        moleculeShow
+    };
     Command command = Command::run;
     std::vector<std::string> files;
 
@@ -91,6 +102,9 @@ struct Options {
 // Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns
 // nothing then.
 std::optional<Options> parseOptions(int argc, char** argv);
+
+// "1280x720" into width and height. Error: not such a text, or out of range.
+void parseSize(const std::string& text, Options& options);
 
 // Error: unknown, with the nearest; `option` is what it was given to.
 FieldSampling samplingNamed(const char* option, const std::string& word);

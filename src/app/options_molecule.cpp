@@ -52,6 +52,22 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_flag("--json", options.json, "Report as JSON on standard output");
 }
 
+void addShow(CLI::App& command, Options& options) {
+    command.add_option("molecule", options.files, "Molecule file")->required()->expected(1);
+    command.add_option("--capture", options.capture, "Picture to write (.png)")->required();
+    command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)");
+}
+
+void finishShow(Options& options) {
+    if (!options.molecule.sheet.empty())
+        parseSize(options.molecule.sheet, options);
+    else
+        options.width = 1280, options.height = 760;
+    if (options.width < 480 || options.height < 240 || options.width < options.height * 5 / 4)
+        throw Error(concat("--size: a sheet needs at least 480x240 pixels and is wider than high, found ",
+                           options.width, "x", options.height));
+}
+
 template <typename Read>
 auto valueOf(const char* option, Read&& read) {
     try {
@@ -87,6 +103,8 @@ void addMolecule(CLI::App& app, Options& options) {
     molecule->require_subcommand(1);
     addFromMesh(*molecule->add_subcommand("from-mesh", "Make a molecule, with its skin, from any mesh"),
                 options);
+    addShow(*molecule->add_subcommand("show", "Draw a molecule, its springs and motions on one sheet"),
+            options);
 }
 
 void finishMolecule(const CLI::App& app, Options& options) {
@@ -95,6 +113,10 @@ void finishMolecule(const CLI::App& app, Options& options) {
     if (molecule->get_subcommand("from-mesh")->parsed()) {
         options.command = Options::Command::moleculeFromMesh;
         finishFromMesh(options.molecule, options.files.front());
+    }
+    if (molecule->get_subcommand("show")->parsed()) {
+        options.command = Options::Command::moleculeShow;
+        finishShow(options);
     }
 }
 

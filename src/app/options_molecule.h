@@ -24,6 +24,8 @@ struct MoleculeOptions {
     std::string color;
     std::string springs = "surface";
     std::vector<std::string> pinRules;
+    // show
+    std::string sheet;  // its size in pixels; empty: the usual
 };
 
 // Adds `molecule` with its commands.

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "core/json_edit.h"
+#include "molecule/bind_skin.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 
@@ -127,6 +128,7 @@ void removeVertices(Draft& draft, const std::set<int>& vertices) {
         follow(spring.a), follow(spring.b);
     for (Triangle& t : m.triangles)
         follow(t.a), follow(t.b), follow(t.c);
+    if (!m.skin.empty()) rebindSkin(m);
 }
 
 std::vector<int> mirrored(const Molecule& molecule, int axis) {

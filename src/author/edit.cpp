@@ -1,9 +1,11 @@
-#include "app/editor_commands.h"
+#include "author/edit.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace shoal::app {
+#include "author/springs.h"
+
+namespace shoal {
 
 namespace {
 
@@ -99,7 +101,14 @@ void flipTriangles(Draft& draft, const std::set<int>& triangles) {
         std::swap(draft.molecule.triangles[size_t(i)].b, draft.molecule.triangles[size_t(i)].c);
 }
 
-std::set<int> springsOf(const Molecule& molecule, const Selected& selected) {
+int braceSoftModes(Draft& draft) {
+    const Bracing bracing = brace(draft.molecule, nullptr);
+    for (const auto& [a, b] : bracing.added)
+        addSpring(draft, a, b);
+    return int(bracing.added.size());
+}
+
+std::set<int> selectedSprings(const Molecule& molecule, const Selected& selected) {
     std::set<int> out = selected.springs;
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
@@ -108,4 +117,4 @@ std::set<int> springsOf(const Molecule& molecule, const Selected& selected) {
     return out;
 }
 
-}  // namespace shoal::app
+}  // namespace shoal

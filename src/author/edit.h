@@ -1,14 +1,19 @@
-// What the editor does to a draft, and to its mirror image where symmetry is on. `axis`: of the plane of
+// What an editor does to a draft, and to its mirror image where symmetry is on. `axis`: of the plane of
 // symmetry (0 x, 1 y, 2 z), or -1 for none; the image of what is not mirrored is left alone.
 #pragma once
 
 #include <set>
 #include <vector>
 
-#include "app/editor_view.h"
 #include "molecule/draft.h"
 
-namespace shoal::app {
+namespace shoal {
+
+struct Selected {
+    std::set<int> vertices, springs, triangles;
+    bool empty() const { return vertices.empty() && springs.empty() && triangles.empty(); }
+    bool operator==(const Selected&) const = default;
+};
 
 // With the images of what is selected.
 Selected withMirror(const Molecule& molecule, const Selected& selected, int axis);
@@ -24,7 +29,11 @@ int addFace(Draft& draft, int a, int b, int c, int axis);  // the triangle; -1: 
 void removeSelected(Draft& draft, const Selected& selected, int axis);
 void flipTriangles(Draft& draft, const std::set<int>& triangles);
 
-// Springs whose two ends are selected, or that are selected themselves.
-std::set<int> springsOf(const Molecule& molecule, const Selected& selected);
+// Adds springs until nothing but motion of the whole is without stiffness (author/springs.h), as stiff as
+// most. Says how many; 0: none helps, as in what is flat.
+int braceSoftModes(Draft& draft);
 
-}  // namespace shoal::app
+// Springs whose two ends are selected, or that are selected themselves.
+std::set<int> selectedSprings(const Molecule& molecule, const Selected& selected);
+
+}  // namespace shoal

@@ -1,4 +1,4 @@
-#include "app/editor_document.h"
+#include "author/document.h"
 
 #include <cstdlib>
 #include <utility>
@@ -9,7 +9,7 @@
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 
-namespace shoal::app {
+namespace shoal {
 
 namespace {
 
@@ -73,7 +73,7 @@ std::string unsavedFolder() {
     return home.empty() ? home : home + "/.local/state/shoal/unsaved";
 }
 
-EditorDocument::EditorDocument(const std::string& file) : file_(file) {
+Document::Document(const std::string& file) : file_(file) {
     text_ = readFile(file);
     now_.draft = Draft(parseMolecule(text_, file));
     saved_ = toJson(now_.draft.molecule, true);
@@ -84,13 +84,14 @@ EditorDocument::EditorDocument(const std::string& file) : file_(file) {
     recovered_ = readKept(readFile(keptFile()), file_, text_);
 }
 
-void EditorDocument::changed() {
+void Document::changed() {
     ++version_;
+    placeSkin(now_.draft.molecule);
     problem_ = problemOf(now_.draft.molecule);
     unsaved_ = !sameJson(toJson(now_.draft.molecule, true), saved_);
 }
 
-void EditorDocument::edit(const std::string& label, const std::function<void(Draft&)>& change, int gesture) {
+void Document::edit(const std::string& label, const std::function<void(Draft&)>& change, int gesture) {
     const bool goesOn = gesture > 0 && gesture == std::exchange(lastGesture_, gesture);
     if (!goesOn) {
         past_.push_back({now_.draft, label});
@@ -101,7 +102,7 @@ void EditorDocument::edit(const std::string& label, const std::function<void(Dra
     changed();
 }
 
-bool EditorDocument::undo() {
+bool Document::undo() {
     if (past_.empty()) return false;
     future_.push_back({std::move(now_.draft), past_.back().label});
     now_.draft = std::move(past_.back().draft);
@@ -111,7 +112,7 @@ bool EditorDocument::undo() {
     return true;
 }
 
-bool EditorDocument::redo() {
+bool Document::redo() {
     if (future_.empty()) return false;
     past_.push_back({std::move(now_.draft), future_.back().label});
     now_.draft = std::move(future_.back().draft);
@@ -123,7 +124,7 @@ bool EditorDocument::redo() {
 
 // The same molecule as its file has it now. What undo holds came from the file before: its elements are new
 // to this one.
-void EditorDocument::restart(Molecule molecule) {
+void Document::restart(Molecule molecule) {
     now_.draft = Draft(std::move(molecule));
     saved_ = toJson(now_.draft.molecule, true);
     for (std::vector<Step>* steps : {&past_, &future_})
@@ -135,7 +136,7 @@ void EditorDocument::restart(Molecule molecule) {
     lastGesture_ = 0;
 }
 
-void EditorDocument::save() {
+void Document::save() {
     std::string there = readFile(file_);
     if (there != text_)
         throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
@@ -157,7 +158,7 @@ void EditorDocument::save() {
     closeInOrder();
 }
 
-void EditorDocument::saveAs(const std::string& file) {
+void Document::saveAs(const std::string& file) {
     if (std::filesystem::exists(file))
         throw Error(Location{file, 0, 0, {}}, "exists already: choose another name");
     const std::string edited = withEdits(text_, now_.draft);
@@ -170,7 +171,7 @@ void EditorDocument::saveAs(const std::string& file) {
     changed();
 }
 
-void EditorDocument::reload() {
+void Document::reload() {
     const std::string text = readFile(file_);
     Molecule molecule = parseMolecule(text, file_);
     past_.push_back({now_.draft, "reload"});
@@ -181,7 +182,7 @@ void EditorDocument::reload() {
     changed();
 }
 
-bool EditorDocument::changedOnDisk() const {
+bool Document::changedOnDisk() const {
     if (timeOf(file_) == written_) return false;
     try {
         return readFile(file_) != text_;
@@ -190,18 +191,18 @@ bool EditorDocument::changedOnDisk() const {
     }
 }
 
-void EditorDocument::takeRecovered() {
+void Document::takeRecovered() {
     edit("recover", [this](Draft& draft) { draft = *recovered_; });
     recovered_.reset();
 }
 
-void EditorDocument::dropRecovered() {
+void Document::dropRecovered() {
     recovered_.reset();
     closeInOrder();
 }
 
 // One name for each file, whatever way leads to it.
-std::filesystem::path EditorDocument::keptFile() const {
+std::filesystem::path Document::keptFile() const {
     const std::string folder = unsavedFolder();
     if (folder.empty()) return {};
     const std::filesystem::path whole = targetOf(std::filesystem::absolute(file_).string());
@@ -209,7 +210,7 @@ std::filesystem::path EditorDocument::keptFile() const {
            concat(whole.stem().string(), "-", contentKey(whole.string()).substr(0, 16), ".json");
 }
 
-std::string EditorDocument::kept() const {
+std::string Document::kept() const {
     const Draft& draft = now_.draft;
     JsonValue root = JsonValue::makeObject();
     root.add("file", JsonValue::makeString(file_))
@@ -221,7 +222,7 @@ std::string EditorDocument::kept() const {
     return writeJson(root);
 }
 
-std::optional<std::string> EditorDocument::keep() {
+std::optional<std::string> Document::keep() {
     if (keptVersion_ == version_ || recovered_) return std::nullopt;
     if (!unsaved_ && keptVersion_ == 0) return std::nullopt;
     keptVersion_ = version_;
@@ -239,10 +240,10 @@ std::optional<std::string> EditorDocument::keep() {
     return std::nullopt;
 }
 
-void EditorDocument::closeInOrder() {
+void Document::closeInOrder() {
     if (recovered_) return;  // not decided yet: it stays
     std::error_code code;
     if (!keptFile().empty()) std::filesystem::remove(keptFile(), code);
 }
 
-}  // namespace shoal::app
+}  // namespace shoal

@@ -11,12 +11,12 @@
 #include "core/json.h"
 #include "molecule/draft.h"
 
-namespace shoal::app {
+namespace shoal {
 
-class EditorDocument {
+class Document {
   public:
     // Error: readMolecule's.
-    explicit EditorDocument(const std::string& file);
+    explicit Document(const std::string& file);
 
     const Draft& draft() const { return now_.draft; }
     const Molecule& molecule() const { return now_.draft.molecule; }
@@ -78,4 +78,4 @@ class EditorDocument {
 // $XDG_STATE_HOME/shoal/unsaved, ~/.local/state/shoal/unsaved; else empty.
 std::string unsavedFolder();
 
-}  // namespace shoal::app
+}  // namespace shoal
