@@ -22,6 +22,7 @@ struct StageSettings {
     double gravity = 9.81;  // m/s^2, but for still
     double drag = 6;        // 1/s, across the surface; along it a fifth
     bool pinsHold = true;
+    bool floorShows = true;
     int substeps = 8;                  // of a frame of 1/60 s
     std::optional<SolverKind> solver;  // nothing: chosen by the stiffness
     bool operator==(const StageSettings&) const = default;

@@ -42,6 +42,7 @@ class Sheet {
           image_{width, height, 4, std::vector<uint8_t>(size_t(width) * size_t(height) * 4, 255)} {
         StageSettings settings;
         settings.around = StageSettings::Around::still;
+        settings.floorShows = false;
         stage_.show(molecule, settings);
         glm::dvec3 low(1e300), high(-1e300);
         for (const Vertex& vertex : molecule.vertices) {
@@ -50,7 +51,10 @@ class Sheet {
         }
         view_.fieldOfView = 0.6;
         view_.target = (low + high) / 2.0;
-        view_.eye = view_.target + glm::normalize(glm::dvec3(0.8, 0.5, 1)) * (2.0 * molecule.size());
+        // of points, the balls that are drawn count
+        const double ball = molecule.triangles.empty() ? 1.2 * molecule.material.pointSize : 0;
+        const double size = std::max(glm::length(high - low), ball);
+        view_.eye = view_.target + glm::normalize(glm::dvec3(0.8, 0.5, 1)) * (2.0 * size);
     }
 
     Image draw() {
@@ -64,8 +68,8 @@ class Sheet {
                 continue;
             }
             stage_.rest();
-            canvas.paste(Image{small_.x, small_.y, 4,
-                               std::vector<uint8_t>(size_t(small_.x) * size_t(small_.y) * 4, 40)});
+            for (int y = 0; y < small_.y; ++y)
+                canvas.line({0, y}, {small_.x, y}, 1, {0.2f, 0.22f, 0.24f, 1});
         }
         return std::move(image_);
     }
@@ -139,8 +143,10 @@ class Sheet {
     void drawMode(Canvas& canvas, const Mode& mode) {
         const double reach = 0.14 * molecule_.size();
         stage_.wobble(mode, reach);
-        canvas.paste(stage_.picture(view_, small_.x, small_.y));
-        const Projector projector(view_, ImVec2(float(small_.x), float(small_.y)));
+        View near = view_;
+        near.eye = near.target + 0.85 * (near.eye - near.target);
+        canvas.paste(stage_.picture(near, small_.x, small_.y));
+        const Projector projector(near, ImVec2(float(small_.x), float(small_.y)));
         std::vector<glm::dvec3> rest;
         for (const Vertex& vertex : molecule_.vertices)
             rest.push_back(vertex.position);

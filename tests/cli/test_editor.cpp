@@ -4,6 +4,7 @@
 #include "cli/shoal_command.h"
 #include "cli/window_user.h"
 #include "core/file.h"
+#include "core/image.h"
 #include "molecule/molecule_file.h"
 #include "support/catch.h"
 #include "support/scratch.h"
@@ -142,4 +143,30 @@ TEST_CASE("the editor refuses what it cannot open", "[bad]") {
     refusal({"edit", scratch.path("none.json")}, "no such file");
     refusal({"edit", scratch.write("newer.json", replaced(square, "molecule-1", "molecule-2"))}, "newer");
     refusal({"edit", scratch.write("broken.json", "{")}, "broken.json:1:");
+}
+
+TEST_CASE("a molecule is drawn on a sheet", "[show]") {
+    const Scratch scratch;
+    const std::string file = scratch.write("square.json", square), sheet = scratch.path("sheet.png");
+    if (!hasContext("egl")) return;
+    const Outcome out = runShoal({"molecule", "show", file, "--capture", sheet, "--size", "960x570"});
+    INFO(out.err);
+    REQUIRE(out.code == 0);
+    const Image image = readPng(sheet);
+    REQUIRE(image.width == 960);
+    REQUIRE(image.height == 570);
+    // springs are green lines, normals blue ones; the soft motion is said in orange
+    int green = 0, blue = 0, orange = 0;
+    for (size_t i = 0; i < image.pixels.size(); i += 4) {
+        const int r = image.pixels[i], g = image.pixels[i + 1], b = image.pixels[i + 2];
+        green += g > r + 30 && g > b + 50;
+        blue += b > r + 90 && b > 150;
+        orange += r > 200 && g > 140 && g < 210 && b < 110;
+    }
+    CHECK(green > 800);
+    CHECK(blue > 60);
+    CHECK(orange > 50);
+    refusal({"molecule", "show", file, "--capture", sheet, "--size", "300x300"}, "480x240");
+    refusal({"molecule", "show", file}, "--capture");
+    refusal({"molecule", "show", scratch.path("none.json"), "--capture", sheet}, "no such file");
 }
