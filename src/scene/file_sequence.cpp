@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
+#include <optional>
 
 #include "core/error.h"
 #include "scene/scene_reader.h"
@@ -40,28 +41,24 @@ struct Pattern {
     }
 };
 
-Pattern patternOf(const JsonReader& r, const std::string& written) {
-    const fs::path path = (fs::path(r.file()).parent_path() / written).lexically_normal();
+// Nothing where the name has no run of #, or several.
+std::optional<Pattern> patternOf(const fs::path& path) {
     const std::string name = path.filename().string();
     const size_t first = name.find('#'), last = name.rfind('#');
-    if (first == std::string::npos || name.find_first_not_of('#', first) < last)
-        throw Error(r.at("file"), "expected one run of # in the file's name, in place of the number");
-    return {path.parent_path(), name.substr(0, first), name.substr(last + 1), last - first + 1};
+    if (first == std::string::npos || name.find_first_not_of('#', first) < last) return {};
+    return Pattern{path.parent_path(), name.substr(0, first), name.substr(last + 1), last - first + 1};
 }
 
-// The lowest and highest number that is there.
-std::pair<int, int> numbersIn(const Pattern& pattern, const Location& where) {
-    int low = -1, high = -1;
+// Of the files that are there, ascending.
+std::vector<int> numbersIn(const Pattern& pattern) {
+    std::vector<int> out;
     std::error_code code;
     const fs::path folder = pattern.folder.empty() ? fs::path(".") : pattern.folder;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code)) {
-        const int number = pattern.numberOf(entry.path().filename().string());
-        if (number < 0) continue;
-        low = low < 0 ? number : std::min(low, number);
-        high = std::max(high, number);
-    }
-    if (low < 0) throw Error(where, "no such files: " + pattern.file(0) + " and so on");
-    return {low, high};
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+        if (const int number = pattern.numberOf(entry.path().filename().string()); number >= 0)
+            out.push_back(number);
+    std::sort(out.begin(), out.end());
+    return out;
 }
 
 std::vector<double> timesOf(JsonReader& r, size_t count) {
@@ -103,9 +100,19 @@ FileSequence readFileSequence(JsonReader& reader) {
     }
     std::string written;
     reader.need("file", written);
-    const Pattern pattern = patternOf(reader, written);
+    const std::optional<Pattern> found =
+        patternOf((fs::path(reader.file()).parent_path() / written).lexically_normal());
+    if (!found)
+        throw Error(reader.at("file"), "expected one run of # in the file's name, in place of the number");
+    const Pattern& pattern = *found;
     int first = 0, last = 0, step = 1;
-    if (!r->has("first") || !r->has("last")) std::tie(first, last) = numbersIn(pattern, reader.at("file"));
+    if (!r->has("first") || !r->has("last")) {
+        const std::vector<int> numbers = numbersIn(pattern);
+        if (numbers.empty())
+            throw Error(reader.at("file"), "no such files: " + pattern.file(0) + " and so on");
+        first = numbers.front();
+        last = numbers.back();
+    }
     r->get("first", first, Range::atLeast(0));
     r->get("last", last, Range::atLeast(0));
     r->get("step", step, Range::atLeast(1));
@@ -124,6 +131,15 @@ FileSequence readFileSequence(JsonReader& reader) {
     out.times = timesOf(*r, out.files.size());
     r->get("repeats", out.repeats);
     r->finish();
+    return out;
+}
+
+std::vector<std::string> numberedFiles(const fs::path& path) {
+    std::vector<std::string> out;
+    const std::optional<Pattern> pattern = patternOf(path);
+    if (!pattern) return out;
+    for (const int number : numbersIn(*pattern))
+        out.push_back(pattern->file(number));
     return out;
 }
 

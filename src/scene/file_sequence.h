@@ -1,6 +1,7 @@
 // Numbered files: "wind-####.vti" with first, last and step stands for wind-0000.vti, wind-0001.vti, ...
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -18,5 +19,8 @@ struct FileSequence {
 // the folder. Error, located: no such file, a number missing in between, a pattern without "sequence" or the
 // other way round, fewer than two files, times that do not rise or are not one a file.
 FileSequence readFileSequence(JsonReader& reader);
+
+// The files that are there of a name with # for the number, in its order; none where it is no such name.
+std::vector<std::string> numberedFiles(const std::filesystem::path& path);
 
 }  // namespace shoal

@@ -6,6 +6,7 @@
 
 #include "core/file.h"
 #include "core/json.h"
+#include "scene/file_sequence.h"
 
 namespace shoal {
 
@@ -31,6 +32,8 @@ class Collector {
         const fs::path path = (by.parent_path() / text).lexically_normal();
         std::error_code code;
         if (fs::is_regular_file(path, code)) add(path);
+        for (const std::string& one : numberedFiles(path))
+            add(one);
     }
 
     void addNamed(const fs::path& file) {

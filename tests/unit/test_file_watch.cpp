@@ -88,6 +88,11 @@ TEST_CASE("a scene's files are those that it and its molecules name", "[watch]")
         "wood.scene.json",
         R"({"models": [{"file": "tree.obj"}], "groups": [{"molecule": "leaf.json", "name": "gone.json"}]})");
     CHECK(filesOf(scene) == Files{molecule, image, materials, model, scene});
+    // numbered ones
+    const std::string first = scratch.write("wind-01.vti", "x"), second = scratch.write("wind-12.vti", "x");
+    scratch.write("wind-1.vti", "x");
+    const std::string storm = scratch.write("storm.scene.json", R"({"file": "wind-##.vti"})");
+    CHECK(filesOf(storm) == Files{storm, first, second});
     // broken, it is still worth watching
     CHECK(filesOf(scratch.write("broken.scene.json", "{")) == Files{scratch.path("broken.scene.json")});
 }
