@@ -42,7 +42,7 @@ void main()
     float rest = spring.z * moleculeScale(molecule);
     float strain = clamp((distance(here, there) / max(rest, 1e-9) - 1.0) / strainShown, -1.0, 1.0);
     vec3 full = strain > 0.0 ? vec3(2.2, 0.18, 0.05) : vec3(0.08, 0.3, 2.4);
-    color = mix(vec3(0.75, 0.8, 0.65), full, abs(strain));
+    color = mix(vec3(0.16, 0.18, 0.14), full, abs(strain));
     // a little nearer than the surface that it lies in
     vec4 from = toClip * vec4(here * 0.998, 1.0), to = toClip * vec4(there * 0.998, 1.0);
     vec2 along = (to.xy / to.w - from.xy / from.w) / halfWidth;

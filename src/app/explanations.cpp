@@ -93,7 +93,7 @@ void Explanations::prepare(const Scene& scene, const Simulation& simulation, con
 }
 
 void Explanations::draw(const StateView& state, const DrawInputs& inputs) {
-    if (settings.springs) springs_.draw(state, inputs, settings.strainShown, settings.lineWidth);
+    if (settings.springs) springs_.draw(state, inputs, settings.strainShown, 0.8 * settings.lineWidth);
     if (picked && !settings.springs)
         springs_.drawOne(state, inputs, settings.strainShown, 1.5 * settings.lineWidth, picked->group,
                          picked->molecule);

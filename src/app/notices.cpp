@@ -44,11 +44,10 @@ bool showNotices(const std::string& problem, const std::string& message, float l
     if (problem.empty() && message.empty()) return false;
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     float width = screen.x - left - right;
-    if (width < points(260)) {  // no room between the panels: over them
-        left = points(12);
-        width = screen.x - points(24);
-    }
-    ImGui::SetNextWindowPos(ImVec2(left, points(12)), ImGuiCond_Always);
+    const bool narrow = width < points(260);  // no room between the panels: over their ends
+    if (narrow) left = points(12), width = screen.x - points(24);
+    ImGui::SetNextWindowPos(ImVec2(left, narrow ? screen.y - points(12) : points(12)), ImGuiCond_Always,
+                            ImVec2(0, narrow ? 1 : 0));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.2f, 0.07f, 0.05f, 0.94f));
     ImGui::Begin("Message", nullptr, plain);

@@ -9,8 +9,9 @@
 
 namespace shoal::app {
 
-// At the top, between `left` and `right` (from the window's right edge): why changed files do not run, as
-// long as that is so, and a message until the user closes it, which is returned. Empty: nothing is shown.
+// At the top (of a narrow window, at the bottom), between `left` and `right` (from the window's right edge):
+// why changed files do not run, as long as that is so, and a message until the user closes it, which is
+// returned. Empty: nothing is shown.
 bool showNotices(const std::string& problem, const std::string& message, float left, float right);
 
 // One line at the bottom.

@@ -22,6 +22,7 @@ void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
     for (size_t g = 0; g < from.size(); ++g) {
         to[g].life = from[g].life;
         to[g].particle = from[g].particle;
+        to[g].school = from[g].school;
         to[g].color = from[g].color;
         to[g].secondColor = from[g].secondColor;
     }

@@ -34,9 +34,10 @@ std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
 
 std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
     const Group& source = scene.groups[group];
-    Edited out{group, {}, {}};
+    Edited out{group, {}, {}, {}};
     if (source.life) out.life.emplace(scene, group);
     if (source.particle) out.looks.emplace(*source.particle);
+    if (source.school) out.school.emplace(*source.school);
     return out;
 }
 
@@ -48,7 +49,7 @@ void ScenePanel::follow(const Scene& scene) {
     pending_ = lives_ = false;
     groups_.clear();
     for (const Group& group : scene.groups)
-        lives_ |= group.life || group.particle;
+        lives_ |= group.life || group.particle || group.school;
     for (size_t g = 0; g < scene.groups.size(); ++g)
         if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
 }
@@ -114,6 +115,14 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
         const double before = group.particle->mass;
         looks = edited.looks->draw(*group.particle, group.life.has_value());
         mass = group.particle->mass != before;  // the plan has it
+        ImGui::TreePop();
+    }
+    if (edited.school && ImGui::TreeNodeEx("School", open)) {
+        if (edited.school->draw(*group.school)) {
+            pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
+            changed_ = true;
+            said_.clear();
+        }
         ImGui::TreePop();
     }
     if (!edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {

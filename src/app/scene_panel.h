@@ -10,6 +10,7 @@
 #include "app/life_editor.h"
 #include "app/particle_editor.h"
 #include "app/running_scene.h"
+#include "app/school_editor.h"
 
 namespace shoal::app {
 
@@ -33,6 +34,7 @@ class ScenePanel {
         size_t group;  // of the scene
         std::optional<LifeEditor> life;
         std::optional<ParticleEditor> looks;
+        std::optional<SchoolEditor> school;
         LifeCounts counts = {};
         double countedAt = -1;  // s, of the wall clock
     };

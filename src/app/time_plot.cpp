@@ -54,8 +54,9 @@ void drawPlot(const std::vector<Series>& all) {
             totals[i] += valueAt(series, i);
     // a frame that stalled does not flatten all others
     std::vector<double> sorted = totals;
+    sorted.erase(std::remove(sorted.begin(), sorted.end(), 0.0), sorted.end());  // there were no such frames
     std::sort(sorted.begin(), sorted.end());
-    const double top = std::max(1.25 * sorted[shownFrames * 95 / 100], 1e-5);
+    const double top = std::max(sorted.empty() ? 0 : 1.25 * sorted[(sorted.size() - 1) * 95 / 100], 1e-5);
     const float step = width / float(shownFrames);
     for (size_t i = 0; i < shownFrames; ++i) {
         const float right = at.x + width - step * float(i);

@@ -7,6 +7,7 @@
 #include "scene/life_writer.h"
 #include "scene/particle_writer.h"
 #include "scene/scene_reader.h"
+#include "scene/school_writer.h"
 
 namespace shoal {
 
@@ -20,6 +21,7 @@ JsonValue editable(const Scene& scene, const Group& group) {
     if (group.particle) add("particle", writeParticle(*group.particle, scene.file));
     if (group.color) add("color", JsonValue::makeVector(*group.color));
     if (group.secondColor) add("secondColor", JsonValue::makeVector(*group.secondColor));
+    if (group.school) add("school", writeSchool(*group.school));
     if (!group.life) return out;
     add("life", writeLife(group));
     add("emitters", writeEmitters(group, scene.models));
@@ -54,6 +56,7 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
         if (count && count->kind == JsonValue::Kind::number) group.count = int(count->number);
         JsonReader reader(groups.items[g], after.file, concat("$.groups[", g, "]"));
         if (auto particle = reader.object("particle")) group.particle = readParticleType(*particle);
+        readSchool(reader, group);
         getColor(reader, "color", group.color);
         getColor(reader, "secondColor", group.secondColor);
         readLife(reader, group, after.models);
@@ -112,6 +115,7 @@ MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& the
     for (const size_t g : edited) {
         out.groups[g].particle = read[g].particle;
         out.groups[g].life = read[g].life;
+        out.groups[g].school = read[g].school;
         out.groups[g].color = read[g].color;
         out.groups[g].secondColor = read[g].secondColor;
     }

@@ -1,5 +1,6 @@
-// Saves what was edited in a running scene: "particle", "color", "secondColor", "life" and "emitters" of its
-// groups. The rest of the file, its layout and every number that was not edited stay as they are, whoever wrote them and when.
+// Saves what was edited in a running scene: "particle", "color", "secondColor", "school", "life" and
+// "emitters" of its groups. The rest of the file, its layout and every number that was not edited stay as
+// they are, whoever wrote them and when.
 #pragma once
 
 #include <string>

@@ -35,9 +35,9 @@ struct Edited {
 Edited edit(const std::string& name, const std::string& steps) {
     const Scratch scratch;
     const std::string file = scratch.write(name + ".scene.json", fountain);
-    User user("Shoal - " + name, "keep() { sleep 0.3; cp " + file + " " + file + ".kept; }\n" +
-                                     "hide() { mv " + file + " " + file + ".hidden; }\n" + "show() { mv " +
-                                     file + ".hidden " + file + "; }\n" + steps);
+    User user("Shoal - " + name, "keep() { sleep 0.3; cp " + file + " " + file + ".kept; }\n" + "file=" +
+                                     file + "\n" + "hide() { mv " + file + " " + file + ".hidden; }\n" +
+                                     "show() { mv " + file + ".hidden " + file + "; }\n" + steps);
     Edited out;
     out.outcome = runShoal({"run", file, "--context", "window", "--size", "900x640"}, {.seconds = 90});
     INFO(out.outcome.err);
@@ -85,6 +85,25 @@ TEST_CASE("what is dragged and added in the window is saved, and no other byte c
 
     REQUIRE(emittersIn(after).items.size() == 2);
     CHECK(member(emittersIn(after).items[1], "rate").number == rate);
+}
+
+TEST_CASE("a file that changes on disk keeps what was dragged in the window, or the window asks",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    // sed writes another file and renames it; the second change is of what was dragged
+    const Edited edited = edit("merged", std::string(places) +
+                                             "rate 850; change() { sed -i \"$1\" $file; sleep 1.2; }\n"
+                                             "change 's/-9.810/-1.62/'; save; keep\n"
+                                             "rate 750; change 's/\"rate\": [0-9.]*/\"rate\": 33/'\n"
+                                             "press 264 355; sleep 0.5; save; sleep 0.3; key Escape\n");
+    INFO(edited.outcome.out << edited.between << edited.after);
+    CHECK(edited.outcome.err.empty());
+    const JsonValue between = parseJson(edited.between, "between"), after = parseJson(edited.after, "after");
+    const auto rate = [](const JsonValue& root) { return member(emittersIn(root).items[0], "rate").number; };
+    CHECK(member(between, "gravity").items[1].number == -1.62);
+    CHECK(rate(between) > 200);
+    CHECK(rate(after) != 33);
+    CHECK(rate(after) < rate(between));
 }
 
 TEST_CASE("what is reverted or abandoned in the window is not saved", "[.window]") {

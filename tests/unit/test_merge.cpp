@@ -3,6 +3,7 @@
 #include "core/json_merge.h"
 #include "scene/scene_file.h"
 #include "scene/scene_saver.h"
+#include "scene/school_writer.h"
 #include "simulate/carry_over.h"
 #include "support/catch.h"
 #include "support/small_scene.h"
@@ -97,6 +98,34 @@ TEST_CASE("edits of a group that is gone from the file are not dropped in silenc
     const MergedEdits merged = mergeEdits(t.before, t.mine, t.theirs, t.text, Prefer::mine);
     CHECK(!merged.possible);
     CHECK(merged.conflicts == std::vector<std::string>{"the group \"sparks\""});
+}
+
+TEST_CASE("a school that is written reads back the same", "[merge]") {
+    const Scratch scratch;
+    const auto readBack = [&](const std::string& school) {
+        const std::string text =
+            concat(R"({"format": "shoal-scene-1", "groups": [
+  {"name": "fish", "molecule": "blade.json", "count": 1, "school": )",
+                   school, R"(}, {"name": "shark", "molecule": "blade.json", "count": 1}]})");
+        return *parseScene(text, writeSmallScene(scratch, text)).groups[0].school;
+    };
+    for (const char* text :
+         {R"({})",
+          R"({"radius": 0.1})",  // the separation radius is no larger
+          R"({"radius": 0.7, "blind": 0.3, "separationRadius": 0.1, "separation": 3, "alignment": 1.5,
+              "cohesion": 1, "slowest": 0.2, "cruise": 0.3, "fastest": 2, "acceleration": 5, "turn": 3, "steepest": 0.5,
+              "reaction": 0.2, "bend": 0.9, "beat": 0.3, "fins": 0.5, "wander": 0.1, "depth": [-2, -1], "depthStrength": 2,
+              "walls": 0.4, "look": 0.6, "home": {"center": [1, 2, 3], "radius": 4, "strength": 2},
+              "flees": [{"group": "shark", "radius": 3, "strength": 5}]})",
+          R"({"home": {"box": {"low": [0, 0, 0], "high": [1, 1, 1]}}, "hunts": [{"group": "shark"}]})"}) {
+        const School school = readBack(text);
+        const std::string written = writeJsonLine(writeSchool(school));
+        INFO(written);
+        CHECK(sameJson(writeSchool(readBack(written)), writeSchool(school)));
+        CHECK(readBack(written).separationRadius == school.separationRadius);
+    }
+    CHECK(sameJson(writeSchool(readBack(R"({"radius": 0.7, "blind": 0.3, "look": 0.6})")),
+                   parseJson(R"({"radius": 0.7, "blind": 0.3, "look": 0.6})", "test")));
 }
 
 TEST_CASE("groups of a changed file go on, those of another shape begin anew", "[merge]") {
