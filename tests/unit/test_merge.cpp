@@ -103,10 +103,10 @@ TEST_CASE("edits of a group that is gone from the file are not dropped in silenc
 TEST_CASE("a school that is written reads back the same", "[merge]") {
     const Scratch scratch;
     const auto readBack = [&](const std::string& school) {
-        const std::string text =
-            concat(R"({"format": "shoal-scene-1", "groups": [
-  {"name": "fish", "molecule": "blade.json", "count": 1, "school": )",
-                   school, R"(}, {"name": "shark", "molecule": "blade.json", "count": 1}]})");
+        const std::string place = R"("place": {"on": "list", "items": [{}]})";
+        const std::string text = concat(
+            R"({"format": "shoal-scene-1", "groups": [{"name": "fish", "molecule": "blade.json", )", place,
+            R"(, "school": )", school, R"(}, {"name": "shark", "molecule": "blade.json", )", place, "}]}");
         return *parseScene(text, writeSmallScene(scratch, text)).groups[0].school;
     };
     for (const char* text :
