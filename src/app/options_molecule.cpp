@@ -49,6 +49,8 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
+    count("--skin-triangles", make.skinTriangles,
+          "Simplify the skin to about so many, for large numbers of molecules");
     command.add_flag("--json", options.json, "Report as JSON on standard output");
 }
 

@@ -11,11 +11,11 @@
 #include "author/inside.h"
 #include "author/lattice.h"
 #include "author/material_scale.h"
+#include "author/skin_mesh.h"
 #include "author/springs.h"
 #include "compile/path.h"
 #include "core/error.h"
 #include "molecule/bind_skin.h"
-#include "molecule/skin_file.h"
 #include "scene/closed_surface.h"
 
 namespace shoal {
@@ -157,50 +157,6 @@ void fold(CoarseMesh& coarse, double height) {
         }
     for (size_t v = 0; v < side.size(); ++v)
         coarse.positions[v] += 0.5 * height * side[v] * normal;
-}
-
-SkinMesh skinOf(const Mesh& mesh) {
-    SkinMesh out;
-    // a vertex of the skin for each that differs by place, uv or, at an edge, by normal
-    constexpr double crease = 0.766;
-    std::vector<std::vector<size_t>> at(mesh.weldedPositions.size());
-    std::vector<glm::dvec3> normals;
-    std::vector<int> numbers;
-    for (size_t v = 0; v < mesh.positions.size(); ++v) {
-        const glm::dvec2 uv = mesh.uvs.empty() ? glm::dvec2(0) : mesh.uvs[v];
-        std::vector<size_t>& here = at[size_t(mesh.weld[v])];
-        const auto same = [&](size_t s) {
-            return glm::distance(out.uvs[s], uv) < 1e-6 && glm::dot(normals[s], mesh.normals[v]) > crease;
-        };
-        const auto found = std::find_if(here.begin(), here.end(), same);
-        numbers.push_back(int(found != here.end() ? *found : out.positions.size()));
-        if (found != here.end()) continue;
-        here.push_back(out.positions.size());
-        out.positions.push_back(mesh.weldedPositions[size_t(mesh.weld[v])]);
-        out.uvs.push_back(uv);
-        normals.push_back(mesh.normals[v]);
-    }
-    for (const glm::ivec3& t : mesh.triangles) {
-        const SkinTriangle triangle{numbers[size_t(t.x)], numbers[size_t(t.y)], numbers[size_t(t.z)]};
-        if (triangle.a != triangle.b && triangle.b != triangle.c && triangle.c != triangle.a)
-            out.triangles.push_back(triangle);
-    }
-    // without those that no triangle has
-    std::vector<int> kept(out.positions.size(), -1);
-    SkinMesh packed;
-    for (SkinTriangle t : out.triangles) {
-        for (int* corner : {&t.a, &t.b, &t.c}) {
-            int& number = kept[size_t(*corner)];
-            if (number < 0) {
-                number = int(packed.positions.size());
-                packed.positions.push_back(out.positions[size_t(*corner)]);
-                packed.uvs.push_back(out.uvs[size_t(*corner)]);
-            }
-            *corner = number;
-        }
-        packed.triangles.push_back(t);
-    }
-    return packed;
 }
 
 // One run of makeMolecule, step by step.
@@ -378,12 +334,7 @@ class Maker {
     }
 
     void addSkin() {
-        const SkinMesh mesh = skinOf(mesh_);
-        if (mesh.positions.size() > size_t(maxSkinVertices) ||
-            mesh.triangles.size() > size_t(maxSkinTriangles))
-            throw Error(concat("a skin of ", mesh.positions.size(), " vertices and ", mesh.triangles.size(),
-                               " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
-                               maxSkinTriangles, ": simplify the mesh, or leave the skin out"));
+        const SkinMesh mesh = skinMeshOf(mesh_, options_.skinTriangles);
         molecule().skin = bindSkin(molecule(), mesh);
         for (size_t i = 0; i < mesh.positions.size(); ++i)
             made_.skinError = std::max(
@@ -421,6 +372,10 @@ void checkOptions(const FromMesh& o) {
     if (!o.material.empty()) scaledMaterial(o.material);
     if (o.mass && o.density) throw Error("expected either a mass or a density, found both");
     const int asked = o.rings ? 4 * *o.rings : o.vertices;
+    if (o.skinTriangles && *o.skinTriangles < 4)
+        throw Error(concat("expected at least 4 triangles of the skin, found ", *o.skinTriangles));
+    if (o.skinTriangles && !o.skin)
+        throw Error("expected either triangles of the skin or no skin, found both");
     if (o.rings && *o.rings < 2) throw Error(concat("expected at least 2 rings, found ", *o.rings));
     if (!o.rings && asked < leastMadeVertices)
         throw Error(concat("expected at least ", leastMadeVertices, " vertices, found ", asked));

@@ -32,6 +32,7 @@ struct FromMesh {
     std::optional<double> damping;    // ratio of the lowest mode; nothing: the material's
     bool centre = false;              // the middle of its box to the origin
     bool skin = true;
+    std::optional<int> skinTriangles;  // the skin is simplified to about so many; nothing: all
     PinChoice pins;
     std::string name;
 };

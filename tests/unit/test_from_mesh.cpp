@@ -152,6 +152,26 @@ TEST_CASE("mass, size and frequencies are as asked", "[from-mesh]") {
     }
 }
 
+TEST_CASE("a skin of fewer triangles is as large as the mesh", "[from-mesh]") {
+    FromMesh options;
+    options.skinTriangles = 400;
+    const MadeMolecule out = made(club(50, 51), options);
+    const Skin& skin = out.molecule.skin;
+    CHECK(skin.triangles.size() <= 400);
+    CHECK(skin.triangles.size() > 350);
+    CHECK(out.skinError < 1e-6);
+    Mesh mesh;
+    for (const SkinVertex& vertex : skin.vertices)
+        mesh.positions.push_back(vertex.position);
+    mesh.triangles = trianglesOf(skin);
+    completeMesh(mesh);
+    const SurfaceReport report = examineSurface(mesh);
+    CHECK(report.closed());
+    CHECK(report.volume == Approx(out.volume).epsilon(0.03));
+    options.skinTriangles = 2;
+    CHECK(refused(mesh, options) == "expected at least 4 triangles of the skin, found 2");
+}
+
 TEST_CASE("a made molecule is written and read back equal", "[from-mesh]") {
     FromMesh options;
     options.pins.rules.push_back(parsePinRule("z<0.1"));
@@ -243,6 +263,8 @@ TEST_CASE("a flat sheet is folded, and its skin stays flat", "[from-mesh]") {
     CHECK(out.material == "leaf");
     checkBraced(out.molecule);
     CHECK(out.molecule.vertices.size() <= 16);
+    for (const Warning& warning : check(out.molecule))
+        FAIL_CHECK(text(warning));
     double height = 0, off = 0;
     for (const Vertex& vertex : out.molecule.vertices)
         height = std::max(height, std::abs(vertex.position.z));
@@ -255,6 +277,16 @@ TEST_CASE("a flat sheet is folded, and its skin stays flat", "[from-mesh]") {
           Approx(0.1 * 0.2 * leaf.thickness * leaf.density).epsilon(0.01));
     CHECK(std::any_of(out.notes.begin(), out.notes.end(),
                       [](const std::string& note) { return note.find("folded") != std::string::npos; }));
+}
+
+TEST_CASE("triangles that face both ways come out facing alike", "[from-mesh]") {
+    Mesh mesh = strip(12);
+    for (size_t t = 0; t < mesh.triangles.size(); t += 3)
+        std::swap(mesh.triangles[t].x, mesh.triangles[t].y);
+    const MadeMolecule out = made(mesh);
+    for (const Warning& warning : check(out.molecule))
+        FAIL_CHECK(text(warning));
+    CHECK(out.molecule.triangles.size() > 10);
 }
 
 TEST_CASE("pins survive by rule, by name and by paint", "[from-mesh]") {

@@ -1,0 +1,93 @@
+#include "author/skin_mesh.h"
+
+#include <algorithm>
+
+#include <meshoptimizer.h>
+
+#include "core/error.h"
+#include "molecule/skin_file.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr double crease = 0.766;  // cosine of 40 degrees, as in skinNormals()
+
+// Corners of the file that look alike are one vertex.
+SkinMesh joined(const Mesh& mesh) {
+    SkinMesh out;
+    std::vector<std::vector<size_t>> at(mesh.weldedPositions.size());
+    std::vector<glm::dvec3> normals;
+    std::vector<int> numbers;
+    for (size_t v = 0; v < mesh.positions.size(); ++v) {
+        const glm::dvec2 uv = mesh.uvs.empty() ? glm::dvec2(0) : mesh.uvs[v];
+        std::vector<size_t>& here = at[size_t(mesh.weld[v])];
+        const auto same = [&](size_t s) {
+            return glm::distance(out.uvs[s], uv) < 1e-6 && glm::dot(normals[s], mesh.normals[v]) > crease;
+        };
+        const auto found = std::find_if(here.begin(), here.end(), same);
+        numbers.push_back(int(found != here.end() ? *found : out.positions.size()));
+        if (found != here.end()) continue;
+        here.push_back(out.positions.size());
+        out.positions.push_back(mesh.weldedPositions[size_t(mesh.weld[v])]);
+        out.uvs.push_back(uv);
+        normals.push_back(mesh.normals[v]);
+    }
+    for (const glm::ivec3& t : mesh.triangles) {
+        const SkinTriangle triangle{numbers[size_t(t.x)], numbers[size_t(t.y)], numbers[size_t(t.z)]};
+        if (triangle.a != triangle.b && triangle.b != triangle.c && triangle.c != triangle.a)
+            out.triangles.push_back(triangle);
+    }
+    return out;
+}
+
+void simplify(SkinMesh& mesh, const glm::dvec3& middle, size_t triangles) {
+    std::vector<glm::vec3> positions;  // about the middle, whatever the distance from the origin
+    for (const glm::dvec3& p : mesh.positions)
+        positions.emplace_back(p - middle);
+    std::vector<unsigned> corners, few(3 * mesh.triangles.size());
+    for (const SkinTriangle& t : mesh.triangles)
+        for (const int corner : {t.a, t.b, t.c})
+            corners.push_back(unsigned(corner));
+    constexpr float anyError = 1e10f;
+    few.resize(meshopt_simplify(few.data(), corners.data(), corners.size(), &positions[0].x, positions.size(),
+                                sizeof(glm::vec3), std::min(3 * triangles, corners.size()), anyError, 0,
+                                nullptr));
+    mesh.triangles.clear();
+    for (size_t t = 0; t < few.size(); t += 3)
+        mesh.triangles.push_back({int(few[t]), int(few[t + 1]), int(few[t + 2])});
+}
+
+// Without vertices that no triangle has.
+SkinMesh packed(const SkinMesh& mesh) {
+    std::vector<int> kept(mesh.positions.size(), -1);
+    SkinMesh out;
+    for (SkinTriangle t : mesh.triangles) {
+        for (int* corner : {&t.a, &t.b, &t.c}) {
+            int& number = kept[size_t(*corner)];
+            if (number < 0) {
+                number = int(out.positions.size());
+                out.positions.push_back(mesh.positions[size_t(*corner)]);
+                out.uvs.push_back(mesh.uvs[size_t(*corner)]);
+            }
+            *corner = number;
+        }
+        out.triangles.push_back(t);
+    }
+    return out;
+}
+
+}  // namespace
+
+SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles) {
+    SkinMesh out = joined(mesh);
+    if (triangles) simplify(out, 0.5 * (mesh.low + mesh.high), size_t(*triangles));
+    out = packed(out);
+    if (out.positions.size() > size_t(maxSkinVertices) || out.triangles.size() > size_t(maxSkinTriangles))
+        throw Error(concat("a skin of ", out.positions.size(), " vertices and ", out.triangles.size(),
+                           " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
+                           maxSkinTriangles, ": ask for fewer triangles of the skin, or leave it out"));
+    return out;
+}
+
+}  // namespace shoal
