@@ -96,8 +96,9 @@ class EditorWindow {
         const std::string wrong = stage_.advance();
         if (!wrong.empty()) tell(wrong);
         wobble();
+        followPlay();
         interface_.begin();
-        if (stage_.ready()) stage_.draw(camera_.view(), width_, height_);
+        if (stage_.ready()) stage_.draw(view(), width_, height_);
         EditorAction action = drawPanels();
         work();
         drawMolecule();
@@ -194,6 +195,30 @@ class EditorWindow {
         return action;
     }
 
+    // What plays is followed; and its middle is that of what the panels leave free.
+    View view() const {
+        View out = camera_.view();
+        const float free = ImGui::GetIO().DisplaySize.y;
+        const double lift = free > 0 ? panelArea().bottom / free * std::tan(out.fieldOfView / 2) *
+                                           glm::length(out.eye - out.target)
+                                     : 0;
+        const glm::dvec3 ahead = glm::normalize(out.target - out.eye),
+                         up = glm::cross(glm::normalize(glm::cross(ahead, out.up)), ahead);
+        out.eye += followed_ - up * lift;
+        out.target += followed_ - up * lift;
+        return out;
+    }
+
+    void followPlay() {
+        glm::dvec3 wanted(0);
+        const Molecule& m = editor_.document.molecule();
+        if (stage_.ready() && stage_.frame() > 0 && stage_.positions().size() == m.vertices.size())
+            for (size_t v = 0; v < m.vertices.size(); ++v)
+                wanted += (stage_.positions()[v] - m.vertices[v].position) / double(m.vertices.size());
+        if (grip_ == Grip::pull) return;  // what is held does not run away from the pointer
+        followed_ = stage_.playing ? glm::mix(followed_, wanted, 0.3) : wanted;
+    }
+
     // At rest the draft itself, so that nothing lags behind the pointer.
     std::vector<glm::dvec3> places() const {
         const Molecule& m = editor_.document.molecule();
@@ -206,7 +231,7 @@ class EditorWindow {
     }
 
     void drawMolecule() {
-        const Projector projector(camera_.view(), ImGui::GetIO().DisplaySize);
+        const Projector projector(view(), ImGui::GetIO().DisplaySize);
         const std::vector<glm::dvec3> x = places();
         const Molecule& m = editor_.document.molecule();
         std::vector<double> strains;
@@ -232,7 +257,7 @@ class EditorWindow {
         overlay.hoveredSpring.reset();
         overlay.hoveredTriangle.reset();
         overlay.chainEnd.reset();
-        const Projector projector(camera_.view(), io.DisplaySize);
+        const Projector projector(view(), io.DisplaySize);
         if (grip_ != Grip::none) return drag(projector);
         if (io.WantCaptureMouse) return;
         if (io.MouseWheel != 0) camera_.zoom(double(io.MouseWheel));
@@ -312,7 +337,7 @@ class EditorWindow {
     }
 
     void addVertexUnder(const Projector& projector, ImVec2 mouse) {
-        glm::dvec3 place = projector.onPlane(mouse, camera_.view().target);
+        glm::dvec3 place = projector.onPlane(mouse, view().target);
         for (int i = 0; i < 3; ++i)
             place[i] = snapped(place[i]);
         int made = -1;
@@ -618,6 +643,7 @@ class EditorWindow {
     Grip grip_ = Grip::none;
     int held_ = 0;               // a vertex
     Draft before_;               // of a move
+    glm::dvec3 followed_{0};     // m: how far what plays has moved
     ImVec2 start_{0, 0};         // of a move
     std::optional<ImVec2> box_;  // a corner
     float moved_ = 0;            // by the pointer, since it went down

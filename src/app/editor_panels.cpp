@@ -247,15 +247,15 @@ EditorAction drawCost(Editor& editor) {
         const double time = cost.secondsPerMolecule * count, room = budget / time;
         ImGui::TextColored(room < 1 ? warm : calm, "%s: %s ms a frame", count == 1000 ? "1,000" : "100,000",
                            plain(time * 1e3).c_str());
-        if (room < 1)
-            ImGui::TextWrapped(
-                "60 Hz would hold %s of them, or as many with about %d vertices and %d springs",
-                plain(budget / cost.secondsPerMolecule).c_str(), std::max(1, int(a.vertices * room)),
-                int(a.springs * room));
-        else
-            ImGui::TextDisabled("60 Hz would hold about %s vertices, %s springs each",
-                                plain(std::floor(a.vertices * room)).c_str(),
-                                plain(std::floor(a.springs * room)).c_str());
+        const int vertices = std::max(1, int(a.vertices * room)), springs = int(a.springs * room);
+        const std::string words =
+            room < 1
+                ? concat("60 Hz would hold ", int64_t(budget / cost.secondsPerMolecule),
+                         " of them, or as many with about ", vertices, " vertices and ", springs, " springs")
+                : concat("60 Hz would hold about ", vertices, " vertices and ", springs, " springs each");
+        ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+        ImGui::TextWrapped("%s", words.c_str());
+        ImGui::PopStyleColor();
     }
     ImGui::TextDisabled("%s", cost.machine.c_str());
     return action;

@@ -14,7 +14,7 @@ using namespace shoal::test;
 
 namespace {
 
-// In front of the eye (key 1) vertex 2 is at 565, 205 of a window of 900 x 640, and vertex 0 at 335, 435.
+// In front of the eye (key 1) vertex 2 is at 565, 159 of a window of 900 x 640, and vertex 0 at 335, 389.
 constexpr const char* square = R"({
   "format": "shoal-molecule-1", "comment": "kept",
   "defaults": {"mass": 0.10, "stiffness": 50, "damping": 0.5},
@@ -63,7 +63,7 @@ TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor"
     if (!hasXdotool()) return;
     Session session("dragged");
     const Outcome out = session.edit(
-        "drag 565 205 611; control s; cp $file $file.moved\n"
+        "drag 565 159 611; control s; cp $file $file.moved\n"
         "control z; control s; cp $file $file.back; control y; control s; close\n");
     CHECK(out.code == 0);
     CHECK(out.err.empty());
@@ -82,10 +82,10 @@ TEST_CASE("springs and vertices are added, removed and pinned in the editor", "[
     if (!hasXdotool()) return;
     Session session("changed");
     const Outcome out = session.edit(
-        "key s; at 565 435; xdotool mousedown 1; sleep 0.3; at 450 320; at 335 205; xdotool mouseup 1; sleep "
+        "key s; at 565 389; xdotool mousedown 1; sleep 0.3; at 450 274; at 335 159; xdotool mouseup 1; sleep "
         "0.3\n"
-        "key v; press 335 435; key p; control s; cp $file $file.braced\n"
-        "press 565 205; key Delete; control s; close\n");
+        "key v; press 335 389; key p; control s; cp $file $file.braced\n"
+        "press 565 159; key Delete; control s; close\n");
     CHECK(out.code == 0);
     CHECK(out.err.empty());
     const Molecule braced = readMolecule(session.file + ".braced");
@@ -106,7 +106,7 @@ TEST_CASE("a file that another program breaks and mends is said and taken up in 
         "cp $file $file.whole; key space; sleep 0.5\n"
         "printf \"{\\\"format\\\": 3\" > $file; sleep 1.5\n"
         "sed \"s/0.10/0.30/\" $file.whole > $file; sleep 1.5\n"
-        "key space; key Home; drag 565 205 611; control s; close\n");
+        "key space; key Home; drag 565 159 611; control s; close\n");
     CHECK(out.code == 0);
     const std::vector<std::string> messages = out.messages();
     REQUIRE(messages.size() == 1);
@@ -118,7 +118,7 @@ TEST_CASE("a file that another program breaks and mends is said and taken up in 
 TEST_CASE("what is not saved outlives the editor, and is offered again", "[.window]") {
     if (!hasXdotool()) return;
     Session session("killed");
-    const Outcome killed = session.edit("drag 565 205 611; sleep 1.5; kill -9 $(xdotool getwindowpid $w)\n");
+    const Outcome killed = session.edit("drag 565 159 611; sleep 1.5; kill -9 $(xdotool getwindowpid $w)\n");
     CHECK(killed.code == -1);
     CHECK(session.text() == square);
     // "Take it", then save
@@ -132,7 +132,7 @@ TEST_CASE("what is not saved outlives the editor, and is offered again", "[.wind
 TEST_CASE("closing the editor asks, and saves nothing without being told to", "[.window]") {
     if (!hasXdotool()) return;
     Session session("closed");
-    const Outcome out = session.edit("drag 565 205 611; key Escape; key Escape; sleep 0.7; press 460 329\n");
+    const Outcome out = session.edit("drag 565 159 611; key Escape; key Escape; sleep 0.7; press 460 329\n");
     CHECK(out.code == 0);
     CHECK(session.text() == square);
     CHECK(filesIn(session.scratch.path("state")).empty());
