@@ -200,10 +200,12 @@ def swimmer(name, comment, length, frequency, stiffness, damping, colors, metall
         for k in range(4 if r > 0 else 0):
             before, after = ring(r - 1)[k], ring(r - 1)[(k + 1) % 4]
             pairs += [(before, here[k]), (before, here[(k + 1) % 4]), (after, here[k])]
-            triangles += [(before, here[k], after), (after, here[k], here[(k + 1) % 4])]
+            # left and right, top and bottom alike: else the water rolls it
+            triangles += ([(before, here[k], after), (after, here[k], here[(k + 1) % 4])] if k % 2 == 0 else
+                          [(before, here[k], here[(k + 1) % 4]), (before, here[(k + 1) % 4], after)])
     pairs += [(tip, here) for tip in tips for here in last] + [tips]
     pairs += [(tip, here) for tip in tips for here in (ring(2)[0], ring(2)[2])]
-    triangles += [(last[1], tips[0], last[3]), (last[3], tips[0], tips[1])]  # a sheet: its normals look aside
+    triangles += [(last[1], tips[0], last[3]), (last[3], last[1], tips[1])]  # a forked sheet: its normals look aside
 
     def curvature(z):
         """Amplitude, and phase in rad, of the wave's curvature: its second derivative."""

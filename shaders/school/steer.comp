@@ -10,7 +10,7 @@ uniform samplerBuffer bodies;
 uniform usamplerBuffer sorted;
 uniform usamplerBuffer starts;
 uniform samplerBuffer places;      // in the order of the grids: xyz place, w not 0: lives
-uniform samplerBuffer velocities;  // in the same
+uniform samplerBuffer velocities;  // in the same: xyz velocity, w speed ahead, m/s
 uniform int firstBody;             // of the group
 
 uniform ivec4 grids[1 + TARGETS];     // first slot, slots, first key, keys; of its own, then of its targets
@@ -21,6 +21,7 @@ uniform vec4 speeds;     // slowest, cruise, fastest, m/s; most acceleration, m/
 uniform vec4 habits;     // tangent of the steepest course; most turn, rad/s; reaction, s; wander, m/s^2
 uniform vec4 muscles;    // most curvature, 1/m; speed at which they run at their own frequency; fins; keel, 1/s
 uniform float blindCosine;
+uniform float drag;      // 1/s, along the body
 uniform vec4 depth;      // lowest and highest y from the origin, m; strength, 1/s^2
 uniform vec4 homeLow;    // xyz of the box, or the middle of the ball; w strength, 1/s^2
 uniform vec4 homeHigh;   // xyz of the box; w radius of the ball, 0: a box
@@ -85,14 +86,14 @@ ivec3 rowBeside(ivec3 cell, int r)
 // Sums over the others that it sees.
 struct Others {
     vec3 apart;
-    vec3 velocity;
+    vec4 velocity;
     vec3 place;  // relative to it, m
     float count;
 };
 
 Others lookAround(vec3 place, vec3 forward, int slot)
 {
-    Others sum = Others(vec3(0.0), vec3(0.0), vec3(0.0), 0.0);
+    Others sum = Others(vec3(0.0), vec4(0.0), vec3(0.0), 0.0);
     float inverseCell = min(gridRules[0].x, 3.4e38);
     float radius = min(gridRules[0].y, 3.4e38);
     float keep = min(others.x, 3.4e38);
@@ -109,7 +110,7 @@ Others lookAround(vec3 place, vec3 forward, int slot)
                        isSeen(d, forward, blind);
             float share = met ? 1.0 : 0.0;
             sum.apart -= awayFrom(d, keep) * share;
-            sum.velocity += texelFetch(velocities, at).xyz * share;
+            sum.velocity += texelFetch(velocities, at) * share;
             sum.place += met ? d : vec3(0.0);
             sum.count += share;
         }
@@ -178,9 +179,13 @@ void main()
     Others seen = lookAround(place.xyz, forward, slot);
     float perOther = 1.0 / max(seen.count, 1.0);
     vec3 liked = seen.apart * others.y;
-    if (seen.count > 0.0) liked += (seen.velocity * perOther - velocity) * others.z + seen.place * (perOther * others.w);
+    if (seen.count > 0.0) {
+        // their mean velocity turns it, and their mean speed is its own: those that swim to all sides do not stop it
+        vec4 theirs = seen.velocity * perOther;
+        vec3 aligned = theirs.xyz - forward * (dot(theirs.xyz, forward) + speed - theirs.w);
+        liked += aligned * others.z + seen.place * (perOther * others.w);
+    }
     liked.y += depth.z * (clamp(place.y, depth.x, depth.y) - place.y);
-    liked += forward * (speeds.y - speed);
     uint seed = uint(place.w);
     float a = uniformFrom(hashSeed(seed, 0x5c0002u));
     float b = uniformFrom(hashSeed(seed, 0x5c0003u));
@@ -197,8 +202,9 @@ void main()
     vec3 wanted = forward * max(speed, speeds.x) + steered * reaction;
     vec3 course = courseOf(wanted, forward, habits.x);
     vec3 turning = atMost(turnBetween(forward, course, upper) / reaction, habits.y);
-    float wantedSpeed = clamp(dot(wanted, forward), speeds.x, speeds.z);
-    float push = clamp((wantedSpeed - speed) / reaction, -speeds.w, speeds.w) * muscles.z;
+    float wantedSpeed = clamp(speeds.y + dot(steered, forward) * (2.0 * reaction), speeds.x, speeds.z);
+    // un-damping along the body, for what the tail does not give
+    float push = clamp((wantedSpeed - speed) / reaction + drag * wantedSpeed, -speeds.w, speeds.w) * muscles.z;
     vec3 aside = velocity - forward * speed;
     vec3 pushed = forward * push - aside * muscles.w;
 
@@ -209,7 +215,7 @@ void main()
     // upright, and leaning into its turns
     vec3 above = vec3(0.0, 1.0, 0.0) + (steered - forward * dot(steered, forward)) * 0.1;
     above -= forward * dot(above, forward);
-    turning += forward * clamp(4.0 * dot(cross(upper, above), forward), -4.0, 4.0);
+    turning += forward * clamp(6.0 * atan(dot(cross(upper, above), forward), dot(upper, above)), -8.0, 8.0);
     answer = (turning - spin) * min(20.0, 0.5 / duration);
 #else
     // a point turns by being pushed aside

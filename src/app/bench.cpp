@@ -173,6 +173,7 @@ int benchCommand(const Options& options) {
     if (options.benchOf == "sort") return benchSortCommand(options);
     if (options.benchOf == "collide") return benchCollideCommand(options);
     if (options.benchOf == "particles") return benchParticlesCommand(options);
+    if (options.benchOf == "school") return benchSchoolCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
     gpu::ContextOptions contextOptions;

@@ -14,6 +14,7 @@ int benchCommand(const Options& options);           // with a word after it: one
 int benchSortCommand(const Options& options);       // shoal bench sort
 int benchCollideCommand(const Options& options);    // shoal bench collide
 int benchParticlesCommand(const Options& options);  // shoal bench particles
+int benchSchoolCommand(const Options& options);     // shoal bench school
 int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
 int editCommand(const Options& options);

@@ -123,11 +123,13 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
 }
 
 // What `shoal bench` measures beside the simulation's frames, each in a file bench_<word>.cpp.
-const std::vector<std::string> benchWords = {"sort", "collide", "particles"};
+const std::vector<std::string> benchWords = {"sort", "collide", "particles", "school"};
 
 void addBench(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("of", options.benchOf,
-                       "sort: the sorts; collide: contact; particles: points; nothing: frames of molecules");
+    command.add_option(
+        "of", options.benchOf,
+        "sort: the sorts; collide: contact; particles: points; school: fish; nothing: frames of "
+        "molecules");
     addContext(command, options, texts);
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
     command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")

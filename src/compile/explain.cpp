@@ -40,6 +40,7 @@ static std::string kernelParts(const GroupPlan& group) {
     with(needs.release, "anchors follow and pins may be released");
     with(needs.springs, "springs");
     with(needs.actuation, "muscles");
+    with(needs.steers, "steering");
     with(needs.gravity, "gravity");
     with(needs.drag && !needs.directionalDrag, "drag");
     with(needs.directionalDrag, "drag by direction");
@@ -123,6 +124,22 @@ static void tellContact(std::ostringstream& out, const Plan& plan) {
         << " m/s relative to one another none passes through another between two contact steps\n";
 }
 
+// Who steers by whom, and in which grids they are found.
+static void tellSchool(std::ostringstream& out, const Plan& plan, size_t g) {
+    const SchoolMember* member = plan.school.memberOf(g);
+    if (!member) return;
+    const School& school = member->school;
+    out << "  school   once a frame         others within " << school.radius << " m";
+    for (const SchoolTarget& target : school.flees)
+        out << ", flees \"" << target.group << "\" within " << target.radius << " m";
+    for (const SchoolTarget& target : school.hunts)
+        out << ", hunts \"" << target.group << "\" within " << target.radius << " m";
+    if (plan.groups[g].needs.avoids) out << ", turns from colliders within " << school.walls << " m";
+    if (school.home) out << ", has a home";
+    if (school.depth) out << ", likes y from " << school.depth->x << " to " << school.depth->y << " m";
+    out << "; " << 1 + member->targetGrids.size() << (member->targetGrids.empty() ? " grid\n" : " grids\n");
+}
+
 std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
@@ -153,6 +170,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
             listPasses(out, plan, g);
+        tellSchool(out, plan, g);
         listBirths(out, group);
         const std::string absent = leftOut(group, choice.path == Path::fused);
         if (!absent.empty()) out << "  left out: " << absent << "\n";
@@ -191,6 +209,8 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
             entry.add("atStart", JsonValue::makeNumber(group.life->atStart))
                 .add("allocator", JsonValue::makeString(name(group.life->cycle.allocator)))
                 .add("emitters", JsonValue::makeNumber(double(group.life->cycle.emitters.size())));
+        if (const SchoolMember* member = plan.school.memberOf(g))
+            entry.add("schoolGrids", JsonValue::makeNumber(double(1 + member->targetGrids.size())));
         if (group.forces.any()) {
             JsonValue forces = JsonValue::makeArray();
             for (const std::string& force : forceNames(plan, group))

@@ -6,6 +6,7 @@
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
 #include "compile/generate_emitters.h"
+#include "compile/muscle_limits.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
 #include "core/random.h"
@@ -286,6 +287,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
         if (group.needs.liveSprings) group.springNumbers = springNumbers(scene.groups[i].molecule);
         if (group.factored()) group.shape = scene.groups[i].molecule;
+        checkMuscles(scene, scene.groups[i], plan.warnings);
         listPasses(group, i, plan);
         plan.groups.push_back(std::move(group));
     }

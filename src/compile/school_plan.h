@@ -67,7 +67,4 @@ SchoolPlan planSchools(const Scene& scene, const std::vector<GroupPlan>& groups)
 // to the left where positive). 0 of springs that are no muscles.
 double bendOf(const Molecule& molecule, const Spring& spring);
 
-// What muscles cannot do as asked: a wave beyond what a spring or the step follows.
-std::vector<Warning> muscleWarnings(const Scene& scene, const Group& group, const GroupPlan& plan);
-
 }  // namespace shoal

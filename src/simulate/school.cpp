@@ -210,6 +210,8 @@ void Schooling::setRules(size_t index, const Frame& frame) {
     program.set("habits", glm::vec4(std::tan(school.steepest), school.turn, school.reaction, school.wander));
     program.set("muscles", glm::vec4(member.length > 0 ? school.bend / member.length : 0, school.beat,
                                      school.fins, member.keel ? 2 / school.reaction : 0));
+    const GroupPlan& group = plan_->groups[member.group];
+    program.set("drag", float(group.drag.tangent * frame.parameters.drag));
     // seen: all but a cone about straight back
     program.set("blindCosine", float(school.blind < 1.5707963 ? std::cos(school.blind) : 0));
     const double base = school_->origin.y;
@@ -230,7 +232,6 @@ void Schooling::setRules(size_t index, const Frame& frame) {
     program.set("time", float(frame.time));
     program.set("duration", float(frame.parameters.frameTime));
     program.set("firstBody", school_->bodiesOf(member.group).first);
-    const GroupPlan& group = plan_->groups[member.group];
     if (!group.needs.avoids) return;
     program.set("origin", glm::vec3(school_->origin));
     program.set("walls", glm::vec2(school.walls, school.look));

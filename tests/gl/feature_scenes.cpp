@@ -325,7 +325,7 @@ std::vector<FeatureScene> shippedScenes(int mostMolecules) {
     for (const std::string& file : files) {
         Scene scene = readScene(file);
         if (std::any_of(scene.groups.begin(), scene.groups.end(),
-                        [](const Group& g) { return g.contact || g.life; }))
+                        [](const Group& g) { return g.contact || g.life || g.school; }))
             continue;
         for (Group& group : scene.groups)
             group.count = std::min(group.count, mostMolecules);

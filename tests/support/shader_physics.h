@@ -31,6 +31,7 @@ namespace {
 #define FASTEST_SQUARED 1e8
 #include "physics/runaway.glsl"
 #undef FASTEST_SQUARED
+#include "physics/school.glsl"
 #include "physics/solid.glsl"
 #include "physics/spring.glsl"
 // clang-format on

@@ -1,0 +1,291 @@
+// Schools (docs/school.md): what steers each against all pairs in double precision; that it repeats, goes on
+// from a checkpoint, holds its limits, and swims, turns and stays upright.
+#include <algorithm>
+#include <cmath>
+
+#include "compile/plan.h"
+#include "gl/feature_scenes.h"
+#include "gl/gl_test.h"
+#include "gl/school_reference.h"
+#include "simulate/checkpoint.h"
+#include "simulate/simulation.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+using Catch::Contains;
+
+namespace {
+
+constexpr double frameTime = 1.0 / 60;
+
+bool canRun() {
+    if (testContext().info().computeShaders && testPath() == Path::fused) return true;
+    WARN("skipped: schools need the fused path");
+    return false;
+}
+
+Group fish(const std::string& name, int count, const glm::dvec3& half) {
+    Group group;
+    group.name = name;
+    group.molecule = shippedMolecule("fry");
+    group.count = count;
+    group.place.kind = Placement::Kind::volume;
+    group.place.box = {glm::dvec3(0, 2, 0) - half, glm::dvec3(0, 2, 0) + half};
+    group.place.turn = Placement::Turn::yaw;
+    group.drag = {40, 1};
+    group.school = School{};
+    return group;
+}
+
+Scene water() {
+    Scene scene;
+    scene.solver.kind = SolverKind::leapfrog;
+    scene.solver.substeps = 5;
+    return scene;
+}
+
+// Two schools and three that hunt the first, between a plane and a sphere.
+Scene pond(int count) {
+    Scene scene = water();
+    scene.groups = {fish("fry", count, {0.7, 0.4, 0.7}), fish("minnows", count / 2 + 3, {0.6, 0.5, 0.6}),
+                    fish("hunters", 3, {1.5, 0.5, 1.5})};
+    scene.groups[0].school->flees = {{"hunters", 1.2, 6, {}}};
+    scene.groups[0].school->depth = glm::dvec2(1.9, 2.1);
+    scene.groups[1].school->home = SchoolHome{Box{{-0.4, 1.8, -0.4}, {0.4, 2.2, 0.4}}, {}, 0, 3};
+    scene.groups[1].school->flees = {{"hunters", 0.8, 3, {}}, {"fry", 0.15, 1, {}}};
+    scene.groups[1].school->radius = 0.3;
+    scene.groups[1].place.scale = {0.8, 1.2};
+    School& hunters = *scene.groups[2].school;
+    hunters.hunts = {{"fry", 3, 2, {}}};
+    hunters.home = SchoolHome{{}, {0, 2, 0}, 1, 2};
+    hunters.blind = 1.2;
+    Collider ground, rock;
+    ground.shape = PlaneCollider{{0, 1.5, 0}, {0, 1, 0}};
+    rock.shape = SphereCollider{{0.5, 1.8, 0.4}, 0.3};
+    scene.colliders = {ground, rock};
+    return scene;
+}
+
+struct Run {
+    explicit Run(const Scene& scene, SimulationOptions options = {})
+        : simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), fused(options)) {}
+    static SimulationOptions fused(SimulationOptions options) {
+        options.path = Path::fused;
+        options.drawn = false;
+        return options;
+    }
+    void frames(int count) {
+        for (int i = 0; i < count; ++i)
+            simulation.frame();
+    }
+    Simulation simulation;
+};
+
+// The mean of a group's bodies.
+struct Mean {
+    double speed = 0, upright = 1, aligned = 0;
+    glm::dvec3 place{0};
+};
+
+Mean meanOf(const Scene& scene, const Simulation& simulation, size_t group) {
+    const SchoolReference reference(scene, simulation.plan());
+    const auto bodies = reference.bodies(group, simulation.save().groups[group]);
+    Mean out;
+    for (const SchoolBody& body : bodies) {
+        const double share = 1.0 / double(bodies.size());
+        out.place += share * body.place;
+        out.speed += share * glm::dot(body.velocity, body.forward);
+        out.aligned += share * glm::dot(body.velocity, body.forward) / glm::length(body.velocity);
+        out.upright = std::min(out.upright, body.upper.y);
+    }
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("Each steers as all pairs say, among two schools, hunters and walls", "[school]") {
+    if (!canRun()) return;
+    const Scene scene = pond(300);
+    Run run(scene);
+    for (const int frames : {0, 40}) {
+        run.frames(frames);
+        const SavedState before = run.simulation.save();
+        run.frames(1);
+        const SavedState after = run.simulation.save();
+        const SchoolReference reference(scene, run.simulation.plan());
+        for (size_t g = 0; g < scene.groups.size(); ++g) {
+            const std::vector<Steered> expected = reference.steer(g, before, frameTime);
+            double worst[3] = {}, most[3] = {};
+            int others = 0;
+            for (size_t m = 0; m < expected.size(); ++m) {
+                others += expected[m].others;
+                for (size_t k = 0; k < 3; ++k) {
+                    const glm::dvec4 found = after.groups[g].steering[3 * m + k];
+                    worst[k] = std::max(worst[k], glm::length(glm::dvec3(found - expected[m].record[k])));
+                    if (k != 2 || std::abs(found.w - expected[m].record[k].w) < 0.1)  // the clock's round
+                        worst[k] = std::max(worst[k], std::abs(found.w - expected[m].record[k].w));
+                    most[k] = std::max(most[k], glm::length(expected[m].record[k]));
+                }
+            }
+            INFO("group " << g << ", frame " << after.frames << ", others " << others);
+            if (g < 2) CHECK(others > 10 * int(expected.size()));
+            // single precision: sums of some 50 vectors, and angles from a cross product
+            for (size_t k = 0; k < 3; ++k) {
+                INFO("record " << k << ": off by " << worst[k] << " of " << most[k]);
+                CHECK(most[k] > 0.1);
+                CHECK(worst[k] < 1e-3 * most[k]);
+            }
+        }
+    }
+}
+
+TEST_CASE("A school repeats bit for bit, and goes on from a checkpoint and a restart", "[school]") {
+    if (!canRun()) return;
+    const Scene scene = pond(201);
+    Run run(scene), again(scene);
+    const uint64_t start = run.simulation.hash();
+    run.frames(20);
+    again.frames(20);
+    CHECK(run.simulation.hash() != start);
+    CHECK(run.simulation.hash() == again.simulation.hash());
+    const Scratch scratch;
+    writeCheckpoint(scratch.path("s.shoal"), run.simulation.plan(),
+                    {run.simulation.save(), run.simulation.parameters});
+    run.frames(15);
+    Run later(scene);
+    later.simulation.load(readCheckpoint(scratch.path("s.shoal"), later.simulation.plan()).state);
+    later.frames(15);
+    CHECK(later.simulation.hash() == run.simulation.hash());
+    again.simulation.restart();
+    again.frames(35);
+    CHECK(again.simulation.hash() == run.simulation.hash());
+}
+
+TEST_CASE("One lane a vertex steers and swims as one lane a molecule does", "[school]") {
+    if (!canRun()) return;
+    const Scene scene = pond(20);
+    SimulationOptions options;
+    options.lanes = Lanes::molecule;
+    Run lane(scene, options);
+    options.lanes = Lanes::vertex;
+    Run group(scene, options);
+    lane.frames(3);
+    group.frames(3);
+    const Snapshot a = lane.simulation.snapshot(0), b = group.simulation.snapshot(0);
+    double worst = 0;
+    for (size_t i = 0; i < a.positions.size(); ++i)
+        worst = std::max(worst, glm::distance(a.positions[i], b.positions[i]));
+    CHECK(worst < 2e-6);  // m: roundings of a body of 10 cm
+}
+
+TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and all stay upright", "[school]") {
+    if (!canRun()) return;
+    const Scene scene = pond(120);
+    Run run(scene);
+    run.frames(60);
+    const SchoolReference reference(scene, run.simulation.plan());
+    for (int frame = 0; frame < 120; frame += 10) {
+        run.frames(10);
+        const SavedState state = run.simulation.save();
+        for (size_t g = 0; g < 2; ++g) {
+            const School& school = *scene.groups[g].school;
+            for (const SchoolBody& body : reference.bodies(g, state.groups[g])) {
+                const double speed = glm::dot(body.velocity, body.forward);
+                CHECK(speed < 1.1 * school.fastest);
+                // what the body's wave adds to its turn is at most that of its head's swing
+                CHECK(glm::length(body.spin) < school.turn + 8);
+                CHECK(body.upper.y > 0.3);
+            }
+            for (const glm::vec4& one : state.groups[g].steering)
+                CHECK((std::isfinite(one.x + one.y + one.z + one.w)));
+        }
+    }
+    CHECK(meanOf(scene, run.simulation, 0).aligned > 0.9);
+}
+
+TEST_CASE("All in the same place part without NaN", "[school]") {
+    if (!canRun()) return;
+    Scene scene = water();
+    scene.groups = {fish("fry", 70, {0, 0, 0})};
+    Run run(scene);
+    run.frames(1);
+    for (const glm::vec4& one : run.simulation.save().groups[0].steering)
+        CHECK((std::isfinite(one.x + one.y + one.z + one.w)));
+    run.frames(120);
+    const Snapshot now = run.simulation.snapshot(0);
+    glm::dvec3 low(1e9), high(-1e9);
+    for (const glm::dvec3& p : now.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    CHECK(glm::length(high - low) > 0.5);
+}
+
+TEST_CASE("A hunter scatters those that it finds", "[school]") {
+    if (!canRun()) return;
+    const auto distance = [](bool flees) {
+        Scene scene = water();
+        scene.groups = {fish("fry", 150, {0.4, 0.2, 0.4}), fish("hunter", 1, {0, 0, 0})};
+        if (flees) scene.groups[0].school->flees = {{"hunter", 1, 8, {}}};
+        Run run(scene);
+        run.frames(60);
+        const SchoolReference reference(scene, run.simulation.plan());
+        const SavedState state = run.simulation.save();
+        const glm::dvec3 hunter = reference.bodies(1, state.groups[1])[0].place;
+        double sum = 0;
+        for (const SchoolBody& body : reference.bodies(0, state.groups[0]))
+            sum += glm::distance(body.place, hunter) / 150;
+        return sum;
+    };
+    const double fled = distance(true), stayed = distance(false);
+    INFO("mean distance " << fled << " m, where none flees " << stayed << " m");
+    CHECK(fled > stayed + 0.15);
+}
+
+TEST_CASE("One fish swims at its cruise, and turns by bending alone", "[school]") {
+    if (!canRun()) return;
+    Scene scene = water();
+    scene.groups = {fish("fry", 1, {0, 0, 0})};
+    scene.groups[0].place.turn = Placement::Turn::none;
+    School& school = *scene.groups[0].school;
+    school.wander = 0;
+    Run straight(scene);
+    straight.frames(180);
+    const Mean swum = meanOf(scene, straight.simulation, 0);
+    CHECK(swum.speed == Approx(school.cruise).epsilon(0.15));
+    CHECK(swum.place.z > 0.8);  // along +Z
+    CHECK(std::abs(swum.place.x) < 0.1);
+    CHECK(swum.upright > 0.98);
+    // to the left of it there is a home
+    school.home = SchoolHome{{}, {3, 2, 0}, 0.1, 3};
+    Run left(scene);
+    left.frames(60);
+    CHECK(meanOf(scene, left.simulation, 0).place.x > 0.1);
+}
+
+TEST_CASE("Other numbers take effect at once, and others' names do not", "[school]") {
+    if (!canRun()) return;
+    const Scene scene = pond(50);
+    Run run(scene);
+    run.frames(30);
+    School school = *scene.groups[1].school;
+    school.cruise = school.fastest = school.slowest = 0.2;
+    CHECK(run.simulation.changeSchool(1, school));
+    school.flees[0].group = "fry";
+    CHECK_FALSE(run.simulation.changeSchool(1, school));
+    run.frames(60);
+    CHECK(meanOf(scene, run.simulation, 1).speed < 0.3);
+    CHECK(meanOf(scene, run.simulation, 0).speed > 0.3);
+}
+
+TEST_CASE("The ping-pong path says that it has no schools", "[school]") {
+    const Scene scene = pond(5);
+    SimulationOptions options;
+    options.path = Path::pingPong;
+    CHECK_THAT(
+        messageOf([&] { Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), options); }),
+        Contains("schooling needs the fused path"));
+}
