@@ -495,6 +495,37 @@ TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
     validator.check();
 }
 
+TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Scene scene;
+    Group group;
+    group.name = "pairs";
+    group.molecule = test::pair(1, 2, 100, 0);
+    group.count = 3;
+    group.school = School{};
+    scene.groups = {group};
+    const Plan plan = compile(scene);
+    Validator validator;
+    validator.generated["generated/body.glsl"] = plan.school.bodies.at(0).text;
+    std::vector<glm::vec4> samples;
+    validator.generated["generated/colliders.glsl"] = generateColliders(everyCollider(), samples).source;
+    validator.add("school/keys.comp", {}, gpu::header430());
+    validator.add("school/order.comp", {}, gpu::header430());
+    for (const Defines& set : {Defines{}, Defines{"LIFE"}, Defines{"LIFE", "LIFE_APART"}}) {
+        Defines sizes = {"BLOCK 16", "POSITION_ELEMENTS 2", "STATE_ELEMENTS 4"};
+        sizes.insert(sizes.end(), set.begin(), set.end());
+        validator.add("school/body.comp", sizes, gpu::header430());
+    }
+    for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2", "BODY"},
+                               Defines{"TARGETS 1", "BODY", "WALLS", "SAMPLES_IN_BUFFER"}}) {
+        Defines all = {"CLOCK_PERIOD float(0.25)"};
+        all.insert(all.end(), set.begin(), set.end());
+        validator.add("school/steer.comp", all, gpu::header430());
+    }
+    CHECK(validator.count() == 8);
+    validator.check();
+}
+
 TEST_CASE("a mistake in a shader is found, and located in its own file", "[shaders]") {
     if (!hasValidator()) return;
     const test::Scratch scratch;
