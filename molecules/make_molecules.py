@@ -274,7 +274,7 @@ def snow():
 
 def kelp():
     """A blade of 80 cm in seven rows of three, folded along its middle so that it stands; the lowest row is pinned."""
-    rows, length, width, fold = 7, 0.8, 0.05, 0.022
+    rows, length, width, fold = 7, 0.8, 0.08, 0.03
     vertices, triangles, pairs = [], [], []
     for row in range(rows):
         t = row / (rows - 1)

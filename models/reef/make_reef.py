@@ -19,8 +19,8 @@ from obj_writer import ObjWriter  # noqa: E402
 from vectors import add, cross, dot, mix, noise, normalize, perpendicular, scale, smoothstep, sub  # noqa: E402
 
 # middle, radii, seed, sides and rings
-ROCKS = [((3.7, 0.7, -2.4), (1.45, 2.7, 1.4), 3, (58, 38)), ((5.9, 0.5, -4.6), (2.3, 4.2, 2.0), 5, (56, 36)),
-         ((-3.9, 0.1, -1.3), (1.6, 1.35, 1.35), 8, (46, 28)), ((-6.3, 0.4, -4.4), (2.2, 2.7, 2.0), 13, (46, 28)),
+ROCKS = [((3.7, 0.7, -2.4), (1.45, 2.7, 1.4), 4, (58, 38)), ((5.9, 0.5, -4.6), (2.3, 4.2, 2.0), 5, (56, 36)),
+         ((-3.9, 0.1, -1.3), (1.6, 1.35, 1.35), 8, (46, 28)), ((-6.3, 0.4, -4.4), (2.2, 2.7, 2.0), 16, (46, 28)),
          ((1.6, -0.15, -3.4), (1.5, 0.95, 1.2), 21, (44, 24)), ((-2.5, -0.05, 3.0), (0.95, 0.62, 0.75), 34, (36, 22)),
          ((2.75, -0.08, 2.6), (0.85, 0.5, 0.7), 55, (36, 20))]
 ARCH = [(-5.0, -0.5, -2.9), (-4.7, 1.3, -3.0), (-3.7, 2.75, -3.2), (-2.3, 3.1, -3.5), (-1.1, 2.2, -3.6), (-0.7, 0.7, -3.5),
@@ -35,9 +35,9 @@ SAND_LIGHT, SAND_DARK = (0.74, 0.68, 0.55), (0.60, 0.54, 0.43)
 
 def rugged(p, seed):
     """Pushes of a rock's surface, as shares of its radius: shoulders, ledges and pits."""
-    wide = 0.30 * noise(scale(p, 1.3), seed)
-    ledges = 0.16 * (1 - 2 * abs(noise((p[0] * 2.4, p[1] * 3.6, p[2] * 2.4), seed + 1)))
-    pits = -0.10 * smoothstep(0.25, 0.7, noise(scale(p, 5), seed + 2))
+    wide = 0.28 * noise(scale(p, 1.3), seed)
+    ledges = 0.12 * (1 - 2 * abs(noise((p[0] * 2.4, p[1] * 3.6, p[2] * 2.4), seed + 1)))
+    pits = -0.06 * smoothstep(0.25, 0.7, noise(scale(p, 5), seed + 2))
     return wide + ledges + pits + 0.045 * noise(scale(p, 9), seed + 3)
 
 
@@ -46,7 +46,8 @@ class Boulder:
         self.middle, self.radii, self.seed, self.grid = middle, radii, seed, grid
 
     def point(self, n):
-        return add(self.middle, tuple(c * r * (1 + rugged(n, self.seed)) for c, r in zip(n, self.radii)))
+        x, y, z = add(self.middle, tuple(c * r * (1 + rugged(n, self.seed)) for c, r in zip(n, self.radii)))
+        return x, max(y, -0.9 + 0.5 * (y + 0.9)), z  # flat below the sand
 
     def mesh(self):
         sides, rings = self.grid
