@@ -314,7 +314,7 @@ def sand_height(x, z):
     dunes = 0.16 * noise((0.33 * x, 0.5, 0.33 * z), 71) + 0.05 * noise((0.9 * x, 0.5, 0.9 * z), 72)
     bend = 1.1 * noise((0.5 * x, 0.5, 0.5 * z), 73)
     near = smoothstep(7.5, 3.0, math.hypot(x, z - 2.0))
-    ripples = 0.024 * near * math.sin(15.5 * (z + 0.35 * x) + 3.0 * bend)
+    ripples = 0.016 * near * math.sin(15.5 * (z + 0.35 * x) + 3.0 * bend)
     return dunes - 0.06 + ripples
 
 
