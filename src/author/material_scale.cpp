@@ -27,10 +27,7 @@ const ScaledMaterial& scaledMaterial(const std::string& name) {
         if (name == material.name) return material;
         names.emplace_back(material.name);
     }
-    std::string list;
-    for (const std::string& one : names)
-        list += (list.empty() ? "" : ", ") + one;
-    throw Error(concat("unknown material \"", name, "\"", suggestion(name, names), "; the scale has ", list));
+    throw Error(concat("unknown material \"", name, "\"", suggestion(name, names)));
 }
 
 double lowestFrequency(double modulus, double density, double length, double gyration) {

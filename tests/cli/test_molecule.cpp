@@ -102,7 +102,7 @@ TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
     refuses({open, "--size", "0"}, "expected a size above 0");
     refuses({open, "--size", "nan"}, "expected a size above 0");
     refuses({open, "--mass", "heavy"}, "expected a number");
-    refuses({open, "--material", "lief"}, "did you mean \"leaf\"");
+    refuses({open, "--material", "leef"}, "did you mean \"leaf\"");
     refuses({open, "--pin", "y=1"}, "--pin: expected a rule such as y<0.1");
     refuses({open, "--pin-name", "cup"}, "no object, mesh or material \"cup\"; it has tray");
     refuses({open, "--pin-paint", "rde"}, "--pin-paint: expected a colour");
