@@ -55,7 +55,8 @@ TEST_CASE("molecule from-mesh: the shipped minnow is what its command makes", "[
     CHECK(writeJson(member(fresh, "vertices")) == writeJson(member(shipped, "vertices")));
     CHECK(writeJson(member(fresh, "springs")) == writeJson(member(shipped, "springs")));
     // weights are least squares: to rounding
-    const JsonValue &a = member(member(fresh, "skin"), "weights"), &b = member(member(shipped, "skin"), "weights");
+    const JsonValue &a = member(member(fresh, "skin"), "weights"),
+                    &b = member(member(shipped, "skin"), "weights");
     REQUIRE(a.items.size() == b.items.size());
     REQUIRE(a.items[7].items.size() == b.items[7].items.size());
     for (size_t i = 0; i < a.items[7].items.size(); ++i)
