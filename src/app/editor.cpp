@@ -550,8 +550,6 @@ class EditorWindow {
             return;
         case EditorAction::measure:
             return measure();
-        case EditorAction::reload:
-            return reload();
         case EditorAction::none:
             return;
         default:

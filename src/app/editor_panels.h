@@ -48,7 +48,7 @@ struct Editor {
     }
 };
 
-enum class EditorAction { none, save, undo, redo, play, step, back, rewind, measure, reload, frameView };
+enum class EditorAction { none, save, undo, redo, play, step, back, rewind, measure };
 
 struct PanelArea {
     float left = 0, right = 0, bottom = 0;  // in the interface's units: what the panels take

@@ -148,7 +148,6 @@ void EditorStage::rebuild(Plan plan, bool goOn) {
     options.cache = cache_;
     auto made = std::make_unique<Simulation>(*context_, shaderRoot(), plan, options);
     simulation_ = std::move(made);
-    ++rebuilds_;
     if (!saved) {
         played_.clear();
         frame_ = 0;
@@ -239,16 +238,6 @@ void EditorStage::rest() {
 
 void EditorStage::takePositions() {
     positions_ = simulation_->snapshot(0).positions;
-}
-
-std::vector<double> EditorStage::strains() const {
-    const Molecule& molecule = scene_.groups[0].molecule;
-    std::vector<double> out;
-    for (const Spring& spring : molecule.springs) {
-        const double rest = molecule.restLength(spring);
-        out.push_back(glm::distance(positions_[size_t(spring.a)], positions_[size_t(spring.b)]) / rest - 1);
-    }
-    return out;
 }
 
 void EditorStage::draw(const View& view, int width, int height) {

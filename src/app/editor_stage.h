@@ -61,13 +61,9 @@ class EditorStage {
     Image picture(const View& view, int width, int height);
     // Of the vertices, as they are drawn.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
-    // Of each spring: (length - rest length) / rest length, without muscles.
-    std::vector<double> strains() const;
 
     SolverKind solver() const { return simulation_->plan().groups[0].solver; }
     const std::string& solverWhy() const { return simulation_->plan().groups[0].solverWhy; }
-    double floor() const { return floor_; }
-    int rebuilds() const { return rebuilds_; }  // of the program so far
 
   private:
     Scene sceneOf(const Molecule& molecule, const StageSettings& settings) const;
@@ -83,7 +79,7 @@ class EditorStage {
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Renderer> renderer_;
     std::vector<SavedState> played_;
-    int frame_ = 0, rebuilds_ = 0;
+    int frame_ = 0;
     double floor_ = 0;  // m
     std::vector<glm::dvec3> positions_;
     bool wobbling_ = false;

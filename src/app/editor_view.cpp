@@ -58,10 +58,6 @@ glm::dvec3 Projector::onPlane(ImVec2 place, const glm::dvec3& point) const {
            up_ * ((place.y - size_.y / 2) * scale);
 }
 
-double Projector::metersPerUnit(const glm::dvec3& point) const {
-    return std::max(depth(point), 1e-6) * tangent_ / (size_.y / 2);
-}
-
 ImU32 strainColor(double share, float opacity) {
     const float t = float(std::clamp(share, -1.0, 1.0));
     const float s = std::abs(t);

@@ -22,9 +22,6 @@ class Projector {
     double depth(const glm::dvec3& point) const;                 // m, from the eye
     // Where the ray through a place meets the plane through `point` that faces the eye.
     glm::dvec3 onPlane(ImVec2 place, const glm::dvec3& point) const;
-    double metersPerUnit(const glm::dvec3& point) const;
-    glm::dvec3 right() const { return right_; }
-    glm::dvec3 up() const { return up_; }
 
   private:
     glm::dvec3 eye_, ahead_, right_, up_;

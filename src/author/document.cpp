@@ -158,19 +158,6 @@ void Document::save() {
     closeInOrder();
 }
 
-void Document::saveAs(const std::string& file) {
-    if (std::filesystem::exists(file))
-        throw Error(Location{file, 0, 0, {}}, "exists already: choose another name");
-    const std::string edited = withEdits(text_, now_.draft);
-    writeFile(file, edited);
-    closeInOrder();
-    file_ = file;
-    text_ = edited;
-    restart(parseMolecule(text_, file_));
-    written_ = timeOf(file_);
-    changed();
-}
-
 void Document::reload() {
     const std::string text = readFile(file_);
     Molecule molecule = parseMolecule(text, file_);

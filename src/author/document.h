@@ -38,7 +38,6 @@ class Document {
     bool unsaved() const { return unsaved_; }
     // Into its file's own text. Error: writeFile's, withEdits'; nothing is lost then.
     void save();
-    void saveAs(const std::string& file);  // and goes on there. Error: as save; the file exists
     // Takes the file as it is now; one step of undo. Error: readMolecule's; nothing changes then.
     void reload();
     // The file was written by someone else since it was read or saved.

@@ -1,0 +1,248 @@
+// What an editor does to a molecule, its mirror image, undo, and what is kept of what is not saved.
+#include "author/edit.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "author/document.h"
+#include "core/file.h"
+#include "molecule/analysis.h"
+#include "molecule/molecule_file.h"
+#include "support/catch.h"
+#include "support/scratch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// Two vertices to either side of x = 0 and two on it; 4 faces in front.
+constexpr const char* kite = R"({
+  "format": "shoal-molecule-1", "comment": "kept",
+  "defaults": {"mass": 1, "stiffness": 10},
+  "vertices": [{"position": [0, 0, 0]}, {"position": [1, 1, 0]}, {"position": [0, 3, 0]},
+               {"position": [-1, 1, 0]}, {"position": [0, 1, 1]}],
+  "springs": [{"a": 0, "b": 1}, {"a": 0, "b": 3}, {"a": 2, "b": 1}, {"a": 2, "b": 3}],
+  "triangles": [[0, 1, 4], [0, 4, 3]]
+}
+)";
+
+Draft opened() {
+    return Draft(parseMolecule(kite, "kite.json"));
+}
+
+const glm::dvec3& at(const Draft& draft, int vertex) {
+    return draft.molecule.vertices[size_t(vertex)].position;
+}
+
+// Where the documents of a test keep what is not saved.
+struct State {
+    Scratch scratch;
+    State() { ::setenv("XDG_STATE_HOME", scratch.path("state").c_str(), 1); }
+    ~State() { ::unsetenv("XDG_STATE_HOME"); }
+    size_t kept() const {
+        size_t count = 0;
+        std::error_code code;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(scratch.path("state"), code))
+            count += entry.is_regular_file();
+        return count;
+    }
+};
+
+void move(Document& document, double x, int gesture = 0) {
+    document.edit(
+        "move", [x](Draft& draft) { draft.molecule.vertices[1].position.x = x; }, gesture);
+}
+
+double placeOf(const Document& document) {
+    return document.molecule().vertices[1].position.x;
+}
+
+}  // namespace
+
+TEST_CASE("what is moved moves its image, and stays on the plane of symmetry", "[edit]") {
+    Draft draft = opened();
+    const Draft before = draft;
+    moveVertices(draft, before, {1, 2}, {0.5, 0.25, 0.125}, 0);
+    CHECK(at(draft, 1) == glm::dvec3(1.5, 1.25, 0.125));
+    CHECK(at(draft, 3) == glm::dvec3(-1.5, 1.25, 0.125));
+    CHECK(at(draft, 2) == glm::dvec3(0, 3.25, 0.125));
+    CHECK(at(draft, 0) == glm::dvec3(0));
+    // from where it was, not from where it is
+    moveVertices(draft, before, {1, 2}, {0.1, 0, 0}, 0);
+    CHECK(at(draft, 1).x == Approx(1.1));
+    CHECK(at(draft, 3).x == Approx(-1.1));
+    // without symmetry, and both sides at once
+    draft = opened();
+    moveVertices(draft, opened(), {1}, {1, 0, 0}, -1);
+    CHECK(at(draft, 3) == glm::dvec3(-1, 1, 0));
+    draft = opened();
+    moveVertices(draft, opened(), {1, 3}, {0, 1, 0}, 0);
+    CHECK(at(draft, 3) == glm::dvec3(-1, 2, 0));
+}
+
+TEST_CASE("what is added and removed is so on both sides", "[edit]") {
+    Draft draft = opened();
+    const int one = addVertexAt(draft, {2, 0, 0}, 0);
+    REQUIRE(draft.molecule.vertices.size() == 7);
+    CHECK(at(draft, one + 1) == glm::dvec3(-2, 0, 0));
+    addVertexAt(draft, {1e-5, 0, 2}, 0);  // on the plane, as near as makes no difference
+    REQUIRE(draft.molecule.vertices.size() == 8);
+    CHECK(at(draft, 7).x == 0);
+
+    connect(draft, one, 1, 0);
+    CHECK(springBetween(draft.molecule, one + 1, 3) >= 0);
+    const int face = addFace(draft, one, 1, 0, 0);
+    REQUIRE(face >= 0);
+    // a mirror turns round
+    const Triangle& image = draft.molecule.triangles[size_t(face) + 1];
+    CHECK(glm::ivec3(image.a, image.b, image.c) == glm::ivec3(one + 1, 0, 3));
+
+    Selected selected;
+    selected.vertices = {one};
+    selected.springs = {springBetween(draft.molecule, 0, 1)};
+    removeSelected(draft, selected, 0);
+    CHECK(draft.molecule.vertices.size() == 6);
+    CHECK(springBetween(draft.molecule, 0, 1) == -1);
+    CHECK(springBetween(draft.molecule, 0, 3) == -1);
+    CHECK(springBetween(draft.molecule, 2, 3) >= 0);
+    CHECK(draft.molecule.triangles.size() == 2);
+    CHECK(selectedSprings(draft.molecule, {{1, 2}, {}, {}}).size() == 1);
+}
+
+TEST_CASE("soft shapes are braced", "[edit]") {
+    Draft draft = opened();
+    for (const int v : {0, 1, 2, 3})
+        addSpring(draft, v, 4);
+    REQUIRE(analyse(draft.molecule, false).zeroModes > 0);
+    CHECK(braceSoftModes(draft) > 0);
+    CHECK(analyse(draft.molecule, false).zeroModes == 0);
+    CHECK(braceSoftModes(draft) == 0);
+}
+
+TEST_CASE("undo takes back a gesture as a whole, redo gives it again", "[edit]") {
+    const State state;
+    Document document(state.scratch.write("kite.json", kite));
+    CHECK_FALSE(document.undo());
+    const int gesture = document.newGesture();
+    move(document, 2, gesture);
+    move(document, 3, gesture);
+    move(document, 4);
+    CHECK(document.unsaved());
+    CHECK(document.undo());
+    CHECK(placeOf(document) == 3);
+    CHECK(document.undo());
+    CHECK(placeOf(document) == 1);
+    CHECK_FALSE(document.unsaved());
+    CHECK_FALSE(document.undo());
+    CHECK(document.redoLabel() == "move");
+    CHECK(document.redo());
+    CHECK(placeOf(document) == 3);
+    move(document, 5);  // what was taken back is gone
+    CHECK_FALSE(document.redo());
+    CHECK(document.undo());
+    CHECK(placeOf(document) == 3);
+}
+
+TEST_CASE("a document is saved, goes back and is saved again, byte for byte", "[edit]") {
+    const State state;
+    const std::string file = state.scratch.write("kite.json", kite);
+    Document document(file);
+    move(document, 1.5);
+    document.edit("remove", [](Draft& draft) { removeVertices(draft, {4}); });
+    document.save();
+    CHECK_FALSE(document.unsaved());
+    CHECK(readMolecule(file).vertices.size() == 4);
+    document.undo();
+    document.undo();
+    CHECK(document.unsaved());
+    document.save();
+    const Molecule back = readMolecule(file);
+    CHECK(back.vertices.size() == 5);
+    CHECK(back.triangles.size() == 2);
+    CHECK(readFile(file).find("kept") != std::string::npos);
+    // a move alone comes back to the byte
+    const std::string now = readFile(file);
+    move(document, 7);
+    document.save();
+    document.undo();
+    document.save();
+    CHECK(readFile(file) == now);
+}
+
+TEST_CASE("what cannot be saved loses nothing", "[edit]") {
+    const State state;
+    const std::string file = state.scratch.write("kite.json", kite);
+    Document document(file);
+    document.edit("wrong", [](Draft& draft) { draft.molecule.vertices[1].position = glm::dvec3(0); });
+    CHECK_FALSE(document.problem().empty());
+    CHECK_THROWS_AS(document.save(), Error);
+    CHECK(readFile(file) == kite);
+    document.undo();
+    CHECK(document.problem().empty());
+    // nor what another program wrote meanwhile
+    move(document, 2);
+    state.scratch.write("kite.json", std::string(kite) + "\n");
+    CHECK_THROWS_AS(document.save(), Error);
+    CHECK(readFile(file) == std::string(kite) + "\n");
+    CHECK(document.unsaved());
+}
+
+TEST_CASE("what is not saved is kept until it is", "[edit]") {
+    const State state;
+    const std::string file = state.scratch.write("kite.json", kite);
+    {
+        Document crashes(file);
+        CHECK_FALSE(crashes.keep());
+        CHECK(state.kept() == 0);
+        move(crashes, 2);
+        CHECK_FALSE(crashes.keep());
+        CHECK(state.kept() == 1);
+    }
+    {
+        Document next(file);
+        REQUIRE(next.recovered());
+        CHECK(placeOf(next) == 1);
+        next.closeInOrder();  // without an answer: it stays
+        CHECK(state.kept() == 1);
+        next.takeRecovered();
+        CHECK(placeOf(next) == 2);
+        CHECK(next.unsaved());
+        next.save();
+        CHECK(state.kept() == 0);
+        CHECK(readFile(file).find("kept") != std::string::npos);
+    }
+    {
+        Document third(file);
+        CHECK_FALSE(third.recovered());
+        move(third, 9);
+        third.keep();
+    }
+    // damaged, it is nothing
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(state.scratch.path("state")))
+        if (entry.is_regular_file()) writeFile(entry.path(), std::string_view("{"));
+    Document fourth(file);
+    CHECK_FALSE(fourth.recovered());
+}
+
+TEST_CASE("a file that another program changed is taken as one step", "[edit]") {
+    const State state;
+    const std::string file = state.scratch.write("kite.json", kite);
+    Document document(file);
+    CHECK_FALSE(document.changedOnDisk());
+    std::string other = kite;
+    other.replace(other.find("[1, 1, 0]"), 9, "[8, 1, 0]");
+    state.scratch.write("kite.json", other);
+    std::filesystem::last_write_time(file,
+                                     std::filesystem::file_time_type::clock::now() + std::chrono::seconds(2));
+    CHECK(document.changedOnDisk());
+    document.reload();
+    CHECK_FALSE(document.changedOnDisk());
+    CHECK(placeOf(document) == 8);
+    CHECK_FALSE(document.unsaved());
+    CHECK(document.undo());
+    CHECK(placeOf(document) == 1);
+    state.scratch.write("kite.json", "{");
+    CHECK_THROWS_AS(document.reload(), Error);
+    CHECK(placeOf(document) == 1);
+}
