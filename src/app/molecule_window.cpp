@@ -45,8 +45,10 @@ MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& gro
         else
             ImGui::Text("%.2f of %.2f s", numbers.life->x, numbers.life->y);
     }
-    row("energy");
-    ImGui::Text("%.3g J, springs %.3g J", numbers.kinetic, numbers.elastic);
+    row("kinetic");
+    ImGui::Text("%.3g J", numbers.kinetic);
+    row("in springs");
+    ImGui::Text("%.3g J", numbers.elastic);
     if (numbers.strained >= 0) {
         const Spring& spring = shape.springs[size_t(numbers.strained)];
         row("strain");
