@@ -205,7 +205,7 @@ def swimmer(name, comment, length, frequency, stiffness, damping, colors, metall
                           [(before, here[k], here[(k + 1) % 4]), (before, here[(k + 1) % 4], after)])
     pairs += [(tip, here) for tip in tips for here in last] + [tips]
     pairs += [(tip, here) for tip in tips for here in (ring(2)[0], ring(2)[2])]
-    triangles += [(last[1], tips[0], last[3]), (last[3], last[1], tips[1])]  # a forked sheet: its normals look aside
+    triangles += [(last[1], tips[0], last[3]), (last[1], last[3], tips[1])]  # a forked sheet: its normals look aside
 
     def curvature(z):
         """Amplitude, and phase in rad, of the wave's curvature: its second derivative."""

@@ -155,7 +155,9 @@ vec3 meetTargets(vec3 place)
 
 void main()
 {
-    int slot = grids[0].x + min(int(gl_GlobalInvocationID.x), grids[0].y - 1);
+    // what it writes it has read before: no two lanes may be of the same one
+    if (int(gl_GlobalInvocationID.x) >= grids[0].y) return;
+    int slot = grids[0].x + int(gl_GlobalInvocationID.x);
     int body = int(texelFetch(sorted, slot).y);
     vec4 place = texelFetch(bodies, 5 * body);
     vec3 velocity = texelFetch(bodies, 5 * body + 1).xyz;

@@ -22,7 +22,7 @@ namespace {
 constexpr double frameTime = 1.0 / 60;
 
 bool canRun() {
-    if (testContext().info().computeShaders && testPath() == Path::fused) return true;
+    if (testContext().info().computeShaders && testPath() != Path::pingPong) return true;
     WARN("skipped: schools need the fused path");
     return false;
 }
@@ -131,7 +131,7 @@ TEST_CASE("Each steers as all pairs say, among two schools, hunters and walls", 
                 }
             }
             INFO("group " << g << ", frame " << after.frames << ", others " << others);
-            if (g < 2) CHECK(others > 10 * int(expected.size()));
+            if (g < 2) CHECK(others > 3 * int(expected.size()));
             // single precision: sums of some 50 vectors, and angles from a cross product
             for (size_t k = 0; k < 3; ++k) {
                 INFO("record " << k << ": off by " << worst[k] << " of " << most[k]);
