@@ -39,8 +39,9 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     out.forces = reference::forcesOn(scene, group);
     out.colliders = collidersOf(scene, group);
     if (group.school)
-        throw Error(group.school->location,
-                    "\"measure\" has no reference of molecules that steer by one another: leave out the school");
+        throw Error(
+            group.school->location,
+            "\"measure\" has no reference of molecules that steer by one another: leave out the school");
     if (group.life)
         throw Error(group.life->location,
                     "the reference knows no births and deaths: nothing to measure against");

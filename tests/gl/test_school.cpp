@@ -189,22 +189,34 @@ TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and al
     Run run(scene);
     run.frames(60);
     const SchoolReference reference(scene, run.simulation.plan());
+    // What runs into the rock is knocked over for a moment, and turns faster than it would by itself.
+    int all = 0, tilted = 0, knocked = 0;
+    std::vector<std::vector<bool>> wereOver(2);
     for (int frame = 0; frame < 120; frame += 10) {
         run.frames(10);
         const SavedState state = run.simulation.save();
         for (size_t g = 0; g < 2; ++g) {
             const School& school = *scene.groups[g].school;
-            for (const SchoolBody& body : reference.bodies(g, state.groups[g])) {
-                const double speed = glm::dot(body.velocity, body.forward);
-                CHECK(speed < 1.1 * school.fastest);
+            const std::vector<SchoolBody> bodies = reference.bodies(g, state.groups[g]);
+            wereOver[g].resize(bodies.size());
+            for (size_t m = 0; m < bodies.size(); ++m) {
+                const SchoolBody& body = bodies[m];
+                CHECK(glm::dot(body.velocity, body.forward) < 1.1 * school.fastest);
+                ++all;
+                tilted += body.upper.y < 0.5;
                 // what the body's wave adds to its turn is at most that of its head's swing
-                CHECK(glm::length(body.spin) < school.turn + 24);
-                CHECK(body.upper.y > 0.2);
+                knocked += glm::length(body.spin) > school.turn + 8;
+                const bool over = body.upper.y < 0;
+                CHECK_FALSE((over && wereOver[g][m]));  // ten frames later it stands again
+                wereOver[g][m] = over;
             }
             for (const glm::vec4& one : state.groups[g].steering)
                 CHECK((std::isfinite(one.x + one.y + one.z + one.w)));
         }
     }
+    INFO(tilted << " tilted and " << knocked << " knocked of " << all);
+    CHECK(tilted < 0.02 * all);
+    CHECK(knocked < 0.01 * all);
     CHECK(meanOf(scene, run.simulation, 0).aligned > 0.9);
 }
 
