@@ -56,7 +56,7 @@ TEST_CASE("the scene that the bad ones are made from runs", "[cli]") {
 TEST_CASE("no scene at all", "[cli]") {
     const Scratch scratch;
     refusedRun(scratch, scratch.path("none.scene.json"), "none.scene.json: no such file");
-    refusedRun(scratch, scratch.path(""), "is a folder, expected a file");
+    refusedRun(scratch, scratch.path(""), "expected a scene file, found a folder");
     refusedRun(scratch, scratch.write("text.scene.json", "scene of leaves\n"), "text.scene.json:1:1: ");
     refusedRun(scratch, scratch.write("cut.scene.json", "{\"format\": \"shoal-scene-1\",\n"),
                "cut.scene.json:2:1: ");
