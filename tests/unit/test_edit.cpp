@@ -21,7 +21,7 @@ constexpr const char* kite = R"({
   "format": "shoal-molecule-1", "comment": "kept",
   "defaults": {"mass": 1, "stiffness": 10},
   "vertices": [{"position": [0, 0, 0]}, {"position": [1, 1, 0]}, {"position": [0, 3, 0]},
-               {"position": [-1, 1, 0]}, {"position": [0, 1, 1]}],
+               {"position": [-1, 1, 0], "comment": "wing"}, {"position": [0, 1, 1]}],
   "springs": [{"a": 0, "b": 1}, {"a": 0, "b": 3}, {"a": 2, "b": 1}, {"a": 2, "b": 3}],
   "triangles": [[0, 1, 4], [0, 4, 3]]
 }
@@ -110,6 +110,19 @@ TEST_CASE("what is added and removed is so on both sides", "[edit]") {
     CHECK(selectedSprings(draft.molecule, {{1, 2}, {}, {}}).size() == 1);
 }
 
+TEST_CASE("a skin stays where it was when a vertex that it hung on is removed", "[edit]") {
+    Draft draft(readMolecule(SHOAL_SOURCE_DIR "/molecules/minnow.json"));
+    const std::vector<SkinVertex> before = draft.molecule.skin.vertices;
+    REQUIRE_FALSE(before.empty());
+    removeVertices(draft, {9});
+    REQUIRE(problemOf(draft.molecule).empty());
+    placeSkin(draft.molecule);
+    double worst = 0;
+    for (size_t i = 0; i < before.size(); ++i)
+        worst = std::max(worst, glm::distance(before[i].position, draft.molecule.skin.vertices[i].position));
+    CHECK(worst < 1e-5 * draft.molecule.size());
+}
+
 TEST_CASE("soft shapes are braced", "[edit]") {
     Draft draft = opened();
     for (const int v : {0, 1, 2, 3})
@@ -140,6 +153,13 @@ TEST_CASE("undo takes back a gesture as a whole, redo gives it again", "[edit]")
     CHECK(placeOf(document) == 3);
     move(document, 5);  // what was taken back is gone
     CHECK_FALSE(document.redo());
+    CHECK(document.undo());
+    CHECK(placeOf(document) == 3);
+    // what goes on after that is a step of its own
+    const int other = document.newGesture();
+    move(document, 6, other);
+    document.undo();
+    move(document, 7, other);
     CHECK(document.undo());
     CHECK(placeOf(document) == 3);
 }
@@ -210,7 +230,7 @@ TEST_CASE("what is not saved is kept until it is", "[edit]") {
         CHECK(next.unsaved());
         next.save();
         CHECK(state.kept() == 0);
-        CHECK(readFile(file).find("kept") != std::string::npos);
+        CHECK(readFile(file).find("\"wing\"") != std::string::npos);
     }
     {
         Document third(file);

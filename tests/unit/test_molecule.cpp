@@ -73,6 +73,8 @@ TEST_CASE("what has no meaning is refused with its place", "[molecule]") {
     CHECK(mentions(refusal("{}"), "missing key \"format\""));
     CHECK(mentions(refusal("[]"), "expected an object, found an array"));
     CHECK(mentions(refusal(R"({"format": "shoal-molecule-2"})"), "expected the format \"shoal-molecule-1\""));
+    CHECK(mentions(refusal(R"({"format": "shoal-molecule-2"})"), "newer version"));
+    CHECK_FALSE(mentions(refusal(R"({"format": "shoal-scene-1"})"), "newer version"));
     CHECK(mentions(refusal(concat(head, "\"vertices\": []}")), "expected at least one vertex"));
     CHECK(mentions(refusal(concat(head, "\"name\": \"x\"}")), "missing key \"vertices\""));
     CHECK(mentions(refusal(withVertex("{}")), "missing key \"position\" (at $.vertices[0])"));
