@@ -24,6 +24,7 @@
 #include "app/recorder.h"
 #include "app/run.h"
 #include "app/scene_list.h"
+#include "app/screenshot.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
 #include "gpu/gl.h"
@@ -111,7 +112,7 @@ class WindowRun {
 
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot);
+        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         obey();
         return !last;
@@ -510,23 +511,6 @@ class WindowRun {
             open_->forget();
         else
             glfwSetWindowShouldClose(window_, GLFW_TRUE);
-    }
-
-    // The window as the user sees it, panel and all.
-    void saveScreenshot(const std::string& file) {
-        Image image{width_, height_, 4, std::vector<uint8_t>(size_t(width_) * size_t(height_) * 4)};
-        const size_t row = size_t(width_) * 4;
-        glPixelStorei(GL_PACK_ALIGNMENT, 1);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-        std::vector<uint8_t> bottomUp(image.pixels.size());
-        glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
-        for (size_t y = 0; y < size_t(height_); ++y)
-            std::copy_n(bottomUp.begin() + std::ptrdiff_t((size_t(height_) - 1 - y) * row), row,
-                        image.pixels.begin() + std::ptrdiff_t(y * row));
-        for (size_t i = 3; i < image.pixels.size(); i += 4)
-            image.pixels[i] = 255;
-        writePng(file, image);
-        std::cout << "screenshot: " << file << "\n";
     }
 
     const Options& options_;

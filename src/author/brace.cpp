@@ -1,6 +1,6 @@
 // Finding what is soft, and what would hold it.
 //
-// With K the mass-scaled stiffness of molecule/analysis.cpp, soft motions are its eigenvectors of eigenvalues
+// With K the mass-scaled stiffness of molecule/linearised.h, soft motions are its eigenvectors of eigenvalues
 // near zero, less the rigid motions. A spring between a and b with direction n adds k (n . (u_a - u_b))^2 to
 // the energy of a motion u: the pair is taken of which that is largest for its length.
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include <Eigen/Dense>
 
 #include "author/springs.h"
+#include "molecule/linearised.h"
 
 namespace shoal {
 
@@ -17,89 +18,31 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr double soft = 1e-6;      // eigenvalue by the largest
-constexpr double noHelp = 1e-7;    // of a pair to a motion of length 1
-constexpr size_t mostDense = 300;  // vertices, as in molecule/analysis.cpp
-
-Eigen::Vector3d toEigen(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
-
-Eigen::Vector3d along(const Molecule& m, int a, int b) {
-    const glm::dvec3 d = m.vertices[size_t(a)].position - m.vertices[size_t(b)].position;
-    const double length = glm::length(d);
-    return length > 0 ? toEigen(d / length) : Eigen::Vector3d::Zero();
-}
-
-double root(const Molecule& m, int vertex) {
-    return 1 / std::sqrt(m.vertices[size_t(vertex)].mass);
-}
+constexpr double soft = 1e-6;    // eigenvalue by the largest
+constexpr double noHelp = 1e-7;  // of a pair to a motion of length 1
 
 // What a spring of stiffness 1 does to the mass-scaled motion u is the square of this row's product with u.
 VectorXd row(const Molecule& m, int a, int b) {
     VectorXd out = VectorXd::Zero(3 * Eigen::Index(m.vertices.size()));
-    const Eigen::Vector3d n = along(m, a, b);
-    out.segment<3>(3 * a) = root(m, a) * n;
-    out.segment<3>(3 * b) = -root(m, b) * n;
+    const Eigen::Vector3d n = direction(m, a, b);
+    out.segment<3>(3 * a) = inverseRootMass(m, a) * n;
+    out.segment<3>(3 * b) = -inverseRootMass(m, b) * n;
     return out;
-}
-
-MatrixXd stiffness(const Molecule& m) {
-    const Eigen::Index size = 3 * Eigen::Index(m.vertices.size());
-    MatrixXd out = MatrixXd::Zero(size, size);
-    for (const Spring& spring : m.springs) {
-        const Eigen::Vector3d n = along(m, spring.a, spring.b);
-        const double ra = root(m, spring.a), rb = root(m, spring.b);
-        const Eigen::Matrix3d block = spring.stiffness * n * n.transpose();
-        const Eigen::Index a = 3 * spring.a, b = 3 * spring.b;
-        out.block<3, 3>(a, a) += ra * ra * block;
-        out.block<3, 3>(b, b) += rb * rb * block;
-        out.block<3, 3>(a, b) -= ra * rb * block;
-        out.block<3, 3>(b, a) -= ra * rb * block;
-    }
-    return out;
-}
-
-// An orthonormal basis of the columns.
-MatrixXd basis(const MatrixXd& columns, double least) {
-    const Eigen::JacobiSVD<MatrixXd> svd(columns, Eigen::ComputeThinU);
-    Eigen::Index rank = 0;
-    while (rank < svd.singularValues().size() && svd.singularValues()(rank) > least)
-        ++rank;
-    return svd.matrixU().leftCols(rank);
-}
-
-MatrixXd rigidMotions(const Molecule& m) {
-    glm::dvec3 centre(0);
-    for (const Vertex& vertex : m.vertices)
-        centre += vertex.position / double(m.vertices.size());
-    const double size = m.size();
-    MatrixXd out(3 * Eigen::Index(m.vertices.size()), 6);
-    double least = 0;
-    for (size_t i = 0; i < m.vertices.size(); ++i) {
-        const Eigen::Index at = 3 * Eigen::Index(i);
-        const double mass = std::sqrt(m.vertices[i].mass);
-        const Eigen::Vector3d p = toEigen((m.vertices[i].position - centre) / size);
-        out.block<3, 3>(at, 0) = mass * Eigen::Matrix3d::Identity();
-        for (int axis = 0; axis < 3; ++axis)
-            out.block<3, 1>(at, 3 + axis) = mass * Eigen::Vector3d::Unit(axis).cross(p);
-        least = std::max(least, mass);
-    }
-    return basis(out, 1e-9 * least);
 }
 
 // Motions that nothing resists, orthonormal; none is rigid.
 MatrixXd softMotions(const Molecule& m) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness(m));
+    const Freedom all(m, false);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &Spring::stiffness));
     const VectorXd& values = solver.eigenvalues();
     Eigen::Index count = 0;
     while (count < values.size() && values(count) <= soft * values(values.size() - 1))
         ++count;
     if (count == 0) return MatrixXd(values.size(), 0);
-    const MatrixXd rigid = rigidMotions(m);
+    const MatrixXd rigid = rigidMotions(m, all);
     MatrixXd found = solver.eigenvectors().leftCols(count);
     found -= rigid * (rigid.transpose() * found);
-    return basis(found, 0.1);
+    return basisOf(found, 0.1);
 }
 
 // What is left of orthonormal motions when their combination `held` is resisted (a Householder reflection of
@@ -126,8 +69,8 @@ class Finder {
         for (int a = 0; a < count; ++a)
             for (int b = a + 1; b < count; ++b) {
                 if (sprung_.contains({a, b})) continue;
-                const Eigen::Vector3d n = along(m_, a, b);
-                const double ra = root(m_, a), rb = root(m_, b);
+                const Eigen::Vector3d n = direction(m_, a, b);
+                const double ra = inverseRootMass(m_, a), rb = inverseRootMass(m_, b);
                 const double work = n.dot(ra * motion.segment<3>(3 * a) - rb * motion.segment<3>(3 * b));
                 if (std::abs(work) < noHelp * (ra + rb)) continue;
                 const glm::dvec3 &p = m_.vertices[size_t(a)].position, &q = m_.vertices[size_t(b)].position;
@@ -152,7 +95,8 @@ struct Softest {
 };
 
 Softest softest(const Molecule& m) {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(stiffness(m));
+    const Freedom all(m, false);
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(assemble(m, all, &Spring::stiffness));
     const VectorXd& values = solver.eigenvalues();
     const double most = values(values.size() - 1);
     for (Eigen::Index i = 0; i < values.size(); ++i)
