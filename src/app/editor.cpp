@@ -156,7 +156,7 @@ class EditorWindow {
 
     void dropStaleSelection() {
         const Molecule& m = editor_.document.molecule();
-        Selected& s = editor_.overlay.selection;
+        ElementSet& s = editor_.overlay.selection;
         const auto drop = [](std::set<int>& set, size_t count) {
             std::erase_if(set, [count](int i) { return size_t(i) >= count; });
         };
@@ -307,7 +307,7 @@ class EditorWindow {
     bool select() {
         const Overlay& o = editor_.overlay;
         if (!o.hoveredVertex && !o.hoveredSpring && !o.hoveredTriangle) return false;
-        Selected& s = editor_.overlay.selection;
+        ElementSet& s = editor_.overlay.selection;
         const bool adds = ImGui::GetIO().KeyShift;
         const auto take = [&](std::set<int>& set, int index) {
             if (adds && set.contains(index)) return void(set.erase(index));
@@ -355,7 +355,7 @@ class EditorWindow {
         if (chain.size() < needed) return;
         const std::vector<int> c = chain;
         chain.clear();
-        Selected made;
+        ElementSet made;
         if (editor_.tool == Tool::spring && springBetween(editor_.document.molecule(), c[0], c[1]) < 0)
             editor_.document.edit("add spring", [&](Draft& draft) {
                 made.springs.insert(connect(draft, c[0], c[1], editor_.mirrorAxis));
@@ -526,7 +526,7 @@ class EditorWindow {
     }
 
     void remove() {
-        const Selected which = editor_.overlay.selection;
+        const ElementSet which = editor_.overlay.selection;
         if (which.empty() || playing()) return;
         if (which.vertices.size() >= editor_.document.molecule().vertices.size())
             return tell("a molecule needs at least one vertex");

@@ -153,7 +153,7 @@ void drawMuscle(Editor& editor, const std::set<int>& all, const Spring& first) {
 }
 
 void drawSprings(Editor& editor) {
-    const Selected chosen{{}, selectedSprings(editor.document.molecule(), editor.overlay.selection), {}};
+    const ElementSet chosen{{}, selectedSprings(editor.document.molecule(), editor.overlay.selection), {}};
     if (chosen.springs.empty()) return;
     const std::set<int> all = withMirror(editor.document.molecule(), chosen, editor.mirrorAxis).springs;
     ImGui::Spacing();

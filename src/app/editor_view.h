@@ -35,7 +35,7 @@ struct Overlay {
     bool tension = true;                                   // springs by their strain, else in one colour
     double strainShown = 0.05;                             // of full colour
     std::set<int> marked, markedSprings, markedTriangles;  // what advice is about
-    Selected selection;
+    ElementSet selection;
     std::optional<int> hoveredVertex, hoveredSpring, hoveredTriangle;
     std::vector<int> chain;  // of a spring or triangle that is being drawn
     std::optional<ImVec2> chainEnd;

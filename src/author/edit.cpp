@@ -27,8 +27,8 @@ bool onPlane(const Molecule& molecule, const glm::dvec3& position, int axis) {
 
 }  // namespace
 
-Selected withMirror(const Molecule& molecule, const Selected& selected, int axis) {
-    Selected out = selected;
+ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int axis) {
+    ElementSet out = selected;
     if (axis < 0) return out;
     const std::vector<int> image = imagesIn(molecule, axis);
     for (const int v : selected.vertices)
@@ -89,8 +89,8 @@ int addFace(Draft& draft, int a, int b, int c, int axis) {
     return out;
 }
 
-void removeSelected(Draft& draft, const Selected& selected, int axis) {
-    const Selected all = withMirror(draft.molecule, selected, axis);
+void removeSelected(Draft& draft, const ElementSet& selected, int axis) {
+    const ElementSet all = withMirror(draft.molecule, selected, axis);
     removeTriangles(draft, all.triangles);
     removeSprings(draft, all.springs);
     removeVertices(draft, all.vertices);
@@ -108,7 +108,7 @@ int braceSoftModes(Draft& draft) {
     return int(bracing.added.size());
 }
 
-std::set<int> selectedSprings(const Molecule& molecule, const Selected& selected) {
+std::set<int> selectedSprings(const Molecule& molecule, const ElementSet& selected) {
     std::set<int> out = selected.springs;
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];

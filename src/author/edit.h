@@ -9,14 +9,14 @@
 
 namespace shoal {
 
-struct Selected {
+struct ElementSet {
     std::set<int> vertices, springs, triangles;
     bool empty() const { return vertices.empty() && springs.empty() && triangles.empty(); }
-    bool operator==(const Selected&) const = default;
+    bool operator==(const ElementSet&) const = default;
 };
 
 // With the images of what is selected.
-Selected withMirror(const Molecule& molecule, const Selected& selected, int axis);
+ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int axis);
 
 // Those that are selected by `shift`, their images by its mirror image; what lies on the plane stays on it.
 // Positions as they are in `before`, so that one drag does not add up.
@@ -26,7 +26,7 @@ void moveVertices(Draft& draft, const Draft& before, const std::set<int>& vertic
 int addVertexAt(Draft& draft, const glm::dvec3& position, int axis);
 int connect(Draft& draft, int a, int b, int axis);         // the spring; -1: none
 int addFace(Draft& draft, int a, int b, int c, int axis);  // the triangle; -1: none
-void removeSelected(Draft& draft, const Selected& selected, int axis);
+void removeSelected(Draft& draft, const ElementSet& selected, int axis);
 void flipTriangles(Draft& draft, const std::set<int>& triangles);
 
 // Adds springs until nothing but motion of the whole is without stiffness (author/springs.h), as stiff as
@@ -34,6 +34,6 @@ void flipTriangles(Draft& draft, const std::set<int>& triangles);
 int braceSoftModes(Draft& draft);
 
 // Springs whose two ends are selected, or that are selected themselves.
-std::set<int> selectedSprings(const Molecule& molecule, const Selected& selected);
+std::set<int> selectedSprings(const Molecule& molecule, const ElementSet& selected);
 
 }  // namespace shoal

@@ -98,7 +98,7 @@ TEST_CASE("what is added and removed is so on both sides", "[edit]") {
     const Triangle& image = draft.molecule.triangles[size_t(face) + 1];
     CHECK(glm::ivec3(image.a, image.b, image.c) == glm::ivec3(one + 1, 0, 3));
 
-    Selected selected;
+    ElementSet selected;
     selected.vertices = {one};
     selected.springs = {springBetween(draft.molecule, 0, 1)};
     removeSelected(draft, selected, 0);
