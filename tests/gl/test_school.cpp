@@ -226,7 +226,8 @@ TEST_CASE("All in the same place part without NaN", "[school]") {
     scene.groups = {fish("fry", 70, {0, 0, 0})};
     Run run(scene);
     run.frames(1);
-    for (const glm::vec4& one : run.simulation.save().groups[0].steering)
+    const SavedState state = run.simulation.save();
+    for (const glm::vec4& one : state.groups[0].steering)
         CHECK((std::isfinite(one.x + one.y + one.z + one.w)));
     run.frames(120);
     const Snapshot now = run.simulation.snapshot(0);
