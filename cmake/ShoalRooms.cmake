@@ -9,6 +9,9 @@ target_compile_options(shoal_options INTERFACE
     -Wnon-virtual-dtor -Woverloaded-virtual
     $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>>  # GCC 12 warns of its own std::string (its bug 105651)
     $<BUILD_INTERFACE:$<$<BOOL:${SHOAL_WERROR}>:-Werror>>)
+if(NOT SHOAL_CONTRACTS)
+  target_compile_definitions(shoal_options INTERFACE SHOAL_NO_CONTRACTS)
+endif()
 if(SHOAL_SANITIZE)
   target_compile_options(shoal_options INTERFACE -fsanitize=address,undefined
       -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g)

@@ -1,7 +1,5 @@
 #include "app/bullet_yardstick.h"
 
-#include <cassert>
-
 #ifdef SHOAL_HAS_BULLET
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -13,6 +11,8 @@
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "core/contract.h"
 
 namespace shoal {
 
@@ -138,7 +138,7 @@ bool bulletAvailable() {
 }
 
 BulletYardstick::BulletYardstick(const Molecule&, int, Form) {
-    assert(false && "built without Bullet");
+    EXPECTS(false && "built without Bullet");
 }
 
 BulletYardstick::~BulletYardstick() = default;

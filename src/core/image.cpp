@@ -3,7 +3,6 @@
 // reference, and tells success by its result; everything is allocated and freed by its callers.
 #include "core/image.h"
 
-#include <cassert>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -11,6 +10,7 @@
 
 #include <png.h>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -222,9 +222,9 @@ HeightImage readHeightPng(const std::filesystem::path& path) {
 }
 
 std::vector<std::byte> encodePng(const Image& image) {
-    assert(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
+    EXPECTS(image.width > 0 && image.height > 0 && image.channels >= 1 && image.channels <= 4);
     const size_t rowBytes = size_t(image.width) * size_t(image.channels);
-    assert(image.pixels.size() == rowBytes * size_t(image.height));
+    EXPECTS(image.pixels.size() == rowBytes * size_t(image.height));
     Encoder encoder(image);
     std::vector<const uint8_t*> rows(size_t(image.height));
     for (size_t y = 0; y < rows.size(); ++y)

@@ -1,7 +1,6 @@
 #include "gpu/barrier.h"
 
-#include <cassert>
-
+#include "core/contract.h"
 #include "gpu/gl.h"
 
 namespace shoal::gpu {
@@ -25,7 +24,7 @@ void barrier(std::initializer_list<Barrier> readers) {
     GLbitfield bits = 0;
     for (const Barrier reader : readers)
         bits |= bit(reader);
-    assert(glMemoryBarrier != nullptr && "needs OpenGL 4.3");
+    EXPECTS(glMemoryBarrier != nullptr && "needs OpenGL 4.3");
     glMemoryBarrier(bits);
 }
 

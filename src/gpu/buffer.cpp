@@ -1,7 +1,6 @@
 #include "gpu/buffer.h"
 
-#include <cassert>
-
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/barrier.h"
 #include "gpu/debug_group.h"
@@ -22,7 +21,7 @@ static bool allocate(Buffer::Use use, const void* data, size_t bytes) {
 
 Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const char* label)
     : traffic_(&context.traffic()), info_(&context.info()), use_(use), bytes_(bytes) {
-    assert(bytes > 0);
+    EXPECTS(bytes > 0);
     context.checkErrors("before a buffer is made");
     GLuint id = 0;
     glGenBuffers(1, &id);
@@ -43,7 +42,7 @@ void Buffer::settle() const {
 }
 
 void Buffer::update(Traffic::Kind kind, size_t offset, const void* data, size_t bytes) {
-    assert(offset <= bytes_ && bytes <= bytes_ - offset);
+    EXPECTS(offset <= bytes_ && bytes <= bytes_ - offset);
     settle();
     glBindBuffer(GL_ARRAY_BUFFER, id());
     glBufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
@@ -51,7 +50,7 @@ void Buffer::update(Traffic::Kind kind, size_t offset, const void* data, size_t 
 }
 
 void Buffer::download(Traffic::Kind kind, size_t offset, void* data, size_t bytes) const {
-    assert(offset <= bytes_ && bytes <= bytes_ - offset);
+    EXPECTS(offset <= bytes_ && bytes <= bytes_ - offset);
     settle();
     glBindBuffer(GL_COPY_READ_BUFFER, id());
     glGetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes),
@@ -60,7 +59,7 @@ void Buffer::download(Traffic::Kind kind, size_t offset, void* data, size_t byte
 }
 
 void Buffer::copyTo(Buffer& other, size_t bytes) const {
-    assert(&other != this && bytes <= bytes_ && bytes <= other.bytes_);
+    EXPECTS(&other != this && bytes <= bytes_ && bytes <= other.bytes_);
     settle();
     other.settle();
     glBindBuffer(GL_COPY_READ_BUFFER, id());
@@ -69,15 +68,15 @@ void Buffer::copyTo(Buffer& other, size_t bytes) const {
 }
 
 void Buffer::bindUniform(int binding) const {
-    assert(use_ == Use::uniform);
+    EXPECTS(use_ == Use::uniform);
     glBindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(binding), id());
 }
 
 void Buffer::bindStorage(int binding, size_t offset, size_t bytes) const {
-    assert(use_ == Use::storage && info_->computeShaders);
-    assert(bytes > 0 && offset <= bytes_ && bytes <= bytes_ - offset);
-    assert(bytes <= static_cast<size_t>(info_->maxStorageBlockBytes));
-    assert(offset % static_cast<size_t>(info_->storageBufferAlignment) == 0 && "see ContextInfo");
+    EXPECTS(use_ == Use::storage && info_->computeShaders);
+    EXPECTS(bytes > 0 && offset <= bytes_ && bytes <= bytes_ - offset);
+    EXPECTS(bytes <= static_cast<size_t>(info_->maxStorageBlockBytes));
+    EXPECTS(offset % static_cast<size_t>(info_->storageBufferAlignment) == 0 && "see ContextInfo");
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), id(),
                       static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
@@ -97,7 +96,7 @@ static const void* asPointer(int offset) {
 
 void VertexArray::attribute(int location, const Buffer& buffer, int components, int stride, int offset,
                             int divisor) {
-    assert(buffer.use() == Buffer::Use::vertex && components >= 1 && components <= 4);
+    EXPECTS(buffer.use() == Buffer::Use::vertex && components >= 1 && components <= 4);
     const auto index = static_cast<GLuint>(location);
     bind();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
@@ -107,7 +106,7 @@ void VertexArray::attribute(int location, const Buffer& buffer, int components, 
 }
 
 void VertexArray::indices(const Buffer& buffer) {
-    assert(buffer.use() == Buffer::Use::index);
+    EXPECTS(buffer.use() == Buffer::Use::index);
     bind();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
 }

@@ -1,7 +1,6 @@
 #include "gpu/buffer_texture.h"
 
-#include <cassert>
-
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/debug_group.h"
 
@@ -21,12 +20,12 @@ static TexelFormat formatOf(Texel texel) {
 BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset,
                              size_t bytes, Texel texel) {
     const auto [internal, texelBytes] = formatOf(texel);
-    assert(buffer && offset < buffer.bytes() && bytes <= buffer.bytes() - offset);
+    EXPECTS(buffer && offset < buffer.bytes() && bytes <= buffer.bytes() - offset);
     if (bytes == 0) bytes = buffer.bytes() - offset;
     const bool whole = bytes == buffer.bytes();
-    assert(offset % texelBytes == 0 && bytes % texelBytes == 0);
-    assert((whole || context.info().atLeast(4, 3)) && "a part of a buffer needs OpenGL 4.3");
-    assert((whole || offset % size_t(context.info().textureBufferAlignment) == 0) && "see ContextInfo");
+    EXPECTS(offset % texelBytes == 0 && bytes % texelBytes == 0);
+    EXPECTS((whole || context.info().atLeast(4, 3)) && "a part of a buffer needs OpenGL 4.3");
+    EXPECTS((whole || offset % size_t(context.info().textureBufferAlignment) == 0) && "see ContextInfo");
     texels_ = bytes / texelBytes;
     checkTexels(context.info(), texels_, label);
     GLuint id = 0;

@@ -1,8 +1,8 @@
 #include "gpu/framebuffer.h"
 
 #include <algorithm>
-#include <cassert>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/debug_group.h"
 
@@ -39,7 +39,7 @@ static Handle<deleteFramebuffer> makeFramebuffer() {
 Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth,
                          const char* label)
     : label_(label) {
-    assert(!colors.empty() || depth != nullptr);
+    EXPECTS(!colors.empty() || depth != nullptr);
     int drawn = 0;
     for (const Texture* color : colors)
         drawn += std::max(color->layers(), 1);
@@ -54,7 +54,7 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
     std::string attachments;
     std::vector<GLenum> drawBuffers;
     for (const Texture* color : colors) {
-        assert(color->width() == width_ && color->height() == height_ && !isDepth(color->format()));
+        EXPECTS(color->width() == width_ && color->height() == height_ && !isDepth(color->format()));
         for (int layer = 0; layer < std::max(color->layers(), 1); ++layer) {
             const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
             if (color->layers() > 0)
@@ -66,7 +66,7 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
         attachments += concat(attachments.empty() ? "" : " + ", word(color->format()));
     }
     if (depth != nullptr) {
-        assert(depth->width() == width_ && depth->height() == height_ && isDepth(depth->format()));
+        EXPECTS(depth->width() == width_ && depth->height() == height_ && isDepth(depth->format()));
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->id(), 0);
         attachments += concat(attachments.empty() ? "" : " + ", word(depth->format()));
     }
@@ -91,7 +91,7 @@ static GLuint makeStorage(GLenum attachment, Format format, int samples, int wid
 
 Framebuffer Framebuffer::multisampled(Context& context, Format color, bool depth, int samples, int width,
                                       int height, const char* label) {
-    assert(width > 0 && height > 0 && samples > 0 && !isDepth(color));
+    EXPECTS(width > 0 && height > 0 && samples > 0 && !isDepth(color));
     const int largest = context.info().maxTextureSize;
     if (width > largest || height > largest) {
         throw Error(concat("a picture of ", width, " x ", height, " is too large: this context allows ",
@@ -134,7 +134,7 @@ void Framebuffer::bind() const {
 }
 
 void Framebuffer::bind(int x, int y, int width, int height) const {
-    assert(x >= 0 && y >= 0 && x + width <= width_ && y + height <= height_);
+    EXPECTS(x >= 0 && y >= 0 && x + width <= width_ && y + height <= height_);
     glBindFramebuffer(GL_FRAMEBUFFER, id());
     glViewport(x, y, width, height);
 }
@@ -145,7 +145,7 @@ void Framebuffer::bindDefault(int width, int height) {
 }
 
 void Framebuffer::blitTo(const Framebuffer& other) const {
-    assert(width_ == other.width_ && height_ == other.height_);
+    EXPECTS(width_ == other.width_ && height_ == other.height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
@@ -153,7 +153,7 @@ void Framebuffer::blitTo(const Framebuffer& other) const {
 }
 
 void Framebuffer::blitDepthTo(const Framebuffer& other) const {
-    assert(width_ == other.width_ && height_ == other.height_);
+    EXPECTS(width_ == other.width_ && height_ == other.height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
@@ -162,7 +162,7 @@ void Framebuffer::blitDepthTo(const Framebuffer& other) const {
 
 void Framebuffer::blitToDefault(int width, int height) const {
     const bool same = width == width_ && height == height_;
-    assert(same || samples_ == 1);
+    EXPECTS(same || samples_ == 1);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,

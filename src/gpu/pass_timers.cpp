@@ -1,7 +1,8 @@
 #include "gpu/pass_timers.h"
 
 #include <algorithm>
-#include <cassert>
+
+#include "core/contract.h"
 
 namespace shoal::gpu {
 
@@ -19,7 +20,7 @@ PassTimers::Mode PassTimers::suitedTo(const ContextInfo& info) {
 PassTimers::Scope::Scope(PassTimers& timers, const char* name)
     : timers_(timers), group_(*timers.info_, name) {
     if (!timers.inFrame_) return;
-    assert(!timers.inPass_ && "passes do not nest");
+    EXPECTS(!timers.inPass_ && "passes do not nest");
     timers.inPass_ = true;
     open_ = true;
     if (timers.mode_ == Mode::off) return;
@@ -70,13 +71,13 @@ int PassTimers::passIndex(const char* name) {
 }
 
 void PassTimers::beginFrame() {
-    assert(!inFrame_);
+    EXPECTS(!inFrame_);
     inFrame_ = true;
     if (mode_ == Mode::query) collectOldest(false);
 }
 
 void PassTimers::endFrame() {
-    assert(inFrame_ && !inPass_);
+    EXPECTS(inFrame_ && !inPass_);
     inFrame_ = false;
     for (Pass& pass : passes_)
         pass.calls = 0;
@@ -151,13 +152,13 @@ void PassTimers::record(const std::vector<Call>& calls) {
 }
 
 void PassTimers::drain() {
-    assert(!inFrame_);
+    EXPECTS(!inFrame_);
     while (collectOldest(true)) {
     }
 }
 
 void PassTimers::reset() {
-    assert(!inFrame_);
+    EXPECTS(!inFrame_);
     drain();
     for (Pass& pass : passes_) {
         pass.values.clear();

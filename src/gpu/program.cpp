@@ -1,8 +1,8 @@
 #include "gpu/program.h"
 
-#include <cassert>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/debug_group.h"
 #include "gpu/program_cache.h"
@@ -41,7 +41,7 @@ std::vector<Stage> readStages(const std::string& root, const ProgramOptions& opt
     };
     std::vector<Stage> out;
     if (!options.compute.empty()) {
-        assert(options.vertex.empty() && options.fragment.empty() && "a compute program has one stage");
+        EXPECTS(options.vertex.empty() && options.fragment.empty() && "a compute program has one stage");
         out.push_back({GL_COMPUTE_SHADER, "compute", resolve(options.compute, header430())});
     } else {
         out.push_back({GL_VERTEX_SHADER, "vertex", resolve(options.vertex, header330())});
@@ -115,6 +115,21 @@ std::map<std::string, GLint, std::less<>> readLocations(GLuint program) {
     return out;
 }
 
+// A storage block that the compiler left out has no binding, and fits any.
+constexpr GLint dropped = -1;
+
+GLint storageBinding(GLuint program, const std::string& block) {
+    const GLuint index = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block.c_str());
+    if (index == GL_INVALID_INDEX) return dropped;
+    const GLenum property = GL_BUFFER_BINDING;
+    GLint bound = dropped;
+    glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, index, 1, &property, 1, nullptr, &bound);
+    return bound;
+}
+
+// The program that use() took last, for contracts: asking the driver at each uniform would make it wait.
+GLuint lastUsed = 0;
+
 }  // namespace
 
 Program::Program(Context& context, const std::string& shaderRoot, const ProgramOptions& options)
@@ -144,13 +159,15 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
         declared_.merge(declaredUniforms(stage.source.text));
-        declaredBuffers_.merge(declaredBuffers(stage.source.text));
+        for (const std::string& block : declaredBuffers(stage.source.text))
+            storageBindings_.emplace(block, storageBinding(id(), block));
     }
     labelObject(context, GL_PROGRAM, id(), label_.c_str());
 }
 
 void Program::use() const {
     glUseProgram(id());
+    lastUsed = id();
 }
 
 bool Program::uses(const char* name) const {
@@ -158,17 +175,16 @@ bool Program::uses(const char* name) const {
 }
 
 bool Program::inUse() const {
-    GLint used = 0;
-    glGetIntegerv(GL_CURRENT_PROGRAM, &used);
-    return id() != 0 && static_cast<GLuint>(used) == id();
+    return id() != 0 && lastUsed == id();
 }
 
 GLint Program::location(const char* name) const {
-    assert(inUse() && "use() goes before set()");
+    EXPECTS(inUse() && "use() goes before set()");
     const std::string_view word(name);
     const auto found = locations_.find(word);
     if (found != locations_.end()) return found->second;
-    assert(declared_.count(word.substr(0, word.find_first_of(".["))) == 1 && "no such uniform in the shader");
+    EXPECTS(declared_.count(word.substr(0, word.find_first_of(".["))) == 1 &&
+            "no such uniform in the shader");
     return -1;  // which OpenGL ignores
 }
 
@@ -227,38 +243,30 @@ void Program::texture(const char* sampler, int unit, const BufferTexture& textur
 
 void Program::uniformBlock(const char* block, int binding, const Buffer& buffer) const {
     const GLuint index = glGetUniformBlockIndex(id(), block);
-    assert(declared_.count(std::string_view(block)) == 1 && "no such block in the shader");
+    EXPECTS(declared_.count(std::string_view(block)) == 1 && "no such block in the shader");
     if (index == GL_INVALID_INDEX) return;
     glUniformBlockBinding(id(), index, static_cast<GLuint>(binding));
     buffer.bindUniform(binding);
 }
 
-// A block that the compiler dropped has no binding, and fits any.
-[[maybe_unused]] static bool isBoundTo(GLuint program, const char* block, int binding) {
-    const GLuint index = glGetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, block);
-    if (index == GL_INVALID_INDEX) return true;
-    const GLenum property = GL_BUFFER_BINDING;
-    GLint bound = -1;
-    glGetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, index, 1, &property, 1, nullptr, &bound);
-    return bound == binding;
-}
-
-void Program::storage([[maybe_unused]] const char* block, int binding, const Buffer& buffer, size_t offset,
+void Program::storage(const char* block, int binding, const Buffer& buffer, size_t offset,
                       size_t bytes) const {
-    assert(declaredBuffers_.count(std::string_view(block)) == 1 && "no such storage block in the shader");
-    assert(isBoundTo(id(), block, binding) && "the shader's layout has another binding");
+    const auto declared = storageBindings_.find(std::string_view(block));
+    EXPECTS(declared != storageBindings_.end() && "no such storage block in the shader");
+    EXPECTS((declared->second == binding || declared->second == dropped) &&
+            "the shader's layout has another binding");
     buffer.bindStorage(binding, offset, bytes);
 }
 
 void Program::dispatch(int groupsX) const {
-    assert(inUse() && "use() goes before dispatch()");
-    assert(groupsX >= 0);
+    EXPECTS(inUse() && "use() goes before dispatch()");
+    EXPECTS(groupsX >= 0);
     glDispatchCompute(static_cast<GLuint>(groupsX), 1, 1);
 }
 
 void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
-    assert(inUse() && "use() goes before dispatchIndirect()");
-    assert(offset % 4 == 0 && offset + 3 * sizeof(uint32_t) <= groups.bytes());
+    EXPECTS(inUse() && "use() goes before dispatchIndirect()");
+    EXPECTS(offset % 4 == 0 && offset + 3 * sizeof(uint32_t) <= groups.bytes());
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, groups.id());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }

@@ -79,8 +79,8 @@ class Program {
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
-    std::set<std::string, std::less<>> declared_;         // uniforms
-    std::set<std::string, std::less<>> declaredBuffers_;  // storage blocks
+    std::set<std::string, std::less<>> declared_;              // uniforms
+    std::map<std::string, int, std::less<>> storageBindings_;  // of each storage block
     std::string label_;
 };
 

@@ -1,8 +1,8 @@
 #include "gpu/texture.h"
 
 #include <algorithm>
-#include <cassert>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/debug_group.h"
 
@@ -30,7 +30,7 @@ constexpr FormatRow formatTable[] = {
 
 const FormatRow& row(Format format) {
     const FormatRow& found = formatTable[static_cast<size_t>(format)];
-    assert(found.format == format);
+    EXPECTS(found.format == format);
     return found;
 }
 
@@ -77,7 +77,7 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
       height_(height),
       layers_(layers),
       label_(label) {
-    assert(width > 0 && height > 0 && layers >= 0);
+    EXPECTS(width > 0 && height > 0 && layers >= 0);
     const double mebibytes = double(bytes()) / (1 << 20);
     const std::string what =
         concat("texture \"", label, "\" of ", width, " x ", height, " texels (", mebibytes, " MiB)");
@@ -107,8 +107,8 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
 
 void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes,
                      int layer) {
-    assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
-    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layer < std::max(layers_, 1));
+    EXPECTS(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
+    EXPECTS(bytes == size_t(w) * size_t(h) * texelBytes(format_) && layer < std::max(layers_, 1));
     const FormatRow& storage = row(format_);
     glBindTexture(target(), id());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -121,8 +121,8 @@ void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void*
 
 void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* data, size_t bytes,
                        int layer) const {
-    assert(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
-    assert(bytes == size_t(w) * size_t(h) * texelBytes(format_));
+    EXPECTS(x >= 0 && y >= 0 && w > 0 && h > 0 && x + w <= width_ && y + h <= height_);
+    EXPECTS(bytes == size_t(w) * size_t(h) * texelBytes(format_));
     const FormatRow& storage = row(format_);
     const ReadingFramebuffer framebuffer;
     const GLenum attachment = isDepth(format_) ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0;
@@ -152,7 +152,7 @@ void Texture::setLinear(bool mipmaps, bool repeat) {
 }
 
 void Texture::setShadowCompare() {
-    assert(isDepth(format_));
+    EXPECTS(isDepth(format_));
     glBindTexture(GL_TEXTURE_2D, id());
     const GLfloat lit[] = {1, 1, 1, 1};
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);

@@ -1,7 +1,8 @@
 #include "measure/bench_case.h"
 
-#include <cassert>
 #include <cmath>
+
+#include "core/contract.h"
 
 namespace shoal::measure {
 
@@ -142,7 +143,7 @@ bool isBullet(Subject subject) {
     return subject == Subject::bulletBodies || subject == Subject::bulletMerged;
 }
 Simd simdOf(Subject subject) {
-    assert(isYardstick(subject));
+    EXPECTS(isYardstick(subject));
     return subject == Subject::avx512 ? Simd::avx512 : subject == Subject::avx2 ? Simd::avx2 : Simd::scalar;
 }
 

@@ -1,5 +1,5 @@
-#include <cassert>
 
+#include "core/contract.h"
 #include "measure/bench_case.h"
 #include "molecule/molecule_file.h"
 
@@ -15,7 +15,7 @@ const Molecule& BenchMolecules::of(const std::string& name) const {
     if (name == "quad") return quad;
     if (name == "cross") return cross;
     if (name == "fish") return fish;
-    assert(name == "cloth");
+    EXPECTS(name == "cloth");
     return cloth;
 }
 

@@ -1,11 +1,11 @@
 #include "measure/bench_sort.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <memory>
 #include <random>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/gl.h"
 
@@ -174,12 +174,12 @@ const SortTime* SortTable::find(SortMethod method, bool rowsOnly) const {
 }
 
 const SortTime& SortTable::stdSort() const {
-    assert(times.size() >= 2);
+    EXPECTS(times.size() >= 2);
     return times[times.size() - 2];
 }
 
 const SortTime& SortTable::copy() const {
-    assert(!times.empty());
+    EXPECTS(!times.empty());
     return times.back();
 }
 

@@ -1,11 +1,11 @@
 #include "measure/particle_yardstick.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <new>
 
+#include "core/contract.h"
 #include "measure/yardstick_simd.h"
 #include "measure/yardstick_threads.h"
 
@@ -136,14 +136,14 @@ struct ParticleYardstick::Data {
 };
 
 ParticleYardstick::ParticleYardstick(size_t capacity, Simd simd, int threads) {
-    assert(available(simd) && capacity > 0 && threads > 0);
+    EXPECTS(available(simd) && capacity > 0 && threads > 0);
     data_ = std::make_unique<Data>(capacity, simd, threads);
 }
 
 ParticleYardstick::~ParticleYardstick() = default;
 
 void ParticleYardstick::set(std::span<const vec3> positions, std::span<const vec3> velocities) {
-    assert(positions.size() == velocities.size());
+    EXPECTS(positions.size() == velocities.size());
     size_t next = 0;
     for (const std::unique_ptr<Part>& part : data_->parts) {
         part->count = std::min(part->room, positions.size() - next);
@@ -156,7 +156,7 @@ void ParticleYardstick::set(std::span<const vec3> positions, std::span<const vec
             part->of(Part::life)[i] = std::numeric_limits<float>::infinity();
         }
     }
-    assert(next == positions.size());
+    EXPECTS(next == positions.size());
 }
 
 void ParticleYardstick::step(const ParticleStep& step) {

@@ -1,11 +1,11 @@
 #include "measure/yardstick.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <new>
 
+#include "core/contract.h"
 #include "measure/yardstick_kernels.h"
 #include "measure/yardstick_scalar.h"
 #include "measure/yardstick_threads.h"
@@ -137,7 +137,7 @@ struct Yardstick::Data {
 };
 
 Yardstick::Yardstick(const Molecule& molecule, int count, Simd simd, int threads) {
-    assert(fitsYardstick(molecule) && count > 0 && threads > 0 && available(simd));
+    EXPECTS(fitsYardstick(molecule) && count > 0 && threads > 0 && available(simd));
     data_ = std::make_unique<Data>(molecule, count, simd, threads);
 }
 
@@ -147,8 +147,8 @@ Yardstick& Yardstick::operator=(Yardstick&&) noexcept = default;
 
 void Yardstick::set(std::span<const vec3> positions, std::span<const vec3> velocities) {
     Data& d = *data_;
-    assert(positions.size() == size_t(d.count) * size_t(d.vertexCount) &&
-           velocities.size() == positions.size());
+    EXPECTS(positions.size() == size_t(d.count) * size_t(d.vertexCount) &&
+            velocities.size() == positions.size());
     const auto first = [&](int molecule) { return size_t(molecule) * size_t(d.vertexCount); };
     if (!d.kernels) {
         for (int m = 0; m < d.count; ++m) {

@@ -1,9 +1,9 @@
 #include "simulate/buffer_state.h"
 
 #include "compile/pack.h"
+#include "core/contract.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -230,7 +230,7 @@ GroupState GroupBuffers::read(const GroupPlan& group) const {
 }
 
 GroupState GroupBuffers::readBefore(const GroupPlan& group) const {
-    assert(!inPlace_);
+    EXPECTS(!inPlace_);
     return readSide(group, state_[size_t(1 - current_)]);
 }
 

@@ -1,8 +1,9 @@
 #include "simulate/force_parameters.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "core/contract.h"
 
 namespace shoal {
 
@@ -19,7 +20,7 @@ class Writer {
     }
 
     std::vector<glm::vec4> write() {
-        assert(frame_.parameters.forces.size() == plan_.forces.size());
+        EXPECTS(frame_.parameters.forces.size() == plan_.forces.size());
         for (const GroupForces::One& one : group_.forces.pulls)
             writePull(one);
         for (const GroupForces::One& one : group_.forces.thrusts)

@@ -1,6 +1,6 @@
 #include "simulate/simulation.h"
 
-#include <cassert>
+#include "core/contract.h"
 
 namespace shoal {
 
@@ -74,7 +74,7 @@ void Simulation::computeNormals() {
 }
 
 void Simulation::frame() {
-    assert(parameters.substeps >= 1);
+    EXPECTS(parameters.substeps >= 1);
     check();
     before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;

@@ -1,6 +1,7 @@
 // Reading the state back: for exports, tests, hashes and a change of path, never in a plain frame.
 #include <bit>
 
+#include "core/contract.h"
 #include "simulate/simulation.h"
 
 namespace shoal {
@@ -65,9 +66,9 @@ static GroupState asHeld(const GroupPlan& group, GroupState state) {
 }
 
 void Simulation::load(const SavedState& saved) {
-    assert(saved.groups.size() == plan_.groups.size() && "a state of another plan");
+    EXPECTS(saved.groups.size() == plan_.groups.size() && "a state of another plan");
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
-        assert(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
+        EXPECTS(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
         writeGroup(g, asHeld(plan_.groups[g], saved.groups[g]), saved.time);
     }
     time_ = saved.time;

@@ -1,8 +1,9 @@
 #include "simulate/vertex_loops.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cctype>
+
+#include "core/contract.h"
 
 namespace shoal {
 
@@ -68,7 +69,7 @@ size_t closingLine(const std::vector<Line>& lines, size_t open) {
             int(std::count(code.begin(), code.end(), '{')) - int(std::count(code.begin(), code.end(), '}'));
         if (depth == 0) return k;
     }
-    assert(false && "a loop over vertices does not end");
+    EXPECTS(false && "a loop over vertices does not end");
     return lines.size() - 1;
 }
 

@@ -1,6 +1,6 @@
 #include "sort/network.h"
 
-#include <cassert>
+#include "core/contract.h"
 
 namespace shoal {
 
@@ -21,7 +21,7 @@ std::vector<OddEvenPass> oddEvenMergePasses(size_t count) {
 }
 
 std::vector<BitonicPass> bitonicPasses(size_t block) {
-    assert(block == powerOfTwoAbove(block));
+    EXPECTS(block == powerOfTwoAbove(block));
     if (block == 2) return {{0, false, true, false}};
     std::vector<BitonicPass> out;
     for (size_t merged = 4; merged <= block; merged *= 2) {  // elements

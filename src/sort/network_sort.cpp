@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <cassert>
 #include <climits>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/gl.h"
 
@@ -42,7 +42,7 @@ int chosenRowLength(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t
             length *= 2;
         length = std::min(length, widest);
     }
-    assert(length >= 2 && length == powerOfTwoAbove(length) && "rows are a power of two long");
+    EXPECTS(length >= 2 && length == powerOfTwoAbove(length) && "rows are a power of two long");
     const size_t rows = (capacity + length - 1) / length;
     if (length <= widest && rows <= size_t(info.maxTextureSize)) return int(length);
     throw Error(concat(name(kind), " of ", capacity, " pairs in rows of ", length,
@@ -82,7 +82,7 @@ int NetworkSort::rows() const {
 }
 
 void NetworkSort::setCount(size_t count) {
-    assert(count <= capacity_);
+    EXPECTS(count <= capacity_);
     count_ = count;
     spread_.clear();
 }
@@ -151,7 +151,7 @@ void NetworkSort::sort() {
 }
 
 void NetworkSort::sortRows() {
-    assert(kind_ == Kind::bitonic);
+    EXPECTS(kind_ == Kind::bitonic);
     if (count_ < 2) return;
     begin();
     for (const BitonicPass& pass : bitonicPasses(size_t(rowLength_)))
@@ -159,14 +159,14 @@ void NetworkSort::sortRows() {
 }
 
 void NetworkSort::beginSpread(int frames) {
-    assert(kind_ == Kind::oddEvenMerge && frames >= 1);
+    EXPECTS(kind_ == Kind::oddEvenMerge && frames >= 1);
     spread_ = oddEvenMergePasses(count_);
     frames_ = frames;
     frame_ = 0;
 }
 
 void NetworkSort::advance() {
-    assert(kind_ == Kind::oddEvenMerge);
+    EXPECTS(kind_ == Kind::oddEvenMerge);
     if (spread_.empty()) return;  // one pair, or none
     const auto at = [&](int frame) { return spread_.size() * size_t(frame) / size_t(frames_); };
     begin();

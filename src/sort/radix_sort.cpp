@@ -1,11 +1,11 @@
 #include "sort/radix_sort.h"
 
 #include <algorithm>
-#include <cassert>
 #include <climits>
 #include <thread>
 #include <utility>
 
+#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/barrier.h"
 #include "gpu/buffer_texture.h"
@@ -142,7 +142,7 @@ void RadixSort::run(const Buffer& from, const Buffer& to, const Pass& pass) {
 }
 
 void RadixSort::sort(Buffer& pairs, size_t count, int keyBits) {
-    assert(count <= capacity_ && count * pairBytes <= pairs.bytes() && keyBits >= 0 && keyBits <= 32);
+    EXPECTS(count <= capacity_ && count * pairBytes <= pairs.bytes() && keyBits >= 0 && keyBits <= 32);
     const int passCount = passes(count, keyBits);
     Buffer* from = &pairs;
     Buffer* to = &other_;

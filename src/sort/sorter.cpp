@@ -1,9 +1,9 @@
 #include "sort/sorter.h"
 
 #include <algorithm>
-#include <cassert>
 #include <climits>
 
+#include "core/contract.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -39,7 +39,7 @@ std::span<const SortMethodRow> sortMethods() {
 
 const SortMethodRow& row(SortMethod method) {
     const SortMethodRow& found = methods[size_t(method)];
-    assert(found.method == method);
+    EXPECTS(found.method == method);
     return found;
 }
 
@@ -69,7 +69,7 @@ Sorter::Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod 
 }
 
 void Sorter::upload(std::span<const KeyIndex> pairs) {
-    assert(pairs.size() <= capacity_);
+    EXPECTS(pairs.size() <= capacity_);
     count_ = pairs.size();
     if (!network_) {
         if (count_ > 0) buffer_.update(Kind::state, 0, pairs.data(), pairs.size_bytes());
@@ -113,17 +113,17 @@ void Sorter::sortOnCpu() {
 }
 
 void Sorter::sortRows() {
-    assert(row(method_).rowsOnly);
+    EXPECTS(row(method_).rowsOnly);
     network_->sortRows();
 }
 
 void Sorter::beginSpread(int frames) {
-    assert(row(method_).spread);
+    EXPECTS(row(method_).spread);
     network_->beginSpread(frames);
 }
 
 void Sorter::advance() {
-    assert(row(method_).spread);
+    EXPECTS(row(method_).spread);
     network_->advance();
 }
 
