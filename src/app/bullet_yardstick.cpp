@@ -1,5 +1,7 @@
 #include "app/bullet_yardstick.h"
 
+#include "core/contract.h"
+
 #ifdef SHOAL_HAS_BULLET
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -11,8 +13,6 @@
 #include <cmath>
 #include <limits>
 #include <vector>
-
-#include "core/contract.h"
 
 namespace shoal {
 
