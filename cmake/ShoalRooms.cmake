@@ -47,6 +47,7 @@ function(shoal_room name)
     set(scope INTERFACE)
     add_library(shoal_${name} INTERFACE)
   endif()
+  target_compile_features(shoal_${name} ${scope} cxx_std_20)
   add_library(Shoal::${name} ALIAS shoal_${name})
   set_target_properties(shoal_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(shoal_${name} ${scope}

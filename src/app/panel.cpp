@@ -294,16 +294,13 @@ void Panel::drawCost(Simulation& simulation, Renderer& renderer, double frameSec
         ImGui::TableSetupColumn("up");
         ImGui::TableSetupColumn("back");
         ImGui::TableHeadersRow();
-        using Kind = gpu::Traffic::Kind;
-        const std::pair<const char*, Kind> kinds[] = {
-            {"state", Kind::state}, {"parameters", Kind::parameters}, {"control", Kind::control}};
-        for (const auto& [word, kind] : kinds) {
+        for (int i = 0; i < gpu::Traffic::kinds; ++i) {
             ImGui::TableNextColumn();
-            ImGui::TextUnformatted(word);
+            ImGui::TextUnformatted(gpu::Traffic::names[i]);
             ImGui::TableNextColumn();
-            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.up(kind)));
+            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.uploaded[i]));
             ImGui::TableNextColumn();
-            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.down(kind)));
+            ImGui::Text("%llu", static_cast<unsigned long long>(lastFrame.readBack[i]));
         }
         ImGui::EndTable();
     }

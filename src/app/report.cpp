@@ -8,14 +8,11 @@ namespace shoal::app {
 
 static JsonValue asJson(const gpu::Traffic& traffic) {
     JsonValue out = JsonValue::makeObject();
-    using Kind = gpu::Traffic::Kind;
-    const std::pair<const char*, Kind> kinds[] = {
-        {"state", Kind::state}, {"parameters", Kind::parameters}, {"control", Kind::control}};
-    for (const auto& [word, kind] : kinds) {
+    for (int i = 0; i < gpu::Traffic::kinds; ++i) {
         JsonValue entry = JsonValue::makeObject();
-        entry.add("uploaded", JsonValue::makeNumber(double(traffic.up(kind))))
-            .add("readBack", JsonValue::makeNumber(double(traffic.down(kind))));
-        out.add(word, std::move(entry));
+        entry.add("uploaded", JsonValue::makeNumber(double(traffic.uploaded[i])))
+            .add("readBack", JsonValue::makeNumber(double(traffic.readBack[i])));
+        out.add(gpu::Traffic::names[i], std::move(entry));
     }
     return out;
 }
@@ -45,8 +42,11 @@ std::vector<GroupLives> livesOf(const Simulation& simulation) {
 
 std::string text(const GroupLives& lives) {
     const LifeCounts& n = lives.counts;
-    return concat(lives.group, ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born, ",
-                  n.lost > 0 ? std::to_string(n.lost) : "none", " lost");
+    return concat(
+        lives.group, ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born",
+        n.lost > 0
+            ? concat(", ", n.lost, " lost (no place was free: a larger \"capacity\" or --count holds more)")
+            : "");
 }
 
 JsonValue asJson(const std::vector<gpu::PassTime>& passes) {

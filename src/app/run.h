@@ -1,4 +1,4 @@
-// `shoal run`: headless, or in a window (window.h).
+// `shoal run`: headless, or in a window (`runWindow`).
 #pragma once
 
 #include <optional>

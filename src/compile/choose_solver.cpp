@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compile/generate_forces.h"
 #include "compile/path.h"
 #include "molecule/analysis.h"
 
@@ -66,16 +67,43 @@ void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
                                   " s: ", steps(frame, most / drag), ", or another solver"));
 }
 
+// Thrust and wind are taken exactly.
+std::optional<size_t> fastestByPlace(const std::vector<Force>& forces, const std::string& group) {
+    std::optional<size_t> out;
+    for (size_t i = 0; i < forces.size(); ++i) {
+        const ForceShape& shape = forces[i].shape;
+        if (std::holds_alternative<ThrustForce>(shape) || std::holds_alternative<WindForce>(shape)) continue;
+        if (actsOn(forces[i], group) && (!out || fastestRate(forces[i]) > fastestRate(forces[*out]))) out = i;
+    }
+    return out;
+}
+
 }  // namespace
 
-void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
+std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group, double step) {
+    if (!group.fastestForce) return {};
+    const Force& force = forces[*group.fastestForce];
+    const double rate = fastestRate(force), most = solver(group.solver).mostForced;
+    if (rate * step <= most) return {};
+    return concat("the force ", force.name.empty() ? "" : concat("\"", force.name, "\" "), "(",
+                  kindName(force.shape), ") turns \"", group.name, "\" by up to ", rate, " rad/s; ",
+                  name(group.solver), " is stable up to a frequency times substep of ", most, ", here it is ",
+                  rate * step);
+}
+
+void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::vector<Warning>& warnings) {
     const double step = 1 / scene.frameRate / scene.solver.substeps;
+    out.fastestForce = fastestByPlace(scene.forces, group.name);
+    const double turning = out.fastestForce ? fastestRate(scene.forces[*out.fastestForce]) : 0;
     Analysis analysis;
     analysis.stableStepEuler = analysis.stableStepLeapfrog = analysis.stableStepRk4 = infinite;
     if (out.needs.springs) analysis = analyseGroup(group, out);
     out.highestFrequency = analysis.highestFrequency;
 
-    const bool safe = step <= analysis.stableStepLeapfrog && analysis.frequencyBound * step < 2;
+    const bool safe =
+        step <= analysis.stableStepLeapfrog && std::hypot(analysis.frequencyBound, turning) * step < 2;
+    // What springs and forces ask for together; what the forces ask for alone, no solver mends.
+    const bool mends = turning * step <= solver(SolverKind::bdf2Xpbd).mostForced;
     if (scene.solver.kind) {
         out.solver = *scene.solver.kind;
         out.solverWhy = "as the scene says";
@@ -86,10 +114,12 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";
-    } else if (safe || out.vertexCount > FusedLimits::softwareLane ||
+    } else if (safe || !mends || out.vertexCount > FusedLimits::softwareLane ||
                out.springCount > FusedLimits::laneSprings) {
         out.solver = SolverKind::leapfrog;
-        out.solverWhy = concat(safe ? "the substep resolves the springs" : "the molecule is large",
+        out.solverWhy = concat(safe     ? "the substep resolves the springs"
+                               : !mends ? "no solver resolves the forces with this substep"
+                                        : "the molecule is large",
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     } else {
         out.solver = SolverKind::bdf2Xpbd;
@@ -99,6 +129,11 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out) {
     out.stableStep = stableStep(analysis, out.solver);
     out.rigid = out.needs.collide && isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
+    const std::string hasty = hastyForce(scene.forces, out, step);
+    if (hasty.empty()) return;
+    const double longest = shoal::solver(out.solver).mostForced / turning;
+    warnings.push_back(
+        {scene.forces[*out.fastestForce].location, concat(hasty, ": ", steps(1 / scene.frameRate, longest))});
 }
 
 }  // namespace shoal

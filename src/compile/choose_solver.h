@@ -8,12 +8,16 @@ namespace shoal {
 // Fills the group's solver, the reason for it, highestFrequency and stableStep. Where the scene names none:
 //
 //   leapfrog    without springs, or while the substep holds leapfrog stable for every shape that the molecule
-//               may take (the weighted graph Laplacian's bound, molecule/analysis.h) and is short against
-//               drag
+//               may take (the weighted graph Laplacian's bound, molecule/analysis.h) together with the forces
 //   bdf2-xpbd   otherwise, if a molecule fits a lane (compile/path.h)
 //
 // Error (located at the solver, else at the group): the substep is beyond what the named solver holds stable,
 // or zero, or drag is beyond what it takes; says how many substeps would do.
-void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out);
+// Warning: the substep is too long for a force, which no solver takes implicitly.
+void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::vector<Warning>& warnings);
+
+// "the force \"drain\" (vortexLine) turns \"dust\" by up to 1000 rad/s: ..." where the substep (s) is too
+// long for it; else empty.
+std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group, double step);
 
 }  // namespace shoal

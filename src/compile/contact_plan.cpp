@@ -99,16 +99,6 @@ int listLength(double largest, double smallest) {
 
 }  // namespace
 
-const char* name(ContactSearch search) {
-    static constexpr const char* names[] = {"exact", "single", "staggered"};
-    return names[size_t(search)];
-}
-
-const char* name(ContactResponse response) {
-    static constexpr const char* names[] = {"simultaneous", "nearest"};
-    return names[size_t(response)];
-}
-
 bool ContactPlan::onlyOfVertices() const {
     return std::none_of(groups.begin(), groups.end(),
                         [](const ContactGroup& group) { return group.triangles || group.self; });

@@ -40,7 +40,7 @@ CorotatedPattern corotatedPattern(const Molecule& molecule, bool held);
 std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const CorotatedPattern& pattern,
                                         const CorotatedStage& stage);
 
-// generated/corotated.glsl: the rest shape for the fit, and applyInverse() from a `vec4 factors[]`.
+// Of generated/sweeps.glsl: the rest shape for the fit, and applyInverse() from a `vec4 factors[]`.
 std::string corotatedText(const Molecule& molecule, const CorotatedPattern& pattern, bool held);
 // That array, as a uniform block; or as constants: for CPU rasterisers, to which every read of a uniform is a
 // call.

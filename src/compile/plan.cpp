@@ -233,6 +233,17 @@ void warnOfGaps(const Scene& scene, Plan& plan) {
     }
 }
 
+// Fields and winds move what has drag, and nothing else. What has a velocity of its own may drift without.
+void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& plan,
+                    std::vector<Warning>& warnings) {
+    const bool wind = std::any_of(scene.forces.begin(), scene.forces.end(), [&](const Force& force) {
+        return std::holds_alternative<WindForce>(force.shape) && actsOn(force, group.name);
+    });
+    if (plan.needs.drag || group.velocity != glm::dvec3(0) || (scene.fields.empty() && !wind)) return;
+    warnings.push_back({group.location, concat("\"", plan.name, "\" has no \"drag\", through which ",
+                                               wind ? "wind" : "fields", " would move it: it feels none")});
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -245,11 +256,6 @@ const char* name(PassKind kind) {
     static constexpr const char* names[] = {"records", "normals", "thrust",  "restore",
                                             "advect",  "stage",   "collide", "watch"};
     return names[size_t(kind)];
-}
-
-const char* name(FieldSampling sampling) {
-    static constexpr const char* names[] = {"vertexSubstep", "vertexFrame", "moleculeFrame"};
-    return names[size_t(sampling)];
 }
 
 bool Plan::hasLife() const {
@@ -280,7 +286,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                 {scene.groups[i].location,
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
-        chooseSolver(scene, scene.groups[i], group);
+        chooseSolver(scene, scene.groups[i], group, plan.warnings);
+        warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
         packStart(scene, group);

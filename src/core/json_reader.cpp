@@ -243,8 +243,9 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
 
 void JsonReader::finish() {
     for (const auto& [key, value] : object_->members) {
-        if (key == "comment") {
-            checkKind(value, path_ + ".comment", Kind::string);
+        // a comment anywhere; at the top what editors look for
+        if (key == "comment" || (key == "$schema" && path_ == "$")) {
+            checkKind(value, path_ + "." + key, Kind::string);
         } else if (std::find(known_.begin(), known_.end(), key) == known_.end()) {
             throw Error({file_, value.keyLine, value.keyColumn, path_ + "." + key},
                         "unknown key \"" + key + "\"" + suggestion(key, known_));

@@ -195,7 +195,7 @@ JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
         if (member != fresh.members.end()) {
             ordered.push_back({key, inOrderOf(old, std::move(member->second))});
             fresh.members.erase(member);
-        } else if (key == "comment") {
+        } else if (key == "comment" || key == "$schema") {
             ordered.push_back({key, old});
         }
     }

@@ -19,7 +19,7 @@ class BufferTexture {
     BufferTexture() = default;
     // Borrows the buffer, which must outlive it. `offset` and `bytes` are multiples of a texel's; bytes 0: up
     // to the end. A part of the buffer needs OpenGL 4.3, and an offset that is a multiple of the context's
-    // textureBufferAlignment (assert). Error: more texels than the context allows; says how many.
+    // textureBufferAlignment (a contract). Error: more texels than the context allows; says how many.
     BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset = 0,
                   size_t bytes = 0, Texel texel = Texel::float4);
     BufferTexture(Context& context, const Buffer& buffer, Texel texel, const char* label)

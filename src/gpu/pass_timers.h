@@ -55,7 +55,7 @@ class PassTimers {
         int call_ = -1;      // of this frame; -1: not timed
         std::chrono::steady_clock::time_point start_;
     };
-    // auto t = timers.time("advect"); until the end of the block. Passes do not nest (assert). Outside a
+    // auto t = timers.time("advect"); until the end of the block. Passes do not nest (a contract). Outside a
     // frame, and when off, this is a debug group only.
     [[nodiscard]] Scope time(const char* name) { return Scope(*this, name); }
 

@@ -41,7 +41,7 @@ class Program {
     void use() const;
 
     // The program must be in use. A name that the shader declares but that the compiler dropped is ignored; a
-    // name that it does not declare is a mistake of ours (assert). Arrays: the name without [0].
+    // name that it does not declare is a mistake of ours (a contract). Arrays: the name without [0].
     void set(const char* name, int value) const;
     void set(const char* name, uint32_t value) const;
     void set(const char* name, float value) const;
@@ -61,9 +61,9 @@ class Program {
     void texture(const char* sampler, int unit, const BufferTexture& texture) const;
     void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
     // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
-    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (assert).
+    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a contract).
     void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
-    // Compute programs, in use (assert). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
+    // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
     void dispatchIndirect(const Buffer& groups, size_t offset) const;

@@ -16,6 +16,8 @@ struct Traffic {
         control,     // watchdog, counters, timers
         births,      // places that allocators on the CPU hand out, 4 bytes a newborn
     };
+    static constexpr const char* names[] = {"state", "parameters", "control",
+                                            "births"};  // in the order of Kind
     static constexpr int kinds = 4;
     static constexpr uint64_t controlBytesPerFrame = 256;  // at most, all readers together
 

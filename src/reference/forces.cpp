@@ -114,28 +114,4 @@ glm::dvec3 meanVelocity(const Problem& problem, const std::vector<glm::dvec3>& v
     return momentum / mass;
 }
 
-double fastestRate(const std::vector<Force>& forces) {
-    double rate = 0;
-    for (const Force& force : forces) {
-        double most = 1;  // the largest factor
-        if (force.path)
-            for (const ForcePath::Keyframe& frame : force.path->keyframes)
-                most = std::max(most, std::abs(frame.factor));
-        if (const auto* attract = std::get_if<AttractForce>(&force.shape)) {
-            const double strength = std::abs(attract->strength) * most;
-            const bool constant = attract->falloff == AttractForce::Falloff::constant;
-            // the steepest place: the radius, or where the bound is reached
-            const double pull = constant ? strength : attract->most;
-            const double near = constant ? attract->radius : std::sqrt(strength / attract->most);
-            if (near > 0) rate = std::max(rate, std::sqrt(2 * pull / near));
-        } else if (const auto* line = std::get_if<VortexLineForce>(&force.shape)) {
-            const double pull = most * std::max(std::abs(line->pull), std::abs(line->turn));
-            rate = std::max(rate, std::sqrt(pull / line->core));
-        } else if (const auto* thrust = std::get_if<ThrustForce>(&force.shape)) {
-            rate = std::max(rate, most * std::abs(thrust->rate));
-        }
-    }
-    return rate;
-}
-
 }  // namespace shoal::reference

@@ -29,7 +29,4 @@ glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, doubl
 struct Problem;
 glm::dvec3 meanVelocity(const Problem& problem, const std::vector<glm::dvec3>& velocity);
 
-// 1/s: nothing of the forces changes faster along a molecule's way.
-double fastestRate(const std::vector<Force>& forces);
-
 }  // namespace shoal::reference

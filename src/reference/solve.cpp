@@ -131,7 +131,8 @@ double fastestRate(const Problem& problem) {
         if (const auto* wind = std::get_if<OscillatingField>(&field.shape))
             driven = std::max(driven, 6.3 * wind->frequency);
     }
-    driven = std::max(driven, fastestRate(problem.forces));
+    for (const Force& force : problem.forces)
+        driven = std::max(driven, shoal::fastestRate(force));
     double rate = std::max({driven, std::abs(problem.drag.normal), std::abs(problem.drag.tangent)});
     for (size_t i = 0; i < molecule.vertices.size(); ++i) {
         if (problem.pinned(i)) continue;

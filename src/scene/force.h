@@ -80,6 +80,10 @@ struct ForceMoment {
 };
 ForceMoment momentOf(const std::optional<ForcePath>& path, double time);
 
+// rad/s: the root of the steepest gradient of its acceleration, with the largest factor of its path; 1/s: the
+// rate of a thrust; 0 of a wind. What it acts on neither turns nor grows faster.
+double fastestRate(const Force& force);
+
 // Whether it is for the groups of that name.
 bool actsOn(const Force& force, const std::string& group);
 

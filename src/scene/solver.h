@@ -21,6 +21,7 @@ struct Solver {
     bool implicit;       // no limit on w h; the fused path only
     bool history;        // keeps the change of the last substep beside the state
     double mostDragged;  // largest drag rate times h that it takes; infinite where it takes any
+    double mostForced;   // frequency of a force (scene/force.h) times h up to which it is stable
     const char* source;  // where it is from
     const char* stable;  // for people: up to which step
     const char* needs;   // for people: memory and matrices

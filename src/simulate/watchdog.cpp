@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "compile/choose_solver.h"
 #include "compile/plan.h"
 #include "simulate/simulation.h"
 
@@ -39,19 +40,22 @@ bool wasHeld(const Plan& plan, const GroupPlan& group, const GroupState& state, 
     return true;
 }
 
-std::string cause(const Alarm& alarm) {
+std::string cause(const Plan& plan, const Alarm& alarm) {
+    const std::string hasty =
+        hastyForce(plan.forces, plan.groups[alarm.group], 1 / plan.frameRate / plan.substeps);
+    if (!hasty.empty()) return hasty;
     if (!alarm.finite)
         return "the step is too long for something here, or a force is beyond what a float holds";
     return concat("the limit is ", runawaySpeed,
-                  " m/s: the step is too long for something here, or a field, drag ",
-                  "or start velocity is too large");
+                  " m/s: the step is too long for something here, or a field, a ",
+                  "force, drag or start velocity is too large");
 }
 
 std::string describe(const Plan& plan, const Alarm& alarm) {
     return concat("stopped at frame ", alarm.frame, ", ", alarm.time, " s: group \"",
                   plan.groups[alarm.group].name, "\", molecule ", alarm.molecule, ", vertex ", alarm.vertex,
                   alarm.finite ? concat(" moves with ", alarm.speed, " m/s") : " is not finite", "; ",
-                  cause(alarm), ". Try more --substeps, another --solver, or smaller numbers");
+                  cause(plan, alarm), ". Try more --substeps, another --solver, or smaller numbers");
 }
 
 }  // namespace

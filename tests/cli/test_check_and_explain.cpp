@@ -136,6 +136,42 @@ TEST_CASE("a warning is told and does not fail", "[cli]") {
     CHECK_THAT(outcome.out, Catch::Contains("without any stiffness"));
 }
 
+TEST_CASE("the smallest scene that ships warns of nothing", "[cli]") {
+    const Outcome outcome = runShoal({"check", helloScene()});
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, !Catch::Contains("warning"));
+}
+
+TEST_CASE("check warns of how a scene starts", "[cli]") {
+    const Scratch scratch;
+    const auto check = [&](const std::string& keys, const std::string& place, const std::string& group = "") {
+        scratch.write("dot.json",
+                      R"({"format": "shoal-molecule-1", "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
+        const std::string scene =
+            scratch.write("s.scene.json", concat(R"({"format": "shoal-scene-1", )", keys,
+                                                 R"("groups": [{"molecule": "dot.json", )", group,
+                                                 R"("place": {"on": "list", "items": [)", place, "]}}]}"));
+        const Outcome outcome = runShoal({"check", scene});
+        CHECK(outcome.code == 0);
+        return outcome.out;
+    };
+    const std::string there = R"({"position": [0, 1, 0]})", below = there + R"(, {"position": [0, -0.5, 0]})";
+    const std::string plane = R"("colliders": [{"type": "plane"}], )";
+    CHECK_THAT(check("", there), !Catch::Contains("warning"));
+    CHECK_THAT(check(plane, there), !Catch::Contains("warning"));
+    CHECK_THAT(check(plane, below),
+               Catch::Contains("1 of 2 molecules of \"molecule\" start inside the plane"));
+    CHECK_THAT(check(plane, below, R"("collide": false, )"), !Catch::Contains("warning"));
+    CHECK_THAT(check(R"("camera": {"eye": [0, 1, 5], "target": [0, 1, 9]}, )", there),
+               Catch::Contains("the camera sees no molecule"));
+    CHECK_THAT(check(R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )", there),
+               Catch::Contains("has no \"drag\", through which fields would move it"));
+    CHECK_THAT(check(R"("forces": [{"type": "wind", "velocity": [1, 0, 0]}], )", there),
+               Catch::Contains("has no \"drag\", through which wind would move it"));
+    CHECK_THAT(check(R"("forces": [{"type": "wind", "velocity": [1, 0, 0]}], )", there, R"("drag": 1, )"),
+               !Catch::Contains("warning"));
+}
+
 TEST_CASE("a scene has the passes that it needs", "[cli]") {
     const Scratch scratch;
     const std::string whole = std::string(vertices) + springs + triangles;

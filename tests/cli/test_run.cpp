@@ -143,8 +143,8 @@ TEST_CASE("the report counts births and what found no place", "[cli]") {
     const Scratch scratch;
     const Outcome told = runShoal({"run", fountain, "--headless", "--frames", "2", "--count", "400",
                                    "--export", scratch.path("x.csv")});
-    CHECK_THAT(told.out, Catch::Contains("drops: 400 of 400 places taken, 400 born, 100 lost"));
-    CHECK_THAT(told.out, Catch::Contains("splashes: 0 of 400 places taken, 0 born, none lost"));
+    CHECK_THAT(told.out, Catch::Contains("drops: 400 of 400 places taken, 400 born, 100 lost (no place was free"));
+    CHECK_THAT(told.out, Catch::Contains("splashes: 0 of 400 places taken, 0 born\n"));
     const Outcome plain = runShoal(runWords({"--export", scratch.path("plain.csv")}));
     CHECK_THAT(plain.out, !Catch::Contains("born"));
 }
@@ -258,6 +258,22 @@ TEST_CASE("frames move no state over the bus", "[cli]") {
     // the meter is not simply off
     CHECK(member(member(member(bytes, "start"), "state"), "uploaded").number > 0);
     CHECK(member(member(member(bytes, "outside"), "state"), "readBack").number > 0);
+}
+
+TEST_CASE("the report counts the bytes of births apart", "[cli]") {
+    const Scratch scratch;
+    writeFile(scratch.path("pool.scene.json"), R"({
+        "format": "shoal-scene-1", "name": "pool",
+        "groups": [{"particle": {"size": 0.01}, "life": {"span": 1, "allocator": "stack"},
+                    "emitters": [{"from": "point", "speed": 1, "rate": 600}]}]})");
+    const Outcome outcome =
+        runShoal({"run", scratch.path("pool.scene.json"), "--headless", "--frames", "4", "--json"});
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue told = outcome.json();
+    const JsonValue& births = member(member(member(told, "busBytes"), "frames"), "births");
+    CHECK(member(births, "uploaded").number == 4 * 4 * 10);  // 10 born a frame, a place of 4 bytes each
+    CHECK(member(births, "readBack").number == 0);
 }
 
 TEST_CASE("the seed decides the run, bit for bit", "[cli]") {

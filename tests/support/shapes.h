@@ -1,4 +1,4 @@
-// Molecules and problems made in code for the tests. NUMERICS.md, section 7, turned to +Y up.
+// Molecules and problems made in code for the tests. The cases of the table of solvers, with +Y up.
 #pragma once
 
 #include <cmath>

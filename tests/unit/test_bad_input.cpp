@@ -102,6 +102,7 @@ TEST_CASE("bad input: scenes that are not scenes", "[badInput]") {
     CHECK_THAT(wrong.scene("\"camera\"", "\"camera\" 5"), Contains("s.json:55:"));
     CHECK_THAT(wrong.scene("\"gravity\"", "\"gravty\""),
                Contains("gravty") && Contains("did you mean \"gravity\"?"));
+    CHECK_THAT(wrong.scene("\"count\"", "\"cuont\""), Contains("did you mean \"count\"?"));
     CHECK_THAT(wrong.scene("\"substeps\"", "\"subSteps\""),
                Contains("s.json:7:") && Contains("\"substeps\""));
     CHECK_THAT(wrong.scene("\"seed\"", "\"name\""), Contains("s.json:4:"));  // a repeated key

@@ -8,6 +8,7 @@
 #include "scene/scene_file.h"
 #include "simulate/force_parameters.h"
 #include "simulate/fused_kernel.h"
+#include "simulate/watchdog.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"
@@ -241,6 +242,42 @@ TEST_CASE("explain names the forces on each group", "[forces][plan]") {
                Contains("attract \"hive\", thrust\n") && Contains("thrust, wind\n"));
     CHECK_THAT(explain(plan, pingPong, false), Contains("the other half of the thrust"));
     CHECK(explainJson(plan, fused, false).find("groups")->items[1].find("forces")->items.size() == 2);
+}
+
+TEST_CASE("a force that turns too fast for the substep is told, and counts in the choice of the solver",
+          "[forces][plan]") {
+    const Scenes scenes;
+    // 1000 rad/s at 60 frames of 4 substeps a second: frequency times substep 4.17
+    const Scene fast = scenes.read(
+        R"({"type": "vortexLine", "name": "drain", "pull": 1e5, "turn": 0, "core": 0.1, "groups": ["a"]})");
+    CHECK(fastestRate(fast.forces[0]) == Approx(1000));
+    const Plan plan = compile(fast);
+    REQUIRE(plan.warnings.size() == 1);
+    CHECK(plan.warnings[0].location.path == "$.forces[0]");
+    CHECK_THAT(plan.warnings[0].message,
+               Contains("the force \"drain\" (vortexLine) turns \"a\" by up to 1000 rad/s") &&
+                   Contains("leapfrog is stable up to a frequency times substep of 2, here it is 4.16667") &&
+                   Contains("use at least 9 substeps"));
+    CHECK_THAT(Runaway(plan, Alarm{.group = 0, .speed = 2e4}).what(), Contains("the force \"drain\""));
+    CHECK_THAT(Runaway(plan, Alarm{.group = 1, .speed = 2e4}).what(),
+               !Contains("drain") && Contains("force"));
+
+    Scene resolved = fast;
+    resolved.solver.substeps = 9;
+    CHECK(compile(resolved).warnings.empty());
+
+    // Springs that leapfrog just resolves alone, and no longer beside a force: the springs go to an implicit
+    // solver.
+    Scene both = scenes.read(R"({"type": "vortexLine", "pull": 2e4, "turn": 0, "core": 1})");
+    Molecule& pair = both.groups[0].molecule;
+    pair.vertices.push_back(pair.vertices[0]);
+    pair.vertices[1].position = {0.1, 0, 0};
+    Spring& spring = pair.springs.emplace_back();
+    spring.b = 1;
+    spring.stiffness = 0.5 * 460 * 460;
+    CHECK(compile(both).groups[0].solver == SolverKind::bdf2Xpbd);
+    both.forces.clear();
+    CHECK(compile(both).groups[0].solver == SolverKind::leapfrog);
 }
 
 TEST_CASE("more forces than uniforms is one located error", "[forces][badInput]") {

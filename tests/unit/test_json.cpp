@@ -170,6 +170,12 @@ TEST_CASE("an unknown key is refused though every known one was taken", "[json]"
     reader.get("a", d);
     CHECK(messageOf([&] { reader.finish(); }) ==
           "f:2:2: unknown key \"zebra\" (expected one of a) (at $.zebra)");
+    // at the top, and as a string, an editor's hint is allowed
+    const JsonValue hinted = parseJson(R"({"$schema": "s.json", "in": {"$schema": "s.json"}})", "f");
+    JsonReader top(hinted, "f");
+    std::optional<JsonReader> in = top.object("in");
+    CHECK_NOTHROW(top.finish());
+    CHECK_THAT(messageOf([&] { in->finish(); }), Catch::Contains("unknown key \"$schema\""));
     const JsonValue comment = parseJson("{\"comment\": 3}", "f");
     CHECK(messageOf([&] { JsonReader(comment, "f").finish(); }) ==
           "f:1:13: expected a string, found a number (at $.comment)");

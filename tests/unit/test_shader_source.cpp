@@ -103,7 +103,7 @@ TEST_CASE("the logs of all drivers point into our files", "[shader]") {
     const ShaderSource source = resolve(
         {{"main.frag", "#include \"lib/a.glsl\"\nvoid main() {}\n"}, {"lib/a.glsl", "float a;\nfloat b\n"}},
         "main.frag");
-    // Line 3 of the text is line 2 of lib/a.glsl, line 4 is line 2 of main.frag.
+    // Line 3 of the text is line 2 of the included file, line 4 is line 2 of the one that includes it.
     CHECK(source.rewriteLog("0:3(7): error: syntax error\n") ==
           "generated:lib/a.glsl:2:7: error: syntax error");
     CHECK(source.rewriteLog("0(3) : error C0000: syntax error") ==
@@ -122,7 +122,7 @@ TEST_CASE("the logs of all drivers point into our files", "[shader]") {
 
 TEST_CASE("an error goes before the warnings above it", "[shader]") {
     const ShaderSource source = resolve({{"main.frag", "float a;\nfloat b;\nfloat c\n"}}, "main.frag");
-    // line n of the text is line n - 1 of main.frag
+    // line n of the text is line n - 1 of the file
     for (const char* log : {"0:2(1): warning: `a' used uninitialized\n0:4(9): error: syntax error\n",
                             "0(2) : warning C7050: \"a\" might be used\n0(4) : error C0000: syntax error",
                             "WARNING: 0:2: 'a' : odd\nERROR: 0:4: '' : syntax error\nERROR: 0:3: more"}) {

@@ -38,7 +38,7 @@ glm::dmat3 block(const std::vector<glm::vec4>& factors, int number) {
 
 using Vectors = std::vector<glm::dvec3>;
 
-// What generated/corotated.glsl does with the blocks.
+// What generated/sweeps.glsl does with the blocks.
 Vectors solve(const CorotatedPattern& pattern, const std::vector<glm::vec4>& factors, Vectors x) {
     const auto at = [&](size_t place) -> glm::dvec3& { return x[size_t(pattern.order[place])]; };
     for (size_t p = 0; p < pattern.order.size(); ++p)
