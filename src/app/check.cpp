@@ -1,11 +1,9 @@
-#include <filesystem>
 #include <iostream>
 
 #include "app/check_start.h"
 #include "app/commands.h"
 #include "app/data_paths.h"
 #include "app/field_watch.h"
-#include "core/image.h"
 #include "core/json.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
@@ -32,14 +30,31 @@ bool isScene(const std::string& file) {
     return json.find("groups") != nullptr;
 }
 
+// Groups whose molecules are born lie in one storage block, which a context limits: what llvmpipe and many
+// GPUs have is not more than this.
+void warnOfCapacity(const Plan& plan, std::vector<Warning>& out) {
+    constexpr size_t common = size_t{1} << 27;  // bytes
+    for (const GroupPlan& group : plan.groups) {
+        const BufferLayout layout = group.layout();
+        const size_t each = size_t(layout.stateElements()) * sizeof(glm::vec4);
+        if (!group.life || layout.padded(size_t(group.count)) * each <= common) continue;
+        out.push_back(
+            {group.life->cycle.location, concat("a capacity of ", group.count, " for \"", group.name,
+                                                "\" takes ", (size_t(group.count) * each) >> 20,
+                                                " MiB in one storage block, and many "
+                                                "contexts hold ",
+                                                common >> 20, " MiB, a capacity of ", common / each,
+                                                ": shoal info tells what yours holds")});
+    }
+}
+
 std::string many(size_t count, const char* thing) {
     return concat(count, " ", thing, count == 1 ? "" : "s");
 }
 
 // A texture is read by the renderer only: here it is looked for, so that `check` finds it missing.
 void checkTexture(const Molecule& molecule) {
-    if (molecule.material.texture.empty()) return;
-    readPng(std::filesystem::path(molecule.file).parent_path() / molecule.material.texture);
+    if (!molecule.material.texture.empty()) readTexture(molecule);
 }
 
 Verdict checkMolecule(const std::string& file) {
@@ -97,6 +112,7 @@ Verdict checkScene(const std::string& file) {
     out.warnings = plan.warnings;
     for (const Warning& warning : checkStart(scene, plan))
         out.warnings.push_back(warning);
+    warnOfCapacity(plan, out.warnings);
     for (const Group& group : scene.groups)
         for (const Warning& warning : check(group.molecule))
             if (!isShipped(group.molecule)) out.warnings.push_back(warning);
@@ -133,6 +149,7 @@ int checkCommand(const Options& options) {
         JsonValue entry = JsonValue::makeObject();
         entry.add("file", JsonValue::makeString(file));
         try {
+            keepToSandbox(options, file);
             Verdict verdict = isScene(file) ? checkScene(file) : checkMolecule(file);
             JsonValue warnings = JsonValue::makeArray();
             for (const Warning& warning : verdict.warnings)

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/cache_folder.h"
 #include "core/error.h"
+#include "core/sandbox.h"
 
 namespace shoal::app {
 
@@ -34,6 +36,20 @@ std::string moleculeFolder() {
 
 std::string modelFolder() {
     return (fs::path(shaderRoot()).parent_path() / "models").string();
+}
+
+void keepToSandbox(const Options& options, const std::string& file) {
+    if (!options.sandbox) return;
+    fs::path own = file;
+    std::error_code code;
+    if (!fs::is_directory(own, code)) own = own.parent_path();
+    std::vector<fs::path> folders = {own.empty() ? fs::path(".") : own, shaderRoot(), moleculeFolder(),
+                                     modelFolder(), cacheFolder()};
+    for (const std::string& given : {options.resume, options.exports, options.plot})
+        folders.emplace_back(given);
+    if (!options.molecule.output.empty())
+        folders.push_back(fs::absolute(options.molecule.output).parent_path());
+    openOnlyWithin(folders);
 }
 
 }  // namespace shoal::app

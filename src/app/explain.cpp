@@ -12,6 +12,7 @@
 namespace shoal::app {
 
 Loaded load(const Options& options) {
+    keepToSandbox(options, options.files.front());
     FieldWatch watch;
     Loaded out{readScene(options.files.front(), watch.baking()), {}};
     apply(options, out.scene);

@@ -4,6 +4,7 @@
 #include <new>
 
 #include "app/commands.h"
+#include "app/data_paths.h"
 
 int main(int argc, char** argv) {
     using namespace shoal::app;
@@ -13,6 +14,7 @@ int main(int argc, char** argv) {
     try {
         const std::optional<Options> options = parseOptions(argc, argv);
         int code = 0;
+        if (options && !options->files.empty()) keepToSandbox(*options, options->files.front());
         if (options) {
             switch (options->command) {
             case Options::Command::run:

@@ -21,6 +21,11 @@ struct Texts {
     std::vector<std::string> solvers, samplings;
 };
 
+void addSandbox(CLI::App& command, Options& options) {
+    command.add_flag("--sandbox", options.sandbox,
+                     "Open nothing outside the file's own folder and the shipped data, links followed");
+}
+
 void addScene(CLI::App& command, Options& options) {
     command.add_option("scene", options.files, "Scene file (.scene.json)")->required()->expected(1);
 }
@@ -435,6 +440,10 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     addMeasure(*measure, options, texts);
     addField(*field, options, texts);
     addMolecule(app, options);
+    for (CLI::App* command : {run, check, explain, measure, field, edit})
+        addSandbox(*command, options);
+    for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
+        addSandbox(*command, options);
 
     try {
         app.parse(argc, argv);

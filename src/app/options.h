@@ -41,6 +41,7 @@ struct Options {
 
     gpu::ContextKind context = gpu::ContextKind::automatic;
     bool headless = false;
+    bool sandbox = false;  // nothing is opened outside the folder of the file and the shipped data
     bool json = false;
     bool timings = false;  // time per pass
     Path path = Path::automatic;

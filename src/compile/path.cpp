@@ -1,6 +1,7 @@
 #include "compile/path.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "compile/corotated.h"
 
@@ -113,11 +114,11 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
 }
 
 template <typename Check>
-std::string complaintOf(const Check& check) {
+std::optional<Error> complaintOf(const Check& check) {
     try {
         check();
     } catch (const Error& error) {
-        return error.message();
+        return error;
     }
     return {};
 }
@@ -188,11 +189,13 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
         checkFused(plan, limits);
         return {Path::fused, "as asked"};
     }
-    const std::string fused = complaintOf([&] { checkFused(plan, limits); });
-    if (fused.empty()) return {Path::fused, "each molecule is read and written once a frame"};
-    const std::string other = complaintOf([&] { checkPingPong(plan, limits); });
-    if (!other.empty()) throw Error(concat("no path can run this scene: ", fused, "; ", other));
-    return {Path::pingPong, fused};
+    const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits); });
+    if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
+    const std::optional<Error> other = complaintOf([&] { checkPingPong(plan, limits); });
+    if (other)
+        throw Error(fused->location().empty() ? other->location() : fused->location(),
+                    concat("no path can run this scene: ", fused->message(), "; ", other->message()));
+    return {Path::pingPong, fused->message()};
 }
 
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {

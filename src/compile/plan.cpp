@@ -10,6 +10,7 @@
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
 #include "core/random.h"
+#include "scene/scene_file.h"
 
 namespace shoal {
 
@@ -244,6 +245,41 @@ void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& pla
                                                wind ? "wind" : "fields", " would move it: it feels none")});
 }
 
+// Each sphere is compared with all that share its cells: that of many in one place is the square of them.
+void warnOfCrowds(const Scene& scene, Plan& plan) {
+    constexpr double many = 64;
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        const double reach = 2 * plan.contact.largestRadius;
+        std::vector<size_t> cells;
+        const size_t there = group.life ? size_t(group.life->atStart) : group.start.anchors.size();
+        for (size_t m = 0; m < there; ++m) {
+            const glm::dvec3 place =
+                glm::floor((glm::dvec3(group.start.anchors[m]) +
+                            glm::dvec3(group.start.positions[m * size_t(group.vertexCount)])) /
+                           reach);
+            cells.push_back(std::hash<double>()(place.x) ^ (std::hash<double>()(place.y) * 31) ^
+                            (std::hash<double>()(place.z) * 1009));
+        }
+        std::sort(cells.begin(), cells.end());
+        double others = 0;
+        for (size_t first = 0, i = 0; i <= cells.size(); ++i) {
+            if (i < cells.size() && cells[i] == cells[first]) continue;
+            others += double(i - first) * double(i - first);
+            first = i;
+        }
+        if (there == 0 || others / double(there) <= many) continue;
+        plan.warnings.push_back(
+            {scene.groups[group.index].contact->location,
+             concat(
+                 "the molecules of \"", group.name, "\" start crowded: one has about ",
+                 std::round(others / double(there)), " others within ", reach,
+                 " m, where their spheres may touch. Each pair is looked at, which takes long, and a sphere "
+                 "keeps at most ",
+                 plan.contact.listLength, " of them: a larger place or a smaller radius helps")});
+    }
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -267,6 +303,7 @@ size_t Plan::tableBytes() const {
 }
 
 Plan compile(const Scene& scene, const CompileOptions& options) {
+    checkScene(scene);
     for (const Collider& collider : scene.colliders)
         checkTurn(scene, collider);
     Plan plan;
@@ -302,6 +339,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.contact = planContact(scene, plan.groups);
     plan.school = planSchools(scene, plan.groups);
     warnOfGaps(scene, plan);
+    warnOfCrowds(scene, plan);
 
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),

@@ -131,8 +131,9 @@ struct CompileOptions {
     bool liveSprings = false;
 };
 
-// Error: fields or colliders take more uniforms than OpenGL 3.3 promises; or the substep is beyond what the
-// explicit solver holds stable (located at the solver, else at the group), and how many substeps would do.
+// Error: what checkScene() refuses (scene/scene_file.h); fields or colliders take more uniforms than
+// OpenGL 3.3 promises; or the substep is beyond what the explicit solver holds stable (located at the solver,
+// else at the group), and how many substeps would do.
 Plan compile(const Scene& scene, const CompileOptions& options = {});
 
 // How many substeps of a frame the solvers need when stiffness, damping and drag are scaled by these factors;

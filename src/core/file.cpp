@@ -6,12 +6,14 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/sandbox.h"
 
 namespace shoal {
 
 namespace fs = std::filesystem;
 
 FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
+    refuseOutside(path);
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (status.type() == fs::file_type::not_found) throw Error(location_, "no such file");

@@ -33,7 +33,7 @@ using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 // The same piece by piece, for files that need not lie in memory as a whole.
 class FileReader {
   public:
-    // Error: no such file, a folder, unreadable.
+    // Error: no such file, a folder, unreadable, or it may not be opened (core/sandbox.h).
     explicit FileReader(const std::filesystem::path& path);
     // The bytes that were there: fewer than asked for only at the end. Error: cannot be read.
     size_t read(void* data, size_t bytes);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/json.h"
+#include "core/members.h"
 
 namespace shoal {
 
@@ -78,26 +79,40 @@ void JsonReader::checkCount(const JsonValue& array, const std::string& path, siz
                     concat("expected an array of ", count, " numbers, found ", array.items.size()));
 }
 
+bool contains(Range range, double number) {
+    return std::isfinite(number) && number <= range.most &&
+           (range.aboveLeast ? number > range.least : number >= range.least);
+}
+
+static std::string outside(Range range, const char* noun, const std::string& found) {
+    return concat("expected ", describe(range, noun), ", found ", found);
+}
+
+void needWithin(const Location& where, double number, Range range) {
+    if (contains(range, number)) return;
+    char digits[32];  // the shortest that says which double it is
+    const std::to_chars_result end = std::to_chars(digits, digits + sizeof digits, number);
+    throw Error(where, outside(range, "a number", std::string(digits, end.ptr)));
+}
+
+void needWithin(const Location& where, int number, Range range) {
+    if (!contains(range, number)) throw Error(where, outside(range, "a whole number", concat(number)));
+}
+
 double JsonReader::checked(const JsonValue& value, const std::string& path, Range range) const {
     checkKind(value, path, Kind::number);
-    const double number = value.number;
-    const bool inside = std::isfinite(number) && number <= range.most &&
-                        (range.aboveLeast ? number > range.least : number >= range.least);
-    if (!inside)
-        throw Error(locate(value, path),
-                    concat("expected ", describe(range, "a number"), ", found ", written(value)));
-    return number;
+    if (!contains(range, value.number))
+        throw Error(locate(value, path), outside(range, "a number", written(value)));
+    return value.number;
 }
 
 int JsonReader::checkedInt(const JsonValue& value, const std::string& path, Range range) const {
     checkKind(value, path, Kind::number);
     const double number = value.number;
     const bool inside = number >= std::numeric_limits<int>::min() &&
-                        number <= std::numeric_limits<int>::max() && number <= range.most &&
-                        (range.aboveLeast ? number > range.least : number >= range.least);
+                        number <= std::numeric_limits<int>::max() && contains(range, number);
     if (!inside || number != std::floor(number))
-        throw Error(locate(value, path),
-                    concat("expected ", describe(range, "a whole number"), ", found ", written(value)));
+        throw Error(locate(value, path), outside(range, "a whole number", written(value)));
     return static_cast<int>(number);
 }
 

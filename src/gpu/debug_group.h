@@ -18,7 +18,8 @@ class DebugGroup {
     bool open_ = false;
 };
 
-// The name of an object in debuggers; `type` such as GL_TEXTURE. Nothing below 4.3 or for an empty name.
+// The name of an object in debuggers, cut where it is long; `type` such as GL_TEXTURE. Nothing below 4.3 or
+// for an empty name.
 void labelObject(const Context& context, GLenum type, GLuint id, const char* label);
 
 }  // namespace shoal::gpu

@@ -271,4 +271,24 @@ void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
 }
 
+const Program& Programs::get(Context& context, const std::string& shaderRoot, const ProgramOptions& options,
+                             const std::string& with) {
+    std::string key;
+    const auto add = [&key](const std::string& part) {
+        key += std::to_string(part.size()) + ":";  // so that parts cannot run into each other
+        key += part;
+    };
+    for (const std::string* part : {&options.vertex, &options.fragment, &options.compute, &with})
+        add(*part);
+    for (const std::string& define : options.defines)
+        add(define);
+    for (const auto& [name, text] : options.generated) {
+        add(name);
+        add(text);
+    }
+    const auto found = made_.find(key);
+    if (found != made_.end()) return found->second;
+    return made_.emplace(std::move(key), Program(context, shaderRoot, options)).first->second;
+}
+
 }  // namespace shoal::gpu

@@ -84,4 +84,18 @@ class Program {
     std::string label_;
 };
 
+// Programs of one owner by what they are made of: whoever asks for the same gets the same program, under the
+// label of the first. So many equal groups compile once.
+class Programs {
+  public:
+    // `with`: what else must be equal, for uniforms that are set only once. What `rewrite` does must follow
+    // from the other options. The program stays where it is as long as this does. Error: Program's.
+    const Program& get(Context& context, const std::string& shaderRoot, const ProgramOptions& options,
+                       const std::string& with = {});
+    size_t size() const { return made_.size(); }
+
+  private:
+    std::map<std::string, Program> made_;
+};
+
 }  // namespace shoal::gpu

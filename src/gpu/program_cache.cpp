@@ -151,9 +151,10 @@ void ProgramCache::removeOldest() const {
         const fs::file_time_type time = entry->last_write_time(gone);
         if (!gone && entry->path().extension() == extension) programs.emplace_back(time, entry->path());
     }
-    if (programs.size() <= keptPrograms) return;
+    const size_t kept = std::clamp(size_t(hits_) + size_t(misses_), keptPrograms, mostPrograms);
+    if (programs.size() <= kept) return;
     std::sort(programs.begin(), programs.end());
-    for (size_t i = 0; i < programs.size() - keptPrograms; ++i)
+    for (size_t i = 0; i < programs.size() - kept; ++i)
         fs::remove(programs[i].second, code);
 }
 

@@ -26,7 +26,9 @@ std::string programKey(const ContextInfo& info, std::span<const std::string_view
 
 class ProgramCache {
   public:
-    static constexpr size_t keptPrograms = 256;  // beyond that the oldest are removed
+    // Beyond that the oldest are removed; but not what this run uses, which would leave the next one nothing,
+    // up to mostPrograms.
+    static constexpr size_t keptPrograms = 256, mostPrograms = 4096;
 
     // The folder is made when something is written. Does nothing without a folder, below OpenGL 4.1, and
     // where the driver hands out no binaries.

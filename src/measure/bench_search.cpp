@@ -17,7 +17,7 @@ using glm::dvec3;
 using Pairs = std::vector<std::pair<int, int>>;
 
 constexpr double radius = 0.02;     // m
-constexpr double stillTime = 1e-7;  // s: nothing moves
+constexpr double stillTime = 1e-5;  // s: nothing moves far
 constexpr ContactSearch searches[] = {ContactSearch::exact, ContactSearch::single, ContactSearch::staggered};
 
 Scene sceneOf(ContactSearch search, int count, double perCell, const Molecule& point) {

@@ -15,6 +15,7 @@
 
 #include <string>
 
+#include "core/image.h"
 #include "molecule/molecule.h"
 
 namespace shoal {
@@ -26,6 +27,10 @@ constexpr int maxMoleculeTriangles = 1 << 20;
 // Error: located, for whatever is missing, mistyped, out of range, repeated or unknown.
 Molecule readMolecule(const std::string& file);
 Molecule parseMolecule(const std::string& text, const std::string& file);
+
+// The image that the material names, beside the molecule's file.
+// Error: none such, or no PNG; located at the molecule's key.
+Image readTexture(const Molecule& molecule);
 
 // Reads back as the same molecule. With the text of the file that it came from, keys keep that file's order
 // and comments survive. Defaults carry the mass, stiffness and damping that most elements share.

@@ -3,12 +3,54 @@
 #include <algorithm>
 #include <cmath>
 
+#include "molecule/rules.h"
+
 namespace shoal {
 
 namespace {
 
 constexpr double mostValue = 1e6;  // of weights, uvs and offsets
 constexpr double mostSumError = 1e-5;
+
+bool isIndex(double number, size_t count) {
+    return number >= 0 && number < double(count) && number == std::floor(number);
+}
+
+Error notIndex(const Location& where, double found, size_t count, const char* of) {
+    return Error(where, concat("expected the index of a vertex of ", of, ", 0 to ", int64_t(count) - 1,
+                               ", found ", found));
+}
+
+// Of the numbers as a file has them: pairs of a vertex and its weight.
+void checkWeightCount(size_t numbers, const Location& where) {
+    if (numbers == 0 || numbers % 2 != 0 || numbers > 2 * Skin::mostWeights)
+        throw Error(where, concat("expected 1 to ", Skin::mostWeights,
+                                  " pairs of a vertex and its weight, found ", numbers, " numbers"));
+}
+
+void checkWeights(const SkinVertex& vertex, const Location& where) {
+    double sum = 0;
+    for (size_t k = 0; k < vertex.weights.size(); ++k) {
+        for (size_t other = 0; other < k; ++other)
+            if (vertex.weights[other].vertex == vertex.weights[k].vertex)
+                throw Error(where,
+                            concat("vertex ", vertex.weights[k].vertex, " has two weights: add them up"));
+        sum += vertex.weights[k].weight;
+    }
+    if (!(std::abs(sum - 1) <= mostSumError))
+        throw Error(where, concat("expected weights that add up to 1, found ", sum));
+}
+
+void checkNumber(double number, const Location& where) {
+    if (!(std::abs(number) <= mostValue))
+        throw Error(where,
+                    concat("expected a number from ", -mostValue, " to ", mostValue, ", found ", number));
+}
+
+void checkOffset(const SkinVertex& vertex, const Molecule& molecule, const Location& where) {
+    if (vertex.offset != 0 && molecule.triangles.empty())
+        throw Error(where, "an offset is along the normal of the molecule, which has no triangles");
+}
 
 // An array in the skin, whose elements are located as they are read.
 class Elements {
@@ -41,15 +83,11 @@ class Elements {
     }
     double number(const JsonValue& value, const std::string& path) const {
         kind(value, path, JsonValue::Kind::number, "a number");
-        if (std::abs(value.number) > mostValue)
-            throw Error(at(value, path), concat("expected a number from ", -mostValue, " to ", mostValue,
-                                                ", found ", value.number));
+        checkNumber(value.number, at(value, path));
         return value.number;
     }
     int index(const JsonValue& value, const std::string& path, size_t count, const char* of) const {
-        if (!(value.number >= 0 && value.number < double(count)) || value.number != std::floor(value.number))
-            throw Error(at(value, path), concat("expected the index of a vertex of ", of, ", 0 to ",
-                                                int64_t(count) - 1, ", found ", value.number));
+        if (!isIndex(value.number, count)) throw notIndex(at(value, path), value.number, count, of);
         return int(value.number);
     }
 
@@ -68,25 +106,16 @@ void readWeights(const Elements& weights, const Molecule& molecule, Skin& skin) 
     for (size_t i = 0; i < weights.count(); ++i) {
         const std::vector<JsonValue>& numbers = weights.numbers(i);
         const Location here = weights.at(weights[i], weights.path(i));
-        if (numbers.empty() || numbers.size() % 2 != 0 || numbers.size() > 2 * Skin::mostWeights)
-            throw Error(
-                here, concat("expected 1 to ", Skin::mostWeights, " pairs of a vertex and its weight, found ",
-                             numbers.size(), " numbers"));
+        checkWeightCount(numbers.size(), here);
         SkinVertex vertex;
-        double sum = 0;
         for (size_t k = 0; k < numbers.size(); k += 2) {
             SkinWeight weight;
             weight.vertex = weights.index(numbers[k], concat(weights.path(i), "[", k, "]"),
                                           molecule.vertices.size(), "the molecule");
             weight.weight = weights.number(numbers[k + 1], concat(weights.path(i), "[", k + 1, "]"));
-            for (const SkinWeight& other : vertex.weights)
-                if (other.vertex == weight.vertex)
-                    throw Error(here, concat("vertex ", weight.vertex, " has two weights: add them up"));
-            sum += weight.weight;
             vertex.weights.push_back(weight);
         }
-        if (!(std::abs(sum - 1) <= mostSumError))
-            throw Error(here, concat("expected weights that add up to 1, found ", sum));
+        checkWeights(vertex, here);
         skin.vertices.push_back(std::move(vertex));
     }
 }
@@ -112,9 +141,7 @@ void readOffsets(const Elements& offsets, const Molecule& molecule, Skin& skin) 
     checkCount(offsets, skin.vertices.size());
     for (size_t i = 0; i < offsets.count(); ++i) {
         skin.vertices[i].offset = offsets.number(offsets[i], offsets.path(i));
-        if (skin.vertices[i].offset != 0 && molecule.triangles.empty())
-            throw Error(offsets.at(offsets[i], offsets.path(i)),
-                        "an offset is along the normal of the molecule, which has no triangles");
+        checkOffset(skin.vertices[i], molecule, offsets.at(offsets[i], offsets.path(i)));
     }
 }
 
@@ -128,9 +155,7 @@ void readSkinTriangles(const Elements& triangles, Skin& skin) {
         for (size_t k = 0; k < 3; ++k)
             index[k] = triangles.index(corners[k], concat(triangles.path(i), "[", k, "]"),
                                        skin.vertices.size(), "the skin");
-        if (index[0] == index[1] || index[1] == index[2] || index[2] == index[0])
-            throw Error(here, concat("a triangle needs three different vertices, found ", index[0], ", ",
-                                     index[1], ", ", index[2]));
+        checkCorners({index[0], index[1], index[2]}, here);
         skin.triangles.push_back({index[0], index[1], index[2]});
     }
 }
@@ -153,6 +178,51 @@ void readSkin(JsonReader& root, Molecule& molecule) {
     reader->finish();
     molecule.skin = std::move(skin);
     placeSkin(molecule);
+}
+
+// Puts a place together only when something is wrong.
+template <typename Check>
+static void checkAt(const Where& where, const char* key, size_t index, const Check& check) {
+    try {
+        check(Location{});
+    } catch (const Error& error) {
+        throw Error(where.in(key, index).here(), error.message());
+    }
+}
+
+void checkSkin(const Molecule& molecule, const Where& where) {
+    const Skin& skin = molecule.skin;
+    needAtMost(where, "weights", skin.vertices.size(), maxSkinVertices);
+    needAtMost(where, "triangles", skin.triangles.size(), maxSkinTriangles);
+    for (size_t i = 0; i < skin.vertices.size(); ++i) {
+        const SkinVertex& vertex = skin.vertices[i];
+        checkAt(where, "weights", i, [&](const Location& here) {
+            checkWeightCount(2 * vertex.weights.size(), here);
+            for (const SkinWeight& weight : vertex.weights) {
+                if (!isIndex(weight.vertex, molecule.vertices.size()))
+                    throw notIndex(here, weight.vertex, molecule.vertices.size(), "the molecule");
+                checkNumber(weight.weight, here);
+            }
+            checkWeights(vertex, here);
+        });
+        checkAt(where, "uvs", i, [&](const Location& here) {
+            checkNumber(vertex.uv.x, here);
+            checkNumber(vertex.uv.y, here);
+        });
+        checkAt(where, "offsets", i, [&](const Location& here) {
+            checkNumber(vertex.offset, here);
+            checkOffset(vertex, molecule, here);
+        });
+    }
+    for (size_t i = 0; i < skin.triangles.size(); ++i) {
+        const SkinTriangle& t = skin.triangles[i];
+        checkAt(where, "triangles", i, [&](const Location& here) {
+            for (const int corner : {t.a, t.b, t.c})
+                if (!isIndex(corner, skin.vertices.size()))
+                    throw notIndex(here, corner, skin.vertices.size(), "the skin");
+            checkCorners({t.a, t.b, t.c}, here);
+        });
+    }
 }
 
 JsonValue skinJson(const Skin& skin) {

@@ -8,7 +8,7 @@
 // Positions are not in the file: they follow from the weights and the molecule's rest shape.
 #pragma once
 
-#include "core/json.h"
+#include "core/members.h"
 #include "molecule/molecule.h"
 
 namespace shoal {
@@ -18,6 +18,8 @@ constexpr int maxSkinTriangles = 1 << 19;
 
 // After the molecule's vertices and triangles. Error: located.
 void readSkin(JsonReader& root, Molecule& molecule);
+// The same rules for one that was made in code.
+void checkSkin(const Molecule& molecule, const Where& where);
 JsonValue skinJson(const Skin& skin);
 
 }  // namespace shoal

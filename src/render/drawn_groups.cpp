@@ -17,11 +17,11 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         const Material& material = group.molecule.material;
         Drawn drawn;
         if (group.particle)
-            drawn.drawer = std::make_unique<ParticleDrawer>(context, shaderRoot, *group.particle, groupPlan,
-                                                            g, lighting, pixelsPerMeter);
+            drawn.drawer = std::make_unique<ParticleDrawer>(context, shaderRoot, *programs_, *group.particle,
+                                                            groupPlan, g, lighting, pixelsPerMeter);
         else
-            drawn.drawer =
-                std::make_unique<MoleculeDrawer>(context, shaderRoot, group, groupPlan, g, lighting);
+            drawn.drawer = std::make_unique<MoleculeDrawer>(context, shaderRoot, *programs_, group, groupPlan,
+                                                            g, lighting);
         if (group.colorBy) drawn.drawer->colorBy(*group.colorBy, groupPlan.vertexCount);
         drawn.blend = material.blend;
         if (drawn.blend == Blend::alpha) drawn.sort = material.sort;

@@ -5,9 +5,10 @@
 
 namespace shoal {
 
-GroupDrawer::GroupDrawer(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& plan,
-                         size_t index)
+GroupDrawer::GroupDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                         const GroupPlan& plan, size_t index)
     : context_(&context),
+      programs_(&programs),
       shaderRoot_(shaderRoot),
       name_(plan.name),
       corners_(context, plan.name.c_str()),
@@ -44,8 +45,8 @@ const gpu::Program& GroupDrawer::beginDepth(const StateView& state, const Shadow
 
 const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramOptions& options,
                                          const StateView& state) const {
-    gpu::Program& program = variants[state.textures ? 0 : 1];
-    if (program) return program;
+    const gpu::Program*& program = variants[state.textures ? 0 : 1];
+    if (program != nullptr) return *program;
     gpu::ProgramOptions wanted = options;
     const std::vector<std::string> defines = stateDefines(state, layout_);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
@@ -53,8 +54,8 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
         wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
         if (scale_) wanted.defines.emplace_back("COLOR_BY");
     }
-    program = gpu::Program(*context_, shaderRoot_, wanted);
-    return program;
+    program = &programs_->get(*context_, shaderRoot_, wanted);
+    return *program;
 }
 
 void GroupDrawer::bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part,

@@ -55,19 +55,22 @@ class GroupDrawer {
 
   protected:
     // One for textures, one for buffers; made when first drawn.
-    using Variants = std::array<gpu::Program, 2>;
+    using Variants = std::array<const gpu::Program*, 2>;
 
-    GroupDrawer(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& plan, size_t index);
+    // `programs`: shared by equal groups, borrowed.
+    GroupDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                const GroupPlan& plan, size_t index);
     // In use, with what all groups have of the picture or the shadow map.
     const gpu::Program& beginLit(const StateView& state, const DrawInputs& inputs);
     const gpu::Program& beginDepth(const StateView& state, const ShadowMap& shadow);
 
     gpu::Context* context_;
+    gpu::Programs* programs_;
     std::string shaderRoot_, name_;
     DrawStream stream_;
     gpu::VertexArray corners_;
     gpu::ProgramOptions litOptions_, depthOptions_;  // but for what the kind of the state adds
-    Variants lit_, depth_;
+    Variants lit_{}, depth_{};
     std::vector<std::string> orderDefines_;
     std::optional<ScaleUniforms> scale_;  // none: the material's own colours
 

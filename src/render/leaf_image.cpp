@@ -1,5 +1,7 @@
 #include "render/leaf_image.h"
 
+#include "molecule/molecule_file.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -43,9 +45,9 @@ Image bledImage(const Image& image, int inside) {
 }
 
 gpu::Texture loadLeafImage(gpu::Context& context, const Molecule& molecule) {
-    const auto file = std::filesystem::path(molecule.file).parent_path() / molecule.material.texture;
-    const Image image = bledImage(readPng(file));
-    gpu::Texture texture(context, gpu::Format::srgb8a8, image.width, image.height, file.filename().c_str());
+    const Image image = bledImage(readTexture(molecule));
+    gpu::Texture texture(context, gpu::Format::srgb8a8, image.width, image.height,
+                         molecule.material.texture.c_str());
     texture.upload(gpu::Traffic::Kind::parameters, 0, 0, image.width, image.height, image.pixels.data(),
                    image.pixels.size());
     texture.setLinear(true);

@@ -7,9 +7,10 @@
 
 namespace shoal {
 
-MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, const Group& group,
-                               const GroupPlan& plan, size_t index, const Lighting& lighting)
-    : GroupDrawer(context, shaderRoot, plan, index),
+MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                               const Group& group, const GroupPlan& plan, size_t index,
+                               const Lighting& lighting)
+    : GroupDrawer(context, shaderRoot, programs, plan, index),
       material_(group.molecule.material),
       points_(group.molecule.triangles.empty() && group.molecule.skin.empty()) {
     change(group);

@@ -10,8 +10,8 @@ namespace shoal {
 class MoleculeDrawer : public GroupDrawer {
   public:
     // `plan` at `index` of the plan. Error: the image of the material is missing or not a PNG.
-    MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, const Group& group,
-                   const GroupPlan& plan, size_t index, const Lighting& lighting);
+    MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                   const Group& group, const GroupPlan& plan, size_t index, const Lighting& lighting);
 
     const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
     const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;

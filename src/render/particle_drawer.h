@@ -16,8 +16,9 @@ namespace shoal {
 class ParticleDrawer : public GroupDrawer {
   public:
     // `pixelsPerMeter`: about where the camera looks. Error: the image (render/particle_image.h).
-    ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, const ParticleType& type,
-                   const GroupPlan& plan, size_t index, const Lighting& lighting, double pixelsPerMeter);
+    ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                   const ParticleType& type, const GroupPlan& plan, size_t index, const Lighting& lighting,
+                   double pixelsPerMeter);
 
     // Other looks, from the next picture on. False, and nothing changes: they need another image, order or
     // stream of corners.

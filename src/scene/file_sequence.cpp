@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
+#include "core/sandbox.h"
 #include "scene/scene_reader.h"
 
 namespace shoal {
@@ -54,12 +55,22 @@ std::vector<int> numbersIn(const Pattern& pattern) {
     std::vector<int> out;
     std::error_code code;
     const fs::path folder = pattern.folder.empty() ? fs::path(".") : pattern.folder;
+    if (!mayOpen(folder)) return out;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
         if (const int number = pattern.numberOf(entry.path().filename().string()); number >= 0)
             out.push_back(number);
     std::sort(out.begin(), out.end());
     return out;
 }
+
+}  // namespace
+
+void checkTimes(double before, double time, const Location& where) {
+    if (!(time - before >= leastPositive))
+        throw Error(where, concat("expected rising times, found ", before, " and then ", time));
+}
+
+namespace {
 
 std::vector<double> timesOf(JsonReader& r, size_t count) {
     std::vector<double> times;
@@ -69,9 +80,7 @@ std::vector<double> timesOf(JsonReader& r, size_t count) {
             throw Error(r.at("times"),
                         concat("expected ", count, " times, one a file, found ", times.size()));
         for (size_t i = 1; i < count; ++i)
-            if (!(times[i] - times[i - 1] >= leastPositive))
-                throw Error(r.at("times"),
-                            concat("expected rising times, found ", times[i - 1], " and then ", times[i]));
+            checkTimes(times[i - 1], times[i], r.at("times"));
         return times;
     }
     double frameRate = 0, start = 0;

@@ -22,5 +22,7 @@ FileSequence readFileSequence(JsonReader& reader);
 
 // The files that are there of a name with # for the number, in its order; none where it is no such name.
 std::vector<std::string> numberedFiles(const std::filesystem::path& path);
+// Error: a frame that does not come after the one before.
+void checkTimes(double before, double time, const Location& where);
 
 }  // namespace shoal

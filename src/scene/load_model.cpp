@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "scene/model_files.h"
 
 namespace shoal {
 
@@ -143,6 +144,7 @@ class Collector {
 }  // namespace
 
 Mesh loadMesh(const std::string& file) {
+    refuseOutside(file);
     const Location location{file, 0, 0, {}};
     std::error_code code;
     const auto status = std::filesystem::status(file, code);
@@ -151,6 +153,7 @@ Mesh loadMesh(const std::string& file) {
         throw Error(location, "is a folder, expected a model file");
 
     Assimp::Importer importer;
+    importer.SetIOHandler(new ModelFiles);  // which it deletes
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene || !scene->mRootNode)
         throw Error(location, concat("cannot be read as a model: ", importer.GetErrorString()));

@@ -1,26 +1,68 @@
 // "colliders" and "surfacePairs": what molecules meet, and how.
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "scene/height_field.h"
 #include "scene/scene_reader.h"
 
 namespace shoal {
 
-namespace {
-
-PlaneCollider readPlane(JsonReader& r) {
-    PlaneCollider plane;
-    r.get("point", plane.point);
-    getDirection(r, "normal", plane.normal);
-    return plane;
+template <typename V>
+static void members(V&& v, Either<PlaneCollider> auto& plane) {
+    v.number("point", plane.point);
+    v.direction("normal", plane.normal);
 }
 
-SphereCollider readSphere(JsonReader& r) {
-    SphereCollider sphere;
-    r.need("center", sphere.center);
-    r.need("radius", sphere.radius, aboveZero());
-    return sphere;
+template <typename V>
+static void members(V&& v, Either<SphereCollider> auto& sphere) {
+    v.number("center", sphere.center);
+    v.number("radius", sphere.radius, aboveZero());
+}
+
+template <typename V>
+static void members(V&& v, Either<BoxCollider> auto& box) {
+    v.number("center", box.center);
+    v.number("size", box.size, aboveZero());
+    v.rotation("rotation", box.rotation);
+}
+
+template <typename V>
+static void members(V&& v, Either<CapsuleCollider> auto& capsule) {
+    v.number("from", capsule.from);
+    v.number("to", capsule.to);
+    v.number("radius", capsule.radius, aboveZero());
+}
+
+template <typename V>
+static void members(V&& v, Either<Collider> auto& collider) {
+    v.number("restitution", collider.restitution, Range::between(0, 1));
+    v.number("friction", collider.friction, Range::atLeast(0));
+    v.flag("draw", collider.draw);
+    v.color("color", collider.color);
+}
+
+template <typename V>
+static void members(V&& v, Either<SurfaceRule> auto& rule) {
+    v.number("restitution", rule.restitution, Range::between(0, 1));
+    v.number("friction", rule.friction, Range::atLeast(0));
+}
+
+template <typename V>
+static void members(V&& v, Either<Pose> auto& pose) {
+    v.number("position", pose.position);
+    v.rotation("rotation", pose.rotation);
+}
+
+namespace {
+
+const Range thicknesses = Range::atLeast(0);
+
+void checkRectangle(const glm::dvec2& low, const glm::dvec2& high, const Where& where) {
+    for (int i = 0; i < 2; ++i)
+        if (!(low[i] < high[i]))
+            throw Error(where.at("high"), concat("expected high above low along ", i == 0 ? "x" : "z",
+                                                 ", found ", high[i], " against ", low[i]));
 }
 
 HeightFieldCollider readImageHeights(JsonReader& r) {
@@ -29,10 +71,7 @@ HeightFieldCollider readImageHeights(JsonReader& r) {
     r.need("low", low);
     r.need("high", high);
     r.need("heights", heights);
-    for (int i = 0; i < 2; ++i)
-        if (!(low[i] < high[i]))
-            throw Error(r.at("high"), concat("expected high above low along ", i == 0 ? "x" : "z", ", found ",
-                                             high[i], " against ", low[i]));
+    checkRectangle(low, high, r);
     const HeightImage image = readHeightPng(file);
     if (image.width < 2 || image.height < 2)
         throw Error(Location{file, 0, 0, {}}, concat("expected an image of at least 2 by 2 pixels, found ",
@@ -69,37 +108,12 @@ HeightFieldCollider readHeightField(JsonReader& r, const std::vector<Model>& mod
     return heights;
 }
 
-BoxCollider readBox(JsonReader& r) {
-    BoxCollider box;
-    r.need("center", box.center);
-    r.need("size", box.size, aboveZero());
-    getRotation(r, "rotation", box.rotation);
-    return box;
-}
-
-CapsuleCollider readCapsule(JsonReader& r) {
-    CapsuleCollider capsule;
-    r.need("from", capsule.from);
-    r.need("to", capsule.to);
-    r.need("radius", capsule.radius, aboveZero());
-    return capsule;
-}
-
-Pose readPose(JsonReader& r) {
-    Pose pose;
-    r.get("position", pose.position);
-    getRotation(r, "rotation", pose.rotation);
-    return pose;
-}
-
 // Rotations by the short way from one to the next.
 void addKeyframe(JsonReader& r, ColliderPath& path) {
     ColliderPath::Keyframe frame;
     r.need("time", frame.time);
-    if (!path.keyframes.empty() && !(frame.time > path.end()))
-        throw Error(r.at("time"), concat("expected a time after that of the keyframe before, ", path.end(),
-                                         " s, found ", frame.time));
-    frame.pose = readPose(r);
+    if (!path.keyframes.empty()) checkRises(frame.time, path.end(), r.at("time"));
+    frame.pose = readMembers<Pose>(r);
     r.finish();
     if (!path.keyframes.empty() && glm::dot(path.keyframes.back().pose.rotation, frame.pose.rotation) < 0)
         frame.pose.rotation = -frame.pose.rotation;
@@ -112,8 +126,15 @@ bool same(const Pose& a, const Pose& b) {
            std::abs(glm::dot(a.rotation, b.rotation)) > 1 - 1e-9;
 }
 
+void checkKeyframes(const ColliderPath& path, const Where& where) {
+    needTwoKeyframes(path.keyframes.size(), where.at("keyframes"));
+    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
+        throw Error(where.at("keyframes"),
+                    "expected the last pose to be the first again where the path repeats");
+}
+
 // A name of "between", which some collider or group must have.
-std::string needSurface(const JsonReader& r, const std::string& name, const std::vector<std::string>& known) {
+std::string needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
     if (std::find(known.begin(), known.end(), name) != known.end()) return name;
     throw Error(r.at("between"),
                 "no collider and no group has the surface \"" + name + "\"" +
@@ -134,7 +155,84 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
     return names;
 }
 
+void checkRule(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
+    if (!rule.restitution && !rule.friction)
+        throw Error(where.here(), "expected a \"restitution\" or a \"friction\" between the two");
+    for (const SurfaceRule& earlier : before)
+        if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
+            throw Error(where.at("between"),
+                        concat("\"", rule.a, "\" and \"", rule.b, "\" already have an entry"));
+}
+
+void checkHeights(const HeightFieldCollider& field, const Where& where) {
+    const CheckScene check(where);
+    check.number("columns", field.columns, Range::atLeast(2));
+    check.number("rows", field.rows, Range::atLeast(2));
+    check.number("low", field.low);
+    check.number("high", field.high);
+    checkRectangle(field.low, field.high, where);
+    const size_t samples = size_t(field.columns) * size_t(field.rows);
+    if (field.heights.size() != samples)
+        throw Error(where.at("heights"),
+                    concat("expected ", samples, " heights, found ", field.heights.size()));
+    for (size_t i = 0; i < samples; ++i)
+        if (!(std::abs(field.heights[i]) <= largestNumber)) check.number("heights", field.heights[i]);
+}
+
+void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
+    const DistanceField& field = collider.field;
+    if (field.distances.empty() || field.distances.size() != field.grid.count())
+        throw Error(where.at("field"),
+                    concat("expected ", field.grid.count(), " distances, one a sample of a grid, found ",
+                           field.distances.size()));
+}
+
+void checkShape(const ColliderShape& shape, const Where& where) {
+    if (const auto* heights = std::get_if<HeightFieldCollider>(&shape)) return checkHeights(*heights, where);
+    if (const auto* field = std::get_if<DistanceFieldCollider>(&shape)) return checkDistances(*field, where);
+    const CheckScene check(where);
+    if (const auto* plane = std::get_if<PlaneCollider>(&shape)) members(check, *plane);
+    if (const auto* sphere = std::get_if<SphereCollider>(&shape)) members(check, *sphere);
+    if (const auto* box = std::get_if<BoxCollider>(&shape)) members(check, *box);
+    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape)) members(check, *capsule);
+}
+
 }  // namespace
+
+void checkPath(const ColliderPath& path, const Where& where) {
+    for (size_t i = 0; i < path.keyframes.size(); ++i) {
+        const Where here = where.in("keyframes", i);
+        const CheckScene check(here);
+        check.number("time", path.keyframes[i].time);
+        if (i > 0) checkRises(path.keyframes[i].time, path.keyframes[i - 1].time, here.at("time"));
+        members(check, path.keyframes[i].pose);
+    }
+    checkKeyframes(path, where);
+}
+
+void checkColliders(const Scene& scene) {
+    const Where whole;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < scene.colliders.size(); ++i) {
+        const Collider& collider = scene.colliders[i];
+        const Where where = whole.in("colliders", i);
+        refuseRepeated(where, names, collider.name);
+        names.push_back(collider.name);
+        CheckScene(where).number("thickness", collider.thickness, thicknesses);
+        members(CheckScene(where), collider);
+        checkShape(collider.shape, where);
+        if (collider.path) checkPath(*collider.path, where.in("path"));
+    }
+    const std::vector<std::string> known = surfaceNames(scene.colliders, scene.groups);
+    for (size_t i = 0; i < scene.surfacePairs.size(); ++i) {
+        const SurfaceRule& rule = scene.surfacePairs[i];
+        const Where where = whole.in("surfacePairs", i);
+        needSurface(where, rule.a, known);
+        needSurface(where, rule.b, known);
+        members(CheckScene(where), rule);
+        checkRule(rule, std::span(scene.surfacePairs).first(i), where);
+    }
+}
 
 std::optional<ColliderPath> readPath(JsonReader& collider) {
     auto r = collider.object("path");
@@ -148,12 +246,7 @@ std::optional<ColliderPath> readPath(JsonReader& collider) {
     r->require("keyframes");
     for (JsonReader& frame : r->objects("keyframes"))
         addKeyframe(frame, path);
-    if (path.keyframes.size() < 2)
-        throw Error(r->at("keyframes"),
-                    concat("expected at least two keyframes, found ", path.keyframes.size()));
-    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
-        throw Error(r->at("keyframes"),
-                    "expected the last pose to be the first again where the path repeats");
+    checkKeyframes(path, *r);
     r->finish();
     return path;
 }
@@ -170,19 +263,16 @@ std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>&
         int type = 0;
         r.require("type");
         r.choose("type", {"plane", "sphere", "heightField", "box", "capsule", "distanceField"}, type);
-        r.get("thickness", collider.thickness, Range::atLeast(0));
-        if (type == 0) collider.shape = readPlane(r);
-        if (type == 1) collider.shape = readSphere(r);
+        r.get("thickness", collider.thickness, thicknesses);
+        if (type == 0) collider.shape = readMembers<PlaneCollider>(r);
+        if (type == 1) collider.shape = readMembers<SphereCollider>(r, {"center", "radius"});
         if (type == 2) collider.shape = readHeightField(r, models, warnings);
-        if (type == 3) collider.shape = readBox(r);
-        if (type == 4) collider.shape = readCapsule(r);
+        if (type == 3) collider.shape = readMembers<BoxCollider>(r, {"center", "size"});
+        if (type == 4) collider.shape = readMembers<CapsuleCollider>(r, {"from", "to", "radius"});
         if (type == 5) collider.shape = readDistanceField(r, models, collider.thickness, baking, warnings);
         getSurface(r, collider.surface);
-        r.get("restitution", collider.restitution, Range::between(0, 1));
-        r.get("friction", collider.friction, Range::atLeast(0));
+        members(ReadScene(r), collider);
         collider.path = readPath(r);
-        r.get("draw", collider.draw);
-        getColor(r, "color", collider.color);
         r.finish();
         colliders.push_back(std::move(collider));
     }
@@ -209,14 +299,8 @@ std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<C
         SurfaceRule rule;
         rule.a = needSurface(r, between[0], known);
         rule.b = needSurface(r, between[1], known);
-        getOptional(r, "restitution", rule.restitution, Range::between(0, 1));
-        getOptional(r, "friction", rule.friction, Range::atLeast(0));
-        if (!rule.restitution && !rule.friction)
-            throw Error(r.here(), "expected a \"restitution\" or a \"friction\" between the two");
-        for (const SurfaceRule& earlier : rules)
-            if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
-                throw Error(r.at("between"),
-                            concat("\"", rule.a, "\" and \"", rule.b, "\" already have an entry"));
+        members(ReadScene(r), rule);
+        checkRule(rule, rules, r);
         r.finish();
         rules.push_back(std::move(rule));
     }

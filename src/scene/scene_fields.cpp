@@ -1,6 +1,7 @@
 // "fields": what moves the fluid.
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "core/file.h"
@@ -10,21 +11,100 @@
 
 namespace shoal {
 
+template <typename V>
+static void members(V&& v, Either<UniformField> auto& field) {
+    v.number("velocity", field.velocity);
+}
+
+template <typename V>
+static void members(V&& v, Either<OscillatingField> auto& field) {
+    v.number("velocity", field.velocity);
+    v.number("frequency", field.frequency, Range::atLeast(0));
+    v.number("phase", field.phase);
+}
+
+template <typename V>
+static void members(V&& v, Either<GustField> auto& field) {
+    v.direction("direction", field.direction);
+    v.number("speed", field.speed);
+    v.number("strength", field.strength, Range::atLeast(0));
+    v.number("length", field.length, aboveZero());
+    v.number("width", field.width, aboveZero());
+    v.number("frontSpeed", field.frontSpeed);
+}
+
+template <typename V>
+static void members(V&& v, Either<ShearField> auto& field) {
+    v.number("origin", field.origin);
+    v.number("velocity", field.velocity);
+}
+
+template <typename V>
+static void members(V&& v, Either<VortexField> auto& field) {
+    v.number("origin", field.origin);
+    v.direction("axis", field.axis);
+    v.number("speed", field.speed);
+    v.number("radius", field.radius, aboveZero());
+    v.number("lift", field.lift);
+}
+
+template <typename V>
+static void members(V&& v, Either<AbcField> auto& field) {
+    v.number("origin", field.origin);
+    v.number("a", field.a);
+    v.number("b", field.b);
+    v.number("c", field.c);
+    v.number("wavelength", field.wavelength, aboveZero());
+}
+
+template <typename V>
+static void members(V&& v, Either<TaylorGreenField> auto& field) {
+    v.number("origin", field.origin);
+    v.number("speed", field.speed);
+    v.number("wavelength", field.wavelength, aboveZero());
+}
+
+template <typename V>
+static void members(V&& v, Either<CurlNoiseField> auto& field) {
+    v.number("speed", field.speed, Range::atLeast(0));
+    v.number("length", field.length, aboveZero());
+    v.number("period", field.period, aboveZero());
+    v.number("octaves", field.octaves, Range::between(1, 4));
+}
+
+template <typename V>
+static void members(V&& v, Either<WaveTrain> auto& train) {
+    v.number("direction", train.direction);
+    v.number("amplitude", train.amplitude, Range::atLeast(0));
+    v.number("wavelength", train.wavelength, aboveZero());
+    v.number("phase", train.phase);
+}
+
+template <typename V>
+static void members(V&& v, Either<WavesField> auto& field) {
+    v.number("origin", field.origin);
+    v.number("depth", field.depth, aboveZero());
+    v.number("gravity", field.gravity, aboveZero());
+}
+
+template <typename V>
+static void members(V&& v, Either<HurricaneField> auto& field) {
+    v.number("origin", field.origin);
+    v.number("speed", field.speed);
+    v.number("radius", field.radius, aboveZero());
+    v.number("shape", field.shape, Range::between(0.5, 3));
+    v.number("inflow", field.inflow, Range::between(0, 1.2));
+    v.number("height", field.height, aboveZero());
+    v.number("coriolis", field.coriolis, Range::between(0, 1));
+}
+
+template <typename V>
+static void members(V&& v, Either<Field> auto& field) {
+    v.number("weight", field.weight);
+    v.box("box", field.box);
+}
+
 namespace {
-
-UniformField readUniform(JsonReader& r) {
-    UniformField field;
-    r.need("velocity", field.velocity);
-    return field;
-}
-
-OscillatingField readOscillating(JsonReader& r) {
-    OscillatingField field;
-    r.need("velocity", field.velocity);
-    r.need("frequency", field.frequency, Range::atLeast(0));
-    r.get("phase", field.phase);
-    return field;
-}
 
 uint32_t getSeed(JsonReader& r) {
     uint64_t seed = 0;
@@ -33,23 +113,15 @@ uint32_t getSeed(JsonReader& r) {
     return static_cast<uint32_t>(seed);
 }
 
-GustField readGust(JsonReader& r) {
-    GustField field;
-    getDirection(r, "direction", field.direction);
-    r.get("speed", field.speed);
-    r.get("strength", field.strength, Range::atLeast(0));
-    r.get("length", field.length, aboveZero());
-    r.get("width", field.width, aboveZero());
-    r.get("frontSpeed", field.frontSpeed);
+template <typename Noise>
+Noise readSeeded(JsonReader& r) {
+    Noise field = readMembers<Noise>(r);
     field.seed = getSeed(r);
     return field;
 }
 
 ShearField readShear(JsonReader& r) {
-    ShearField field;
-    r.get("origin", field.origin);
-    r.get("velocity", field.velocity);
-    r.require("gradient");
+    ShearField field = readMembers<ShearField>(r, {"gradient"});
     const JsonValue* rows = r.raw("gradient");
     std::vector<double> numbers;
     if (rows->kind == JsonValue::Kind::array)
@@ -65,86 +137,36 @@ ShearField readShear(JsonReader& r) {
     return field;
 }
 
-VortexField readVortex(JsonReader& r) {
-    VortexField field;
-    r.get("origin", field.origin);
-    getDirection(r, "axis", field.axis);
-    r.get("speed", field.speed);
-    r.get("radius", field.radius, aboveZero());
-    r.get("lift", field.lift);
-    return field;
+void checkTrain(const WaveTrain& train, const WavesField& field, const Where& where) {
+    if (train.direction.x == 0 && train.direction.z == 0)
+        throw Error(where.at("direction"),
+                    "expected a direction with a part along x or z: waves travel level");
+    const double most = train.wavelength / (2 * std::numbers::pi);
+    if (train.amplitude >= most)
+        throw Error(where.at("amplitude"),
+                    concat("expected less than ", most, " m: crests of ", train.wavelength,
+                           " m length would curl over, found ", train.amplitude));
+    if (field.depth && train.amplitude >= *field.depth)
+        throw Error(where.at("amplitude"),
+                    concat("expected less than the depth of ", *field.depth, " m, found ", train.amplitude));
 }
 
-AbcField readAbc(JsonReader& r) {
-    AbcField field;
-    r.get("origin", field.origin);
-    r.get("a", field.a);
-    r.get("b", field.b);
-    r.get("c", field.c);
-    r.get("wavelength", field.wavelength, aboveZero());
-    return field;
-}
-
-TaylorGreenField readTaylorGreen(JsonReader& r) {
-    TaylorGreenField field;
-    r.get("origin", field.origin);
-    r.get("speed", field.speed);
-    r.get("wavelength", field.wavelength, aboveZero());
-    return field;
-}
-
-CurlNoiseField readCurlNoise(JsonReader& r) {
-    CurlNoiseField field;
-    r.get("speed", field.speed, Range::atLeast(0));
-    r.get("length", field.length, aboveZero());
-    r.get("period", field.period, aboveZero());
-    r.get("octaves", field.octaves, Range::between(1, 4));
-    field.seed = getSeed(r);
-    return field;
+void checkTrainCount(size_t count, const Where& where) {
+    constexpr size_t most = 32;
+    if (count == 0 || count > most)
+        throw Error(where.at("trains"), concat("expected 1 to ", most, " trains, found ", count));
 }
 
 WavesField readWaves(JsonReader& r) {
-    WavesField field;
-    r.get("origin", field.origin);
-    getOptional(r, "depth", field.depth, aboveZero());
-    r.get("gravity", field.gravity, aboveZero());
-    r.require("trains");
+    WavesField field = readMembers<WavesField>(r, {"trains"});
     for (JsonReader& t : r.objects("trains")) {
-        WaveTrain train;
-        t.get("direction", train.direction);
+        WaveTrain train = readMembers<WaveTrain>(t, {"amplitude", "wavelength"});
         train.direction.y = 0;
-        if (!(glm::length(train.direction) > 0))
-            throw Error(t.at("direction"),
-                        "expected a direction with a part along x or z: waves travel level");
-        t.need("amplitude", train.amplitude, Range::atLeast(0));
-        t.need("wavelength", train.wavelength, aboveZero());
-        t.get("phase", train.phase);
-        const double most = train.wavelength / (2 * std::numbers::pi);
-        if (train.amplitude >= most)
-            throw Error(t.at("amplitude"),
-                        concat("expected less than ", most, " m: crests of ", train.wavelength,
-                               " m length would curl over, found ", train.amplitude));
-        if (field.depth && train.amplitude >= *field.depth)
-            throw Error(t.at("amplitude"), concat("expected less than the depth of ", *field.depth,
-                                                  " m, found ", train.amplitude));
+        checkTrain(train, field, t);
         t.finish();
         field.trains.push_back(train);
     }
-    constexpr size_t most = 32;
-    if (field.trains.empty() || field.trains.size() > most)
-        throw Error(r.at("trains"), concat("expected 1 to ", most, " trains, found ", field.trains.size()));
-    return field;
-}
-
-HurricaneField readHurricane(JsonReader& r) {
-    HurricaneField field;
-    r.get("origin", field.origin);
-    r.get("speed", field.speed);
-    r.get("radius", field.radius, aboveZero());
-    r.get("shape", field.shape, Range::between(0.5, 3));
-    r.get("inflow", field.inflow, Range::between(0, 1.2));
-    r.get("height", field.height, aboveZero());
-    r.get("coriolis", field.coriolis, Range::between(0, 1));
+    checkTrainCount(field.trains.size(), r);
     return field;
 }
 
@@ -193,28 +215,62 @@ FieldShape readShape(JsonReader& r) {
              type);
     switch (type) {
     case 0:
-        return readUniform(r);
+        return readMembers<UniformField>(r, {"velocity"});
     case 1:
-        return readOscillating(r);
+        return readMembers<OscillatingField>(r, {"velocity", "frequency"});
     case 2:
-        return readGust(r);
+        return readSeeded<GustField>(r);
     case 3:
         return readShear(r);
     case 4:
-        return readVortex(r);
+        return readMembers<VortexField>(r);
     case 5:
-        return readAbc(r);
+        return readMembers<AbcField>(r);
     case 6:
-        return readTaylorGreen(r);
+        return readMembers<TaylorGreenField>(r);
     case 7:
-        return readCurlNoise(r);
+        return readSeeded<CurlNoiseField>(r);
     case 8:
         return readGrid(r);
     case 9:
         return readWaves(r);
     default:
-        return readHurricane(r);
+        return readMembers<HurricaneField>(r);
     }
+}
+
+// What a shape has besides its numbers.
+template <typename Shape>
+void checkShape(const Shape& shape, const Where& where) {
+    members(CheckScene(where), shape);
+    if constexpr (std::is_same_v<Shape, ShearField>)
+        for (int column = 0; column < 3; ++column)
+            CheckScene(where).number("gradient", shape.gradient[column]);
+    if constexpr (std::is_same_v<Shape, WavesField>) {
+        checkTrainCount(shape.trains.size(), where);
+        for (size_t i = 0; i < shape.trains.size(); ++i) {
+            const Where train = where.in("trains", i);
+            members(CheckScene(train), shape.trains[i]);
+            checkTrain(shape.trains[i], shape, train);
+        }
+    }
+}
+
+void checkGrid(const GridField& grid, const Where& where) {
+    countCells(grid.resolution, where.at("resolution"));
+    const size_t frames = std::max<size_t>(1, grid.times.size());
+    if (grid.values.size() != grid.cells() * frames)
+        throw Error(where.at("values"),
+                    concat("expected ", grid.cells() * frames, " values, one a cell",
+                           frames > 1 ? " and frame" : "", ", found ", grid.values.size()));
+    checkBox({grid.low, grid.high}, false, where.at("high"));
+    for (const glm::vec3& value : grid.values)
+        for (int c = 0; c < 3; ++c)
+            if (!(std::abs(value[c]) <= largestNumber))
+                throw Error(where.at("values"), "expected finite numbers within single precision");
+    if (grid.times.size() == 1) throw Error(where.at("times"), "expected at least two times, found 1");
+    for (size_t i = 1; i < grid.times.size(); ++i)
+        checkTimes(grid.times[i - 1], grid.times[i], where.at("times"));
 }
 
 }  // namespace
@@ -227,13 +283,31 @@ std::vector<Field> readFields(JsonReader& scene) {
         r.get("name", field.name);
         refuseRepeated(r, names, field.name);
         field.shape = readShape(r);
-        r.get("weight", field.weight);
-        if (Box box; getBox(r, "box", box)) field.box = box;
+        members(ReadScene(r), field);
         r.finish();
         names.push_back(field.name);
         fields.push_back(std::move(field));
     }
     return fields;
+}
+
+void checkFields(const std::vector<Field>& fields) {
+    const Where whole;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < fields.size(); ++i) {
+        const Where where = whole.in("fields", i);
+        refuseRepeated(where, names, fields[i].name);
+        names.push_back(fields[i].name);
+        members(CheckScene(where), fields[i]);
+        std::visit(
+            [&](const auto& shape) {
+                if constexpr (std::is_same_v<std::decay_t<decltype(shape)>, GridField>)
+                    checkGrid(shape, where);
+                else
+                    checkShape(shape, where);
+            },
+            fields[i].shape);
+    }
 }
 
 }  // namespace shoal

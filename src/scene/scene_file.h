@@ -18,6 +18,10 @@ Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolde
 Scene parseScene(const std::string& text, const std::string& file,
                  const FieldBaking& baking = {cacheFolder(), {}});
 
+// The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
+// of what is wrong and no file. What only files say (which keys go together) is not asked.
+void checkScene(const Scene& scene);
+
 // A group holds at most this many molecules: single precision counts them one by one no further.
 inline constexpr int maxGroupCount = 1 << 24;
 

@@ -6,6 +6,7 @@
 
 #include "core/file.h"
 #include "core/json.h"
+#include "core/sandbox.h"
 #include "scene/file_sequence.h"
 
 namespace shoal {
@@ -54,6 +55,7 @@ class Collector {
 
     // They stand before the faces that use them, as a rule at the beginning.
     void addMaterials(const fs::path& file) {
+        if (!mayOpen(file)) return;
         constexpr int most = 200;  // lines
         std::ifstream in(file);
         std::string line;

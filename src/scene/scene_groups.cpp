@@ -3,18 +3,124 @@
 #include <cmath>
 
 #include "molecule/molecule_file.h"
+#include "molecule/rules.h"
 #include "scene/scene_file.h"
 #include "scene/scene_reader.h"
 
 namespace shoal {
 
+template <typename V>
+static void members(V&& v, Either<Placement::Item> auto& item) {
+    v.number("position", item.position);
+    v.rotation("rotation", item.rotation);
+    v.number("scale", item.scale, aboveZero());
+}
+
+// But for those of where it is, which differ.
+template <typename V>
+static void members(V&& v, Either<Placement> auto& place) {
+    v.word("turn", place.turn, {"none", "yaw", "any"});
+    v.number("tilt", place.tilt, Range::between(0, 3.141592653589794));
+    v.number("droop", place.droop, Range::between(0, 1));
+    v.span("scale", place.scale, aboveZero());
+    v.number("offset", place.offset);
+}
+
+template <typename V>
+static void members(V&& v, Either<Selection> auto& select) {
+    v.number("thinnest", select.thinnest, Range{0, 1, true});
+    v.number("maxThickness", select.maxThickness, aboveZero());
+    v.color("color", select.color);
+    v.number("colorTolerance", select.colorTolerance, Range::atLeast(0));
+    v.number("minHeight", select.minHeight);
+    v.number("maxHeight", select.maxHeight);
+}
+
+template <typename V>
+static void members(V&& v, Either<Drag> auto& drag) {
+    v.number("normal", drag.normal, Range::atLeast(0));
+    v.number("tangent", drag.tangent, Range::atLeast(0));
+}
+
+template <typename V>
+static void members(V&& v, Either<Release> auto& release) {
+    v.number("force", release.force, aboveZero());
+    v.number("rate", release.rate, aboveZero());
+    v.number("after", release.after, Range::atLeast(0));
+}
+
+template <typename V>
+static void members(V&& v, Either<GroupContact> auto& contact) {
+    v.number("radius", contact.radius, aboveZero());
+    v.flag("triangles", contact.triangles);
+    v.flag("self", contact.self);
+}
+
+// The numbers of the group itself.
+template <typename V>
+static void members(V&& v, Either<Group> auto& group) {
+    v.number("stiffness", group.stiffness, Range::atLeast(0));
+    v.number("damping", group.damping, Range::atLeast(0));
+    v.number("velocity", group.velocity);
+    v.number("spin", group.spin);
+    v.number("phaseSpread", group.phaseSpread, Range::atLeast(0));
+    v.flag("collide", group.collide);
+    v.number("restitution", group.restitution, Range::between(0, 1));
+    v.number("friction", group.friction, Range::atLeast(0));
+    v.color("color", group.color);
+    v.color("secondColor", group.secondColor);
+}
+
 namespace {
+
+constexpr const char* noGroups = "expected at least one group, found none";
+const std::vector<std::string> placeWords = {"vertices", "surface", "volume", "grid", "list"};
+const std::vector<std::string> alignWords = {"none", "up", "normal"};
+const Range cellCounts = Range::between(1, maxGroupCount);
+
+bool onModel(const Placement& place) {
+    return place.kind == Placement::Kind::vertices || place.kind == Placement::Kind::surface;
+}
+
+void checkAlign(const Placement& place, const Where& where) {
+    if (place.align == Placement::Align::normal && !onModel(place))
+        throw Error(where.at("align"),
+                    "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
+}
+
+void checkItems(const Placement& place, const Where& where) {
+    if (place.items.empty()) throw Error(where.at("items"), "expected at least one item");
+}
+
+void checkRelease(const Release& release, const Where& where) {
+    if (!release.force && !release.rate)
+        throw Error(where.here(), "expected a \"force\" or a \"rate\" at which pins let go");
+}
+
+void checkSurfaced(const GroupContact& contact, const Molecule& molecule, const Where& where) {
+    if (contact.triangles && molecule.triangles.empty())
+        throw Error(where.at("triangles"), "the molecule has no triangles");
+}
+
+void checkSelection(const Selection& select, const Model& model, const Where& where) {
+    if (!select.object.empty()) {
+        std::vector<std::string> names;
+        for (const Mesh::Object& object : model.mesh.objects)
+            names.push_back(object.name);
+        if (std::find(names.begin(), names.end(), select.object) == names.end())
+            throw Error(where.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
+                                                "\"" + suggestion(select.object, names));
+    }
+    if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
+        throw Error(where.at("maxHeight"), concat("expected maxHeight of at least minHeight (",
+                                                  *select.minHeight, "), found ", *select.maxHeight));
+}
 
 void readGrid(JsonReader& r, Placement& place) {
     r.get("origin", place.origin);
     r.need("spacing", place.spacing);
     std::vector<int> cells;
-    r.need("cells", cells, Range::between(1, maxGroupCount));
+    r.need("cells", cells, cellCounts);
     if (cells.size() != 3)
         throw Error(r.at("cells"), concat("expected three whole numbers, found ", cells.size()));
     place.cells = {cells[0], cells[1], cells[2]};
@@ -23,14 +129,10 @@ void readGrid(JsonReader& r, Placement& place) {
 void readItems(JsonReader& r, Placement& place) {
     r.require("items");
     for (JsonReader& entry : r.objects("items")) {
-        Placement::Item item;
-        entry.get("position", item.position);
-        getRotation(entry, "rotation", item.rotation);
-        entry.get("scale", item.scale, aboveZero());
+        place.items.push_back(readMembers<Placement::Item>(entry));
         entry.finish();
-        place.items.push_back(item);
     }
-    if (place.items.empty()) throw Error(r.at("items"), "expected at least one item");
+    checkItems(place, r);
 }
 
 void readHost(JsonReader& r, Placement& place, const std::vector<Model>& models) {
@@ -58,25 +160,14 @@ void readHost(JsonReader& r, Placement& place, const std::vector<Model>& models)
 
 Placement readPlacement(JsonReader& r, const std::vector<Model>& models) {
     Placement place;
-    int kind = 0, align = 0, turn = 0;
+    int kind = 0;
     r.require("on");
-    r.choose("on", {"vertices", "surface", "volume", "grid", "list"}, kind);
+    r.choose("on", placeWords, kind);
     place.kind = static_cast<Placement::Kind>(kind);
     readHost(r, place, models);
-
-    if (r.choose("align", {"none", "up", "normal"}, align)) {
-        place.align = static_cast<Placement::Align>(align);
-        const bool hasNormals =
-            place.kind == Placement::Kind::vertices || place.kind == Placement::Kind::surface;
-        if (place.align == Placement::Align::normal && !hasNormals)
-            throw Error(r.at("align"),
-                        "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
-    }
-    if (r.choose("turn", {"none", "yaw", "any"}, turn)) place.turn = static_cast<Placement::Turn>(turn);
-    r.get("tilt", place.tilt, Range::between(0, 3.141592653589794));
-    r.get("droop", place.droop, Range::between(0, 1));
-    getSpan(r, "scale", place.scale, aboveZero());
-    r.get("offset", place.offset);
+    ReadScene(r).word("align", place.align, alignWords);
+    checkAlign(place, r);
+    members(ReadScene(r), place);
     r.finish();
     return place;
 }
@@ -89,21 +180,24 @@ double placesOf(const Placement& place) {
     return cells.x * cells.y * cells.z;
 }
 
-int readCount(JsonReader& r, const Placement& place) {
+void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
-    double count = places;
-    if (places == 0) r.require("count");
-    if (r.get("count", count, Range::any())) {
-        if (count != std::floor(count) || count < 1)
-            throw Error(r.at("count"), concat("expected a whole count of at least 1, found ", count));
-        if (places > 0 && count > places)
-            throw Error(r.at("count"), concat("expected a count of at most ", places,
-                                              ", the number of places, found ", count));
-    }
+    if (count != std::floor(count) || count < 1)
+        throw Error(where.at("count"), concat("expected a whole count of at least 1, found ", count));
+    if (places > 0 && count > places)
+        throw Error(where.at("count"),
+                    concat("expected a count of at most ", places, ", the number of places, found ", count));
     if (count > maxGroupCount)
-        throw Error(r.at("count"), concat("expected a count of at most ", maxGroupCount,
-                                          " (2^24: single precision counts no further), found ",
-                                          static_cast<long long>(std::min(count, 1e18))));
+        throw Error(where.at("count"), concat("expected a count of at most ", maxGroupCount,
+                                              " (2^24: single precision counts no further), found ",
+                                              static_cast<long long>(std::min(count, 1e18))));
+}
+
+int readCount(JsonReader& r, const Placement& place) {
+    double count = placesOf(place);
+    if (count == 0) r.require("count");
+    r.get("count", count, Range::any());
+    checkCount(count, place, r);
     return static_cast<int>(count);
 }
 
@@ -112,8 +206,7 @@ void readDrag(JsonReader& r, Drag& drag) {
     if (!value) return;
     if (value->kind == JsonValue::Kind::object) {
         auto parts = r.object("drag");
-        parts->need("normal", drag.normal, Range::atLeast(0));
-        parts->need("tangent", drag.tangent, Range::atLeast(0));
+        drag = readMembers<Drag>(*parts, {"normal", "tangent"});
         parts->finish();
         return;
     }
@@ -125,12 +218,8 @@ void readRelease(JsonReader& r, Group& group, std::vector<Warning>& warnings) {
     r.get("held", group.held);
     auto release = r.object("release");
     if (!release) return;
-    Release out;
-    getOptional(*release, "force", out.force, aboveZero());
-    getOptional(*release, "rate", out.rate, aboveZero());
-    release->get("after", out.after, Range::atLeast(0));
-    if (!out.force && !out.rate)
-        throw Error(release->here(), "expected a \"force\" or a \"rate\" at which pins let go");
+    const Release out = readMembers<Release>(*release);
+    checkRelease(out, *release);
     release->finish();
     if (!group.held)
         throw Error(r.at("release"),
@@ -143,12 +232,9 @@ void readRelease(JsonReader& r, Group& group, std::vector<Warning>& warnings) {
 void readContact(JsonReader& r, Group& group) {
     auto contact = r.object("contact");
     if (!contact) return;
-    GroupContact out;
+    GroupContact out = readMembers<GroupContact>(*contact, {"radius"});
     out.location = contact->here();
-    contact->need("radius", out.radius, aboveZero());
-    if (contact->get("triangles", out.triangles) && out.triangles && group.molecule.triangles.empty())
-        throw Error(contact->at("triangles"), "the molecule has no triangles");
-    contact->get("self", out.self);
+    checkSurfaced(out, group.molecule, *contact);
     contact->finish();
     group.contact = out;
 }
@@ -188,18 +274,9 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
 
     readDrag(r, group.drag);
     readRelease(r, group, warnings);
-    r.get("stiffness", group.stiffness, Range::atLeast(0));
-    r.get("damping", group.damping, Range::atLeast(0));
-    r.get("velocity", group.velocity);
-    r.get("spin", group.spin);
-    r.get("phaseSpread", group.phaseSpread, Range::atLeast(0));
-    r.get("collide", group.collide);
+    members(ReadScene(r), group);
     readContact(r, group);
     getSurface(r, group.surface);
-    r.get("restitution", group.restitution, Range::between(0, 1));
-    r.get("friction", group.friction, Range::atLeast(0));
-    getColor(r, "color", group.color);
-    getColor(r, "secondColor", group.secondColor);
     group.colorBy = readColorScale(r);
     const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
     if (group.particle && forEver)
@@ -212,30 +289,75 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
 }  // namespace
 
 Selection readSelection(JsonReader& r, const Model& model) {
-    Selection select;
-    getOptional(r, "thinnest", select.thinnest, Range{0, 1, true});
-    getOptional(r, "maxThickness", select.maxThickness, aboveZero());
-    if (r.get("object", select.object)) {
-        std::vector<std::string> names;
-        for (const Mesh::Object& object : model.mesh.objects)
-            names.push_back(object.name);
-        bool known = false;
-        for (const std::string& name : names)
-            known = known || name == select.object;
-        if (!known)
-            throw Error(r.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
-                                            "\"" + suggestion(select.object, names));
-    }
-    getColor(r, "color", select.color);
-    if (r.get("colorTolerance", select.colorTolerance, Range::atLeast(0)) && !select.color)
+    auto select = readMembers<Selection>(r);
+    if (r.get("object", select.object) && select.object.empty())
+        throw Error(r.at("object"), "expected the name of an object, found an empty string");
+    if (r.has("colorTolerance") && !select.color)
         throw Error(r.at("colorTolerance"), "colorTolerance needs a color");
-    getOptional(r, "minHeight", select.minHeight, Range::any());
-    getOptional(r, "maxHeight", select.maxHeight, Range::any());
-    if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
-        throw Error(r.at("maxHeight"), concat("expected maxHeight of at least minHeight (", *select.minHeight,
-                                              "), found ", *select.maxHeight));
+    checkSelection(select, model, r);
     r.finish();
     return select;
+}
+
+static void checkPlace(const Placement& place, const std::vector<Model>& models, const Where& where) {
+    const CheckScene check(where);
+    check.word("on", place.kind, placeWords);
+    check.word("align", place.align, alignWords);
+    checkAlign(place, where);
+    members(check, place);
+    if (onModel(place)) {
+        checkModel(place.model, models, where.at("model"));
+        const Where select = where.in("select");
+        members(CheckScene(select), place.select);
+        checkSelection(place.select, models[size_t(place.model)], select);
+    }
+    if (place.kind == Placement::Kind::volume) check.box("box", place.box, true);
+    if (place.kind == Placement::Kind::grid) {
+        check.number("origin", place.origin);
+        check.number("spacing", place.spacing);
+        for (int i = 0; i < 3; ++i)
+            check.number(concat("cells[", i, "]"), place.cells[i], cellCounts);
+    }
+    if (place.kind != Placement::Kind::list) return;
+    checkItems(place, where);
+    for (size_t i = 0; i < place.items.size(); ++i) {
+        const Where item = where.in("items", i);
+        members(CheckScene(item), place.items[i]);
+    }
+}
+
+static void checkGroup(const Group& group, const std::vector<Model>& models, const Where& where) {
+    checkMolecule(group.molecule, where.in("molecule"));
+    if (group.particle) checkParticle(*group.particle, where.in("particle"));
+    if (group.count != 0 || !group.life) {
+        checkPlace(group.place, models, where.in("place"));
+        checkCount(group.count, group.place, where);
+    }
+    if (group.life) checkLife(group, models, where);
+    if (group.school) checkSchool(*group.school, where.in("school"));
+    const Where drag = where.in("drag");
+    members(CheckScene(drag), group.drag);
+    if (group.release) {
+        const Where release = where.in("release");
+        members(CheckScene(release), *group.release);
+        checkRelease(*group.release, release);
+    }
+    members(CheckScene(where), group);
+    if (group.contact) {
+        const Where contact = where.in("contact");
+        members(CheckScene(contact), *group.contact);
+        checkSurfaced(*group.contact, group.molecule, contact);
+    }
+    if (group.colorBy) checkColorScale(*group.colorBy, where.in("colorBy"));
+}
+
+void checkGroups(const std::vector<Group>& groups, const std::vector<Model>& models) {
+    const Where whole;
+    if (groups.empty()) throw Error(whole.at("groups"), noGroups);
+    for (size_t i = 0; i < groups.size(); ++i)
+        checkGroup(groups[i], models, whole.in("groups", i));
+    checkDeaths(groups);
+    checkSchools(groups);
 }
 
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
@@ -248,7 +370,7 @@ std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& model
         if (r.has("name")) refuseRepeated(r, names, groups.back().name);
         names.push_back(groups.back().name);
     }
-    if (groups.empty()) throw Error(scene.at("groups"), "expected at least one group, found none");
+    if (groups.empty()) throw Error(scene.at("groups"), noGroups);
     checkDeaths(groups);
     checkSchools(groups);
     return groups;

@@ -8,17 +8,82 @@
 
 namespace shoal {
 
+static constexpr double pi = 3.14159265358979323846;
+
+template <typename V>
+static void members(V&& v, Either<Burst> auto& burst) {
+    v.number("time", burst.time, Range::atLeast(0));
+    v.number("count", burst.count, Range::between(1, maxGroupCount));
+    v.unlessZero("every", burst.every, aboveZero());
+}
+
+// But for those of the place, which differ.
+template <typename V>
+static void members(V&& v, Either<Emitter> auto& emitter) {
+    v.direction("direction", emitter.direction);
+    v.number("spread", emitter.spread, Range::between(0, pi + 1e-9));
+    v.span("speed", emitter.speed, Range::atLeast(0));
+}
+
+// When it bears, unless deaths do.
+template <typename V>
+static void timesOf(V&& v, Either<Emitter> auto& emitter) {
+    v.number("rate", emitter.rate, Range::atLeast(0));
+    v.flag("random", emitter.random);
+    v.number("begin", emitter.begin, Range::atLeast(0));
+}
+
+// Of newborn molecules: points have no shape to scale or turn.
+template <typename V>
+static void newbornOf(V&& v, Either<Lifecycle> auto& life) {
+    v.span("scale", life.scale, aboveZero());
+    v.word("turn", life.turn, {"none", "yaw", "any"});
+    v.number("spin", life.spin, Range::atLeast(0));
+    v.number("grow", life.grow, Range::atLeast(0));
+    v.number("shrink", life.shrink, Range::atLeast(0));
+}
+
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+const std::vector<std::string> fromWords = {"point", "line", "disc", "sphere", "box", "surface", "death"};
+const std::vector<std::string> alongWords = {"direction", "outward"};
+const std::vector<std::string> allocatorWords = {"gpu", "ring", "stack", "heap"};
+const Range capacities = Range::between(1, maxGroupCount), perDeaths = Range::between(1, 1024);
 
 Burst readBurst(JsonReader& r) {
-    Burst burst;
-    r.get("time", burst.time, Range::atLeast(0));
-    r.need("count", burst.count, Range::between(1, maxGroupCount));
-    r.get("every", burst.every, aboveZero());
+    const Burst burst = readMembers<Burst>(r, {"count"});
     r.finish();
     return burst;
+}
+
+void checkArea(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
+    if (!(selectedArea(models[size_t(emitter.model)].mesh, emitter.select) > 0))
+        throw Error(where.here(),
+                    concat("nothing of model \"", models[size_t(emitter.model)].name,
+                           "\" matches the selection, expected triangles with an area to emit from"));
+}
+
+void checkEnd(const Emitter& emitter, const Where& where) {
+    if (!(emitter.end > emitter.begin))
+        throw Error(where.at("until"),
+                    concat("expected a time after \"begin\" (", emitter.begin, " s), found ", emitter.end));
+}
+
+void checkAlong(const Emitter& emitter, const Where& where) {
+    if (emitter.along == Emitter::Along::outward &&
+        (emitter.from == Emitter::From::line || emitter.from == Emitter::From::box))
+        throw Error(where.at("along"), "nothing is outward of a line or a box: expected a \"direction\"");
+}
+
+void checkMoves(const Emitter& emitter, const Where& where) {
+    if (emitter.from == Emitter::From::surface || emitter.from == Emitter::From::death)
+        throw Error(where.at("path"), "an emitter from a surface or from deaths does not move by itself");
+}
+
+void checkCapacity(int count, const Lifecycle& life, const Where& where) {
+    if (life.capacity < count)
+        throw Error(where.at("capacity"), concat("expected a capacity of at least the count at the start, ",
+                                                 count, ", found ", life.capacity));
 }
 
 // The keys of one kind of place.
@@ -46,10 +111,7 @@ void readFrom(JsonReader& r, Emitter& emitter, const std::vector<Model>& models)
         emitter.model = needModel(r, "model", models);
         if (auto chosen = r.object("select"))
             emitter.select = readSelection(*chosen, models[size_t(emitter.model)]);
-        if (!(selectedArea(models[size_t(emitter.model)].mesh, emitter.select) > 0))
-            throw Error(r.here(),
-                        concat("nothing of model \"", models[size_t(emitter.model)].name,
-                               "\" matches the selection, expected triangles with an area to emit from"));
+        checkArea(emitter, models, r);
         break;
     case From::death:
         r.need("of", emitter.group);
@@ -59,15 +121,11 @@ void readFrom(JsonReader& r, Emitter& emitter, const std::vector<Model>& models)
 
 void readWhen(JsonReader& r, Emitter& emitter) {
     if (emitter.from == Emitter::From::death) {
-        r.get("count", emitter.perDeath, Range::between(1, 1024));
+        r.get("count", emitter.perDeath, perDeaths);
         return;
     }
-    r.get("rate", emitter.rate, Range::atLeast(0));
-    r.get("random", emitter.random);
-    r.get("begin", emitter.begin, Range::atLeast(0));
-    if (r.get("until", emitter.end, Range::atLeast(0)) && !(emitter.end > emitter.begin))
-        throw Error(r.at("until"),
-                    concat("expected a time after \"begin\" (", emitter.begin, " s), found ", emitter.end));
+    timesOf(ReadScene(r), emitter);
+    if (r.get("until", emitter.end, Range::atLeast(0))) checkEnd(emitter, r);
     for (JsonReader& burst : r.objects("bursts"))
         emitter.bursts.push_back(readBurst(burst));
     if (!r.has("rate") && emitter.bursts.empty())
@@ -80,14 +138,10 @@ void readVelocity(JsonReader& r, Emitter& emitter) {
         return from == From::sphere || from == From::surface || from == From::death;
     };
     if (outwardByNature(emitter.from) && !r.has("direction")) emitter.along = Emitter::Along::outward;
-    int along = int(emitter.along);
-    if (r.choose("along", {"direction", "outward"}, along)) emitter.along = Emitter::Along(along);
-    if (emitter.along == Emitter::Along::outward && (emitter.from == From::line || emitter.from == From::box))
-        throw Error(r.at("along"), "nothing is outward of a line or a box: expected a \"direction\"");
-    getDirection(r, "direction", emitter.direction);
-    r.get("spread", emitter.spread, Range::between(0, pi + 1e-9));
+    ReadScene(r).word("along", emitter.along, alongWords);
+    checkAlong(emitter, r);
+    members(ReadScene(r), emitter);
     emitter.spread = std::min(emitter.spread, pi);
-    getSpan(r, "speed", emitter.speed, Range::atLeast(0));
     const bool carried = emitter.from == From::death || r.has("path");
     if (r.get("inherit", emitter.inherit, Range::any()) && !carried)
         throw Error(r.at("inherit"),
@@ -99,15 +153,12 @@ Emitter readEmitter(JsonReader& r, const std::vector<Model>& models) {
     Emitter emitter;
     emitter.location = r.here();
     r.get("name", emitter.name);
-    int from = 0;
     r.require("from");
-    r.choose("from", {"point", "line", "disc", "sphere", "box", "surface", "death"}, from);
-    emitter.from = Emitter::From(from);
+    ReadScene(r).word("from", emitter.from, fromWords);
     readFrom(r, emitter, models);
     readWhen(r, emitter);
     readVelocity(r, emitter);
-    if (r.has("path") && (emitter.from == Emitter::From::surface || emitter.from == Emitter::From::death))
-        throw Error(r.at("path"), "an emitter from a surface or from deaths does not move by itself");
+    if (r.has("path")) checkMoves(emitter, r);
     emitter.path = readPath(r);
     r.finish();
     return emitter;
@@ -126,21 +177,17 @@ void readSpanOfLife(JsonReader& r, Lifecycle& life) {
     }
 }
 
-// Of newborn molecules: points have no shape to scale or turn.
-void readNewborn(JsonReader& r, const Group& group, Lifecycle& life) {
-    if (group.particle) return;
-    getSpan(r, "scale", life.scale, aboveZero());
-    int turn = int(life.turn);
-    r.choose("turn", {"none", "yaw", "any"}, turn);
-    life.turn = Placement::Turn(turn);
-    r.get("spin", life.spin, Range::atLeast(0));
-    r.get("grow", life.grow, Range::atLeast(0));
-    r.get("shrink", life.shrink, Range::atLeast(0));
-}
-
 bool bearsFromDeaths(const Lifecycle& life) {
     return std::any_of(life.emitters.begin(), life.emitters.end(),
                        [](const Emitter& emitter) { return emitter.from == Emitter::From::death; });
+}
+
+void checkAllocator(const Emitter& emitter, const Lifecycle& life, const Location& where) {
+    if (emitter.from == Emitter::From::death && life.allocator != Allocator::gpu)
+        throw Error(where,
+                    concat("only the allocator \"gpu\" can bear from deaths: how many there are is known "
+                           "there, and \"",
+                           name(life.allocator), "\" is asked for"));
 }
 
 double mostAlive(int count, const Lifecycle& life) {
@@ -154,12 +201,7 @@ double mostAlive(int count, const Lifecycle& life) {
 }
 
 void readCapacity(JsonReader& group, std::optional<JsonReader>& r, const Group& of, Lifecycle& life) {
-    if (r && r->get("capacity", life.capacity, Range::between(1, maxGroupCount))) {
-        if (life.capacity < of.count)
-            throw Error(r->at("capacity"), concat("expected a capacity of at least the count at the start, ",
-                                                  of.count, ", found ", life.capacity));
-        return;
-    }
+    if (r && r->get("capacity", life.capacity, capacities)) return checkCapacity(of.count, life, *r);
     if (const std::optional<int> usual = usualCapacity(of.count, life)) {
         life.capacity = *usual;
         return;
@@ -201,21 +243,71 @@ void readLife(JsonReader& r, Group& group, const std::vector<Model>& models) {
     auto own = r.object("life");
     if (own) {
         readSpanOfLife(*own, life);
-        readNewborn(*own, group, life);
-        int allocator = 0;
-        if (own->choose("allocator", {"gpu", "ring", "stack", "heap"}, allocator) && life.emitters.empty())
+        if (!group.particle) newbornOf(ReadScene(*own), life);
+        ReadScene(*own).word("allocator", life.allocator, allocatorWords);
+        if (own->has("allocator") && life.emitters.empty())
             throw Error(own->at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
-        life.allocator = Allocator(allocator);
     }
     readCapacity(r, own, group, life);
     if (own) own->finish();
     for (const Emitter& emitter : life.emitters)
-        if (emitter.from == Emitter::From::death && life.allocator != Allocator::gpu)
-            throw Error(emitter.location,
-                        concat("only the allocator \"gpu\" can bear from deaths: how many there are is known "
-                               "there, and \"",
-                               name(life.allocator), "\" is asked for"));
+        checkAllocator(emitter, life, emitter.location);
     group.life = std::move(life);
+}
+
+static void checkFrom(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
+    using From = Emitter::From;
+    const CheckScene check(where);
+    check.number("position", emitter.position);
+    check.number("start", emitter.lineFrom);
+    check.number("end", emitter.lineTo);
+    if (emitter.from == From::disc || emitter.from == From::sphere) {
+        check.number("radius", emitter.radius, aboveZero());
+        check.number("hollow", emitter.hollow, Range::between(0, 1));
+    }
+    if (emitter.from == From::box) check.box("box", emitter.box, true);
+    if (emitter.from == From::surface) {
+        checkModel(emitter.model, models, where.at("model"));
+        checkArea(emitter, models, where);
+    }
+}
+
+static void checkEmitter(const Emitter& emitter, const Lifecycle& life, const std::vector<Model>& models,
+                         const Where& where) {
+    const CheckScene check(where);
+    check.word("from", emitter.from, fromWords);
+    checkFrom(emitter, models, where);
+    timesOf(check, emitter);
+    checkEnd(emitter, where);
+    if (emitter.from == Emitter::From::death) check.number("count", emitter.perDeath, perDeaths);
+    for (size_t i = 0; i < emitter.bursts.size(); ++i) {
+        const Where burst = where.in("bursts", i);
+        members(CheckScene(burst), emitter.bursts[i]);
+    }
+    check.word("along", emitter.along, alongWords);
+    checkAlong(emitter, where);
+    members(check, emitter);
+    check.number("inherit", emitter.inherit);
+    checkAllocator(emitter, life, where.here());
+    if (!emitter.path) return;
+    checkMoves(emitter, where);
+    checkPath(*emitter.path, where.in("path"));
+}
+
+void checkLife(const Group& group, const std::vector<Model>& models, const Where& where) {
+    const Lifecycle& life = *group.life;
+    const Where own = where.in("life");
+    const CheckScene check(own);
+    check.number("capacity", life.capacity, capacities);
+    checkCapacity(group.count, life, own);
+    if (life.life != glm::dvec2(longestLife))
+        check.span("span", glm::min(life.life, glm::dvec2(largestNumber)), aboveZero());
+    check.box("dies.outside", life.within);
+    check.number("dies.afterContact", life.afterContact, Range::atLeast(0));
+    if (!group.particle) newbornOf(check, life);
+    check.word("allocator", life.allocator, allocatorWords);
+    for (size_t i = 0; i < life.emitters.size(); ++i)
+        checkEmitter(life.emitters[i], life, models, where.in("emitters", i));
 }
 
 void checkDeaths(const std::vector<Group>& groups) {

@@ -3,14 +3,45 @@
 
 namespace shoal {
 
+template <typename V>
+static void members(V&& v, Either<Water> auto& water) {
+    v.number("surface", water.surface);
+    v.number("extinction", water.extinction, Range::between(0, mostExtinction));
+    v.color("scattering", water.scattering);
+    v.number("caustics", water.caustics, Range::between(0, 1));
+    v.number("causticsSize", water.causticsSize, aboveZero());
+    v.number("causticsSpeed", water.causticsSpeed, Range::atLeast(0));
+    v.number("rays", water.rays, Range::between(0, 1));
+}
+
+template <typename V>
+static void members(V&& v, Either<ColorScale> auto& scale) {
+    v.word("quantity", scale.quantity, {"speed"});
+    v.number("from", scale.from);
+    v.number("to", scale.to);
+}
+
 namespace {
+
+void checkEnds(const ColorScale& scale, const Where& where) {
+    if (scale.to - scale.from < leastPositive)
+        throw Error(where.at("to"),
+                    concat("expected \"to\" above \"from\" (", scale.from, "), found ", scale.to));
+}
+
+void checkNumber(size_t colors, const Location& where) {
+    if (colors < leastScaleColors || colors > mostScaleColors)
+        throw Error(where, concat("expected ", leastScaleColors, " to ", mostScaleColors, " colours, found ",
+                                  colors));
+}
+
+constexpr const char* noColor = "expected a colour: three numbers from 0 to 1";
 
 std::vector<glm::dvec3> readColors(JsonReader& r, const std::string& key) {
     const JsonValue& list = *r.raw(key);
     const auto wrong = [&](const JsonValue& value, size_t i) {
         const std::string path = concat(r.path(), ".", key, "[", i, "]");
-        return Error(Location{r.file(), value.line, value.column, path},
-                     "expected a colour: three numbers from 0 to 1");
+        return Error(Location{r.file(), value.line, value.column, path}, noColor);
     };
     if (list.kind != JsonValue::Kind::array)
         throw Error(r.at(key), concat("expected an array of colours, found ", name(list.kind)));
@@ -27,9 +58,7 @@ std::vector<glm::dvec3> readColors(JsonReader& r, const std::string& key) {
         }
         out.push_back(color);
     }
-    if (out.size() < leastScaleColors || out.size() > mostScaleColors)
-        throw Error(r.at(key), concat("expected ", leastScaleColors, " to ", mostScaleColors,
-                                      " colours, found ", out.size()));
+    checkNumber(out.size(), r.at(key));
     return out;
 }
 
@@ -41,15 +70,8 @@ std::optional<ColorScale> readColorScale(JsonReader& group) {
     for (const char* key : {"color", "secondColor"})
         if (group.has(key))
             throw Error(group.at(key), concat("\"", key, "\" has no effect beside \"colorBy\""));
-    ColorScale scale;
-    int quantity = 0;
-    r->choose("quantity", {"speed"}, quantity);
-    scale.quantity = static_cast<ColorScale::Quantity>(quantity);
-    r->get("from", scale.from);
-    r->need("to", scale.to);
-    if (scale.to - scale.from < leastPositive)
-        throw Error(r->at("to"),
-                    concat("expected \"to\" above \"from\" (", scale.from, "), found ", scale.to));
+    ColorScale scale = readMembers<ColorScale>(*r, {"to"});
+    checkEnds(scale, *r);
     if (r->raw("colors")) scale.colors = readColors(*r, "colors");
     r->finish();
     return scale;
@@ -58,16 +80,23 @@ std::optional<ColorScale> readColorScale(JsonReader& group) {
 std::optional<Water> readWater(JsonReader& scene) {
     auto r = scene.object("water");
     if (!r) return {};
-    Water water;
-    r->get("surface", water.surface);
-    r->get("extinction", water.extinction, Range::between(0, mostExtinction));
-    getColor(*r, "scattering", water.scattering);
-    r->get("caustics", water.caustics, Range::between(0, 1));
-    r->get("causticsSize", water.causticsSize, aboveZero());
-    r->get("causticsSpeed", water.causticsSpeed, Range::atLeast(0));
-    r->get("rays", water.rays, Range::between(0, 1));
+    const Water water = readMembers<Water>(*r);
     r->finish();
     return water;
+}
+
+void checkWater(const Water& water, const Where& where) {
+    members(CheckScene(where), water);
+}
+
+void checkColorScale(const ColorScale& scale, const Where& where) {
+    members(CheckScene(where), scale);
+    checkEnds(scale, where);
+    checkNumber(scale.colors.size(), where.at("colors"));
+    for (size_t i = 0; i < scale.colors.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            if (!contains(Range::between(0, 1), scale.colors[i][c]))
+                throw Error(where.in("colors", i).here(), noColor);
 }
 
 }  // namespace shoal

@@ -6,6 +6,17 @@
 
 namespace shoal {
 
+template <typename V>
+static void members(V&& v, Either<Model> auto& model) {
+    v.number("position", model.position);
+    v.rotation("rotation", model.rotation);
+    v.number("scale", model.scale, aboveZero());
+    v.flag("draw", model.draw);
+    v.color("color", model.color);
+    v.number("roughness", model.roughness, Range::between(0, 1));
+    v.number("grain", model.grain, Range::between(0, 1));
+}
+
 namespace {
 
 // Applies the model's scale, rotation and position, in this order.
@@ -24,30 +35,57 @@ void placeMesh(Mesh& mesh, const Model& model) {
     }
 }
 
+void checkReach(const Mesh& mesh, const Where& where) {
+    for (const glm::dvec3& corner : {mesh.low, mesh.high})
+        for (int i = 0; i < 3; ++i)
+            if (!(std::abs(corner[i]) < largestNumber))
+                throw Error(where.here(), concat("the model reaches ", corner[i],
+                                                 " m after scaling, beyond single precision"));
+}
+
 Model readModel(JsonReader& r) {
     Model model;
     model.file = needFile(r, "file");
     model.name = std::filesystem::path(model.file).stem().string();
     r.get("name", model.name);
-    r.get("position", model.position);
-    getRotation(r, "rotation", model.rotation);
-    r.get("scale", model.scale, aboveZero());
-    r.get("draw", model.draw);
-    getColor(r, "color", model.color);
-    r.get("roughness", model.roughness, Range::between(0, 1));
-    r.get("grain", model.grain, Range::between(0, 1));
+    members(ReadScene(r), model);
     r.finish();
     model.mesh = loadMesh(model.file);
     placeMesh(model.mesh, model);
-    for (const glm::dvec3& corner : {model.mesh.low, model.mesh.high})
-        for (int i = 0; i < 3; ++i)
-            if (!(std::abs(corner[i]) < largestNumber))
-                throw Error(r.here(), concat("the model reaches ", corner[i],
-                                             " m after scaling, beyond single precision"));
+    checkReach(model.mesh, r);
     return model;
 }
 
+// What a mesh made in code could get wrong; a reader of models sees to it.
+void checkMesh(const Mesh& mesh, const Where& where) {
+    const size_t count = mesh.positions.size();
+    if (mesh.triangles.empty() || mesh.normals.size() != count || mesh.weld.size() != count)
+        throw Error(where.here(), "has no triangles, expected a mesh with at least one");
+    for (const glm::ivec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i)
+            if (t[i] < 0 || size_t(t[i]) >= count)
+                throw Error(where.here(),
+                            concat("has a triangle with vertex ", t[i], " of a mesh of ", count));
+    for (const int welded : mesh.weld)
+        if (welded < 0 || size_t(welded) >= mesh.weldedPositions.size())
+            throw Error(where.here(),
+                        concat("welds to vertex ", welded, " of ", mesh.weldedPositions.size()));
+}
+
 }  // namespace
+
+void checkModels(const std::vector<Model>& models) {
+    const Where whole;
+    std::vector<std::string> names;
+    for (size_t i = 0; i < models.size(); ++i) {
+        const Where where = whole.in("models", i);
+        refuseRepeated(where, names, models[i].name);
+        names.push_back(models[i].name);
+        members(CheckScene(where), models[i]);
+        checkMesh(models[i].mesh, where.in("mesh"));
+        checkReach(models[i].mesh, where);
+    }
+}
 
 std::vector<Model> readModels(JsonReader& scene) {
     std::vector<Model> models;

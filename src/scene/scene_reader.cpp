@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/sandbox.h"
+
 namespace shoal {
 
 namespace fs = std::filesystem;
@@ -25,6 +27,7 @@ std::string needFile(JsonReader& reader, const std::string& key) {
         throw Error(reader.at(key), "expected the name of a file, found a null character in it");
     const fs::path path = (fs::path(reader.file()).parent_path() / written).lexically_normal();
     std::error_code code;
+    if (!mayOpen(path)) throw Error(reader.at(key), concat("\"", written, "\" ", outsideSandbox));
     if (!fs::exists(path, code)) throw Error(reader.at(key), "no such file: " + path.string());
     if (fs::is_directory(path, code))
         throw Error(reader.at(key), "expected a file, found a folder: " + path.string());
@@ -43,6 +46,11 @@ int needModel(JsonReader& reader, const std::string& key, const std::vector<Mode
         throw Error(reader.at(key), "no model is named \"" + name + "\"" + hint);
     }
     return static_cast<int>(found - names.begin());
+}
+
+static void checkRotation(const glm::dquat& q, const Location& where) {
+    if (q == glm::dquat(0, 0, 0, 0))
+        throw Error(where, "expected a quaternion [x, y, z, w] of any length above 0, found zero");
 }
 
 bool getRotation(JsonReader& reader, const std::string& key, glm::dquat& out) {
@@ -65,8 +73,7 @@ bool getRotation(JsonReader& reader, const std::string& key, glm::dquat& out) {
         throw Error(reader.at(key),
                     concat("expected a quaternion [x, y, z, w], found ", q.size(), " numbers"));
     const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
-    if (!(largest > 0))
-        throw Error(reader.at(key), "expected a quaternion [x, y, z, w] of any length above 0, found zero");
+    checkRotation(glm::dquat(q[3], q[0], q[1], q[2]), reader.at(key));
     for (double& part : q)
         part /= largest;  // before the squares, which could overflow
     out = glm::normalize(glm::dquat(q[3], q[0], q[1], q[2]));
@@ -77,9 +84,64 @@ bool getDirection(JsonReader& reader, const std::string& key, glm::dvec3& out) {
     glm::dvec3 v(0);
     if (!reader.get(key, v)) return false;
     const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-    if (!(largest > 0)) throw Error(reader.at(key), "expected a direction of any length above 0, found zero");
+    checkDirection(v, reader.at(key));
     out = glm::normalize(v / largest);
     return true;
+}
+
+void checkDirection(const glm::dvec3& v, const Location& where) {
+    if (v == glm::dvec3(0)) throw Error(where, "expected a direction of any length above 0, found zero");
+}
+
+void checkSpan(const glm::dvec2& span, const Location& where) {
+    if (span.x > span.y)
+        throw Error(where, concat("expected [least, most], found ", span.x, " above ", span.y));
+}
+
+void checkBox(const Box& box, bool flat, const Location& where) {
+    for (int i = 0; i < 3; ++i)
+        if (flat ? box.low[i] > box.high[i] : box.low[i] >= box.high[i])
+            throw Error(where, concat("expected high above low along every axis, found ", box.high[i],
+                                      " against ", box.low[i], " along ", "xyz"[i]));
+}
+
+void checkRises(double time, double before, const Location& where) {
+    if (!(time > before))
+        throw Error(
+            where, concat("expected a time after that of the keyframe before, ", before, " s, found ", time));
+}
+
+void needTwoKeyframes(size_t count, const Location& where) {
+    if (count < 2) throw Error(where, concat("expected at least two keyframes, found ", count));
+}
+
+void checkModel(int model, const std::vector<Model>& models, const Location& where) {
+    if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
+    if (model < 0 || size_t(model) >= models.size())
+        throw Error(where,
+                    concat("expected the number of a model, 0 to ", models.size() - 1, ", found ", model));
+}
+
+void CheckScene::span(const std::string& key, const glm::dvec2& value, Range range) const {
+    number(key, value, range);
+    if (value.x > value.y) checkSpan(value, where().at(key));
+}
+
+void CheckScene::direction(const std::string& key, const glm::dvec3& value) const {
+    number(key, value);
+    if (value == glm::dvec3(0)) checkDirection(value, where().at(key));
+}
+
+void CheckScene::box(const std::string& key, const Box& value, bool flat) const {
+    number(key + ".low", value.low);
+    number(key + ".high", value.high);
+    checkBox(value, flat, where().at(key + ".high"));
+}
+
+void CheckScene::rotation(const std::string& key, const glm::dquat& value) const {
+    for (const double part : {value.x, value.y, value.z, value.w})
+        number(key, part);
+    checkRotation(value, where().at(key));
 }
 
 bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat) {
@@ -87,10 +149,7 @@ bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat) {
     if (!box) return false;
     box->need("low", out.low);
     box->need("high", out.high);
-    for (int i = 0; i < 3; ++i)
-        if (flat ? out.low[i] > out.high[i] : out.low[i] >= out.high[i])
-            throw Error(box->at("high"), concat("expected high above low along every axis, found ",
-                                                out.high[i], " against ", out.low[i], " along ", "xyz"[i]));
+    checkBox(out, flat, box->at("high"));
     box->finish();
     return true;
 }
@@ -104,8 +163,7 @@ bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range 
         return true;
     }
     reader.get(key, out, range);
-    if (out.x > out.y)
-        throw Error(reader.at(key), concat("expected [least, most], found ", out.x, " above ", out.y));
+    checkSpan(out, reader.at(key));
     return true;
 }
 
@@ -127,10 +185,9 @@ bool getOptional(JsonReader& reader, const std::string& key, std::optional<doubl
     return true;
 }
 
-void refuseRepeated(const JsonReader& reader, const std::vector<std::string>& earlier,
-                    const std::string& name) {
+void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name) {
     if (!name.empty() && std::find(earlier.begin(), earlier.end(), name) != earlier.end())
-        throw Error(reader.at("name"), "the name \"" + name + "\" is already taken");
+        throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
 }
 
 }  // namespace shoal

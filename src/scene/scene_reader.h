@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json.h"
+#include "core/members.h"
 #include "scene/distance_field_cache.h"
 #include "scene/scene.h"
 
@@ -90,7 +90,71 @@ bool getColor(JsonReader& reader, const std::string& key, std::optional<glm::dve
 bool getOptional(JsonReader& reader, const std::string& key, std::optional<double>& out, Range range);
 
 // Refuses a name that an earlier element already has. An element's own name may be empty.
-void refuseRepeated(const JsonReader& reader, const std::vector<std::string>& earlier,
-                    const std::string& name);
+void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name);
+
+// Errors: no direction, least above most, high not above low (`where`: of the box's "high"), a time that does
+// not rise, no such model, no group of that name.
+void checkDirection(const glm::dvec3& v, const Location& where);
+void checkSpan(const glm::dvec2& span, const Location& where);
+void checkBox(const Box& box, bool flat, const Location& where);
+void needTwoKeyframes(size_t count, const Location& where);
+void checkRises(double time, double before, const Location& where);
+void checkModel(int model, const std::vector<Model>& models, const Location& where);
+void checkPath(const ColliderPath& path, const Where& where);
+
+// The visitors of core/members.h with what scenes have besides numbers.
+class ReadScene : public ReadMembers {
+  public:
+    using ReadMembers::ReadMembers;
+    void span(const std::string& key, glm::dvec2& out, Range range) { getSpan(reader(), key, out, range); }
+    void direction(const std::string& key, glm::dvec3& out) { getDirection(reader(), key, out); }
+    template <typename Color>
+    void color(const std::string& key, Color& out) {
+        getColor(reader(), key, out);
+    }
+    void box(const std::string& key, Box& out, bool flat = false) { getBox(reader(), key, out, flat); }
+    void box(const std::string& key, std::optional<Box>& out) {
+        if (Box box; getBox(reader(), key, box)) out = box;
+    }
+    void rotation(const std::string& key, glm::dquat& out) { getRotation(reader(), key, out); }
+};
+
+class CheckScene : public CheckMembers {
+  public:
+    explicit CheckScene(const Where& where) : CheckMembers(where, largestNumber) {}
+    void span(const std::string& key, const glm::dvec2& value, Range range) const;
+    void direction(const std::string& key, const glm::dvec3& value) const;
+    template <typename Color>
+    void color(const std::string& key, const Color& value) const {
+        number(key, value, Range::atLeast(0));
+    }
+    void box(const std::string& key, const Box& value, bool flat = false) const;
+    void box(const std::string& key, const std::optional<Box>& value) const {
+        if (value) box(key, *value);
+    }
+    void rotation(const std::string& key, const glm::dquat& value) const;
+};
+
+// A struct from its object, whose keys `needed` must be there.
+template <typename Struct>
+Struct readMembers(JsonReader& reader, std::initializer_list<const char*> needed = {}) {
+    for (const char* key : needed)
+        reader.require(key);
+    Struct out;
+    members(ReadScene(reader), out);
+    return out;
+}
+
+// The rules of the parts of a scene that was made in code (checkScene of scene/scene_file.h).
+void checkFields(const std::vector<Field>& fields);
+void checkForces(const std::vector<Force>& forces, const std::vector<Group>& groups);
+void checkColliders(const Scene& scene);
+void checkModels(const std::vector<Model>& models);
+void checkGroups(const std::vector<Group>& groups, const std::vector<Model>& models);
+void checkLife(const Group& group, const std::vector<Model>& models, const Where& where);
+void checkSchool(const School& school, const Where& where);
+void checkParticle(const ParticleType& type, const Where& where);
+void checkColorScale(const ColorScale& scale, const Where& where);
+void checkWater(const Water& water, const Where& where);
 
 }  // namespace shoal

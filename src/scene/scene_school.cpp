@@ -6,18 +6,46 @@
 
 namespace shoal {
 
-namespace {
+static constexpr double pi = 3.14159265358979323846;
 
-constexpr double pi = 3.14159265358979323846;
+template <typename V>
+static void members(V&& v, Either<SchoolTarget> auto& target) {
+    v.number("radius", target.radius, aboveZero());
+    v.number("strength", target.strength, Range::atLeast(0));
+}
+
+template <typename V>
+static void members(V&& v, Either<School> auto& s) {
+    v.number("radius", s.radius, aboveZero());
+    v.number("blind", s.blind, Range::between(0, pi));
+    v.number("separationRadius", s.separationRadius, aboveZero());
+    v.number("separation", s.separation, Range::atLeast(0));
+    v.number("alignment", s.alignment, Range::atLeast(0));
+    v.number("cohesion", s.cohesion, Range::atLeast(0));
+    v.number("slowest", s.slowest, Range::atLeast(0));
+    v.number("cruise", s.cruise, aboveZero());
+    v.number("fastest", s.fastest, aboveZero());
+    v.number("acceleration", s.acceleration, aboveZero());
+    v.number("turn", s.turn, aboveZero());
+    v.number("steepest", s.steepest, Range::between(0, 1.5));
+    v.number("reaction", s.reaction, Range::between(0.01, 100));
+    v.number("bend", s.bend, Range::between(0, 3));
+    v.number("beat", s.beat, Range::atLeast(0));
+    v.number("fins", s.fins, Range::between(0, 1));
+    v.number("wander", s.wander, Range::atLeast(0));
+    v.number("depthStrength", s.depthStrength, Range::atLeast(0));
+    v.number("walls", s.walls, Range::atLeast(0));
+    v.number("look", s.look, Range::between(0, 10));
+}
+
+namespace {
 
 std::vector<SchoolTarget> readTargets(JsonReader& r, const char* key) {
     std::vector<SchoolTarget> out;
     for (JsonReader& entry : r.objects(key)) {
-        SchoolTarget target;
+        auto target = readMembers<SchoolTarget>(entry);
         target.location = entry.here();
         entry.need("group", target.group);
-        entry.get("radius", target.radius, aboveZero());
-        entry.get("strength", target.strength, Range::atLeast(0));
         entry.finish();
         out.push_back(std::move(target));
     }
@@ -97,34 +125,43 @@ void readSchool(JsonReader& group, Group& out) {
     School s;
     s.location = r->here();
     r->get("radius", s.radius, aboveZero());
-    r->get("blind", s.blind, Range::between(0, pi));
     s.separationRadius = std::min(s.separationRadius, s.radius);
-    r->get("separationRadius", s.separationRadius, aboveZero());
-    r->get("separation", s.separation, Range::atLeast(0));
-    r->get("alignment", s.alignment, Range::atLeast(0));
-    r->get("cohesion", s.cohesion, Range::atLeast(0));
-    r->get("slowest", s.slowest, Range::atLeast(0));
-    r->get("cruise", s.cruise, aboveZero());
-    r->get("fastest", s.fastest, aboveZero());
-    r->get("acceleration", s.acceleration, aboveZero());
-    r->get("turn", s.turn, aboveZero());
-    r->get("steepest", s.steepest, Range::between(0, 1.5));
-    r->get("reaction", s.reaction, Range::between(0.01, 100));
-    r->get("bend", s.bend, Range::between(0, 3));
-    r->get("beat", s.beat, Range::atLeast(0));
-    r->get("fins", s.fins, Range::between(0, 1));
-    r->get("wander", s.wander, Range::atLeast(0));
+    members(ReadScene(*r), s);
     glm::dvec2 depth;
     if (r->get("depth", depth)) s.depth = depth;
-    r->get("depthStrength", s.depthStrength, Range::atLeast(0));
-    r->get("walls", s.walls, Range::atLeast(0));
-    r->get("look", s.look, Range::between(0, 10));
     readHome(*r, s);
     s.flees = readTargets(*r, "flees");
     s.hunts = readTargets(*r, "hunts");
     r->finish();
     checkSchool(s);
     out.school = std::move(s);
+}
+
+void checkSchool(const School& school, const Where& where) {
+    members(CheckScene(where), school);
+    const CheckScene check(where);
+    if (school.depth) check.number("depth", *school.depth);
+    if (school.home) {
+        const Where home = where.in("home");
+        const CheckScene inner(home);
+        inner.box("box", school.home->box);
+        inner.number("center", school.home->center);
+        if (!school.home->box) inner.number("radius", school.home->radius, aboveZero());
+        inner.number("strength", school.home->strength, Range::atLeast(0));
+    }
+    for (size_t i = 0; i < school.flees.size(); ++i) {
+        const Where target = where.in("flees", i);
+        members(CheckScene(target), school.flees[i]);
+    }
+    for (size_t i = 0; i < school.hunts.size(); ++i) {
+        const Where target = where.in("hunts", i);
+        members(CheckScene(target), school.hunts[i]);
+    }
+    try {
+        checkSchool(school);
+    } catch (const Error& error) {
+        throw Error(where.here(), error.message());
+    }
 }
 
 }  // namespace shoal

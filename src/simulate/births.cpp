@@ -31,7 +31,9 @@ void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
     if (group.layout().padded(size_t(group.count)) <= reach) return;
     throw Error(group.life->cycle.location,
                 concat("a capacity of ", group.count, " for \"", group.name,
-                       "\" is more than this context holds: at most ", reach / lanes * lanes));
+                       "\" is more than this context holds in one storage block of ",
+                       info.maxStorageBlockBytes >> 20, " MiB and one dispatch of ", info.maxWorkGroupsX,
+                       " workgroups: at most ", reach / lanes * lanes));
 }
 
 }  // namespace
@@ -98,10 +100,10 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
     kernel.software = context_->info().software;
     gpu::ProgramOptions program = kernelProgram(*plan_, g, kernel);
     program.cache = cache;
-    living.bear = Program(*context_, shaderRoot, program);
-    living.bear.use();
+    living.bear = &programs_.get(*context_, shaderRoot, program);
+    living.bear->use();
     if (group.needs.fields)
-        living.bear.set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+        living.bear->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
 }
 
 // What is born from a group's deaths reads them where they lie, so it comes before that group bears anew.
@@ -208,7 +210,7 @@ void Births::setRuns(const Living& living, const std::vector<BirthRun>& runs, do
         times[r] = glm::vec4(float(run.first - begin), float(run.interval), 0, 0);
         first += run.count;
     }
-    const Program& program = living.bear;
+    const Program& program = *living.bear;
     program.set("runCount", int(runs.size()));
     program.set("runs", std::span<const glm::ivec4>(numbers));
     program.set("runTimes", std::span<const glm::vec4>(times));
@@ -221,7 +223,7 @@ void Births::setRuns(const Living& living, const std::vector<BirthRun>& runs, do
 
 void Births::setNumbers(size_t group, const Frame& frame) const {
     const Living& living = *groups_[group];
-    const Program& program = living.bear;
+    const Program& program = *living.bear;
     setStepUniforms(program, *plan_, *living.plan, frame);
     const std::vector<glm::vec4> parameters =
         emitterParameters(living.life, living.middles, frame.time, frame.parameters.frameTime);
@@ -237,7 +239,7 @@ void Births::setNumbers(size_t group, const Frame& frame) const {
 
 void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
     const Living& living = *groups_[group];
-    const Program& program = living.bear;
+    const Program& program = *living.bear;
     const GroupBuffers& buffers = state[group];
     const GroupBuffers::Part& part = buffers.parts().front();
     store(program, "NewState", 0, buffers.currentState(part));
@@ -281,21 +283,21 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
         living.lost += uint64_t(scheduled - born);
     }
     if (!living.onGpu() && born == 0) return;
-    living.bear.use();
+    living.bear->use();
     setNumbers(group, frame);
     setRuns(living, runs, begin);
     bindBirths(group, state);
     if (living.onGpu()) {
-        living.bear.dispatchIndirect(
+        living.bear->dispatchIndirect(
             lists_.control(), (PlaceLists::controlAt(group) + control::birthGroups) * sizeof(uint32_t));
     } else {
-        living.bear.set("givenBorn", born);
+        living.bear->set("givenBorn", born);
         if (!living.listed()) {
-            living.bear.set("firstPlace", int((uint64_t(living.plan->life->atStart) + living.born) %
-                                              uint64_t(living.plan->count)));
+            living.bear->set("firstPlace", int((uint64_t(living.plan->life->atStart) + living.born) %
+                                               uint64_t(living.plan->count)));
             living.born += uint64_t(born);
         }
-        living.bear.dispatch((born + birthLanes - 1) / birthLanes);
+        living.bear->dispatch((born + birthLanes - 1) / birthLanes);
     }
     settleBirths();
 }

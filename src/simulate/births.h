@@ -65,9 +65,9 @@ class Births {
         Lifecycle life;
         gpu::Buffer free, died, places;  // bits, bits, list
         PlaceSet set;
-        size_t diedAt = 0;                // word of its deaths in died_
-        gpu::Program bear;                // none: nothing is born
-        std::vector<glm::dvec3> middles;  // m, of the emitters
+        size_t diedAt = 0;                   // word of its deaths in died_
+        const gpu::Program* bear = nullptr;  // none: nothing is born
+        std::vector<glm::dvec3> middles;     // m, of the emitters
         std::vector<BirthClock> clocks;
         Places book;                  // allocators stack and heap
         uint64_t born = 0, lost = 0;  // of the allocators on the CPU, and born of the ring
@@ -100,7 +100,8 @@ class Births {
     const Plan* plan_;
     const Tables* tables_;
     std::vector<std::unique_ptr<Living>> groups_;  // of the plan; null: without life
-    std::vector<size_t> order_;                    // groups that bear, the born from deaths first
+    gpu::Programs programs_;
+    std::vector<size_t> order_;  // groups that bear, the born from deaths first
     PlaceLists lists_;
     gpu::Buffer died_;  // lists of deaths
 };

@@ -101,8 +101,12 @@ std::vector<glm::vec4> download(const Buffer& buffer) {
 }
 
 Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements, const char* what) {
-    return Buffer(context, Buffer::Use::storage, nullptr, elements * sizeof(glm::vec4),
-                  concat(what, " of ", group.name).c_str());
+    try {
+        return Buffer(context, Buffer::Use::storage, nullptr, elements * sizeof(glm::vec4),
+                      concat(what, " of ", group.name).c_str());
+    } catch (const gpu::OutOfMemory& error) {
+        throw gpu::OutOfMemory(group.location, concat(error.message(), ", for ", group.count, " molecules"));
+    }
 }
 
 }  // namespace

@@ -25,6 +25,11 @@ void store(const Program& program, const char* block, int at, const GroupBuffers
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
 
+// What the program of a group is given only once.
+std::string bytesOf(const std::vector<glm::vec4>& parameters) {
+    return {reinterpret_cast<const char*>(parameters.data()), parameters.size() * sizeof(glm::vec4)};
+}
+
 }  // namespace
 
 PathLimits limitsOf(const gpu::ContextInfo& info) {
@@ -82,7 +87,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.normals = kernel.onlyNormals = true;
         gpu::ProgramOptions program = kernelProgram(plan, g, kernel);
         program.cache = options.cache;
-        made.normals = Program(context, shaderRoot, program);
+        made.normals = &programs_.get(context, shaderRoot, program);
     }
     if (plan.contact.any())
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options.cache);
@@ -95,12 +100,17 @@ void Fused::makeStep(size_t index) {
     Kernel& kernel = kernels_[index];
     gpu::ProgramOptions program = kernelProgram(*plan_, index, kernel.options);
     program.cache = cache_;
-    kernel.step = Program(*context_, shaderRoot_, program);
-    kernel.step.use();
+    if (kernel.options.factors.empty()) {
+        kernel.step = &programs_.get(*context_, shaderRoot_, program, bytesOf(group.colliderParameters));
+    } else {
+        kernel.own = std::make_unique<Program>(*context_, shaderRoot_, program);
+        kernel.step = kernel.own.get();
+    }
+    kernel.step->use();
     if (group.needs.fields)
-        kernel.step.set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+        kernel.step->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
     if (group.needs.collide)
-        kernel.step.set("givenColliderParameters", std::span<const glm::vec4>(group.colliderParameters));
+        kernel.step->set("givenColliderParameters", std::span<const glm::vec4>(group.colliderParameters));
 }
 
 // A GPU reads the matrix from a buffer. To a CPU rasteriser every read of a uniform is a call: there it
@@ -130,7 +140,7 @@ void Fused::updateFactors(size_t index, const Frame& frame) {
         makeFactors(index);
         if (kernel.options.software) makeStep(index);
     }
-    if (kernel.factors) kernel.step.uniformBlock("Factors", 0, kernel.factors);
+    if (kernel.factors) kernel.step->uniformBlock("Factors", 0, kernel.factors);
 }
 
 void Fused::changeSprings(size_t group, const std::vector<glm::vec4>& numbers) {
@@ -156,7 +166,7 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
     }
     store(program, "NewState", binding::newState, buffers.newState(part));
     if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));
-    const bool writesNormals = kernels_[index].options.normals || &program == &kernels_[index].normals;
+    const bool writesNormals = kernels_[index].options.normals || &program == kernels_[index].normals;
     if (buffers.hasNormals() && writesNormals)
         store(program, "NewNormals", binding::newNormals, buffers.normals(part));
 }
@@ -164,7 +174,7 @@ void Fused::bind(const Program& program, size_t index, const GroupBuffers::Part&
 void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::Part& part) const {
     bind(program, index, part);
     const int lanes = workgroupLanes(plan_->groups[index], kernels_[index].options.lanes);
-    if (births_ && births_->has(index) && &program == &kernels_[index].step) {
+    if (births_ && births_->has(index) && &program == kernels_[index].step) {
         births_->bindStep(program, index);
         return births_->dispatchStep(program, index, lanes);
     }
@@ -197,7 +207,7 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written
     for (size_t g = 0; g < state.size(); ++g) {
         updateFactors(g, frame);
-        const Program& program = kernels_[g].step;
+        const Program& program = *kernels_[g].step;
         program.use();
         setStepUniforms(program, *plan_, plan_->groups[g], frame);
         if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_));
@@ -224,8 +234,8 @@ void Fused::computeNormals(gpu::PassTimers& timers) {
     const auto timer = timers.time("normals");
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
     for (size_t g = 0; g < state.size(); ++g) {
-        const Program& program = kernels_[g].normals;
-        if (!program) continue;
+        if (kernels_[g].normals == nullptr) continue;
+        const Program& program = *kernels_[g].normals;
         program.use();
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);

@@ -54,10 +54,11 @@ class Fused {
   private:
     struct Kernel {
         KernelOptions options;
-        gpu::Program step, normals;
-        CorotatedStage stage;  // bdf2-corotated: of the matrix
-        gpu::Buffer factors;   // and the matrix, where it is not part of the program
-        gpu::Buffer springs;   // where their numbers are live
+        const gpu::Program *step = nullptr, *normals = nullptr;
+        std::unique_ptr<gpu::Program> own;  // the step, where numbers that change are constants of it
+        CorotatedStage stage;               // bdf2-corotated: of the matrix
+        gpu::Buffer factors;                // and the matrix, where it is not part of the program
+        gpu::Buffer springs;                // where their numbers are live
         gpu::BufferTexture springTexels;
     };
     void makeStep(size_t index);
@@ -73,6 +74,7 @@ class Fused {
     const Tables* tables_;
     bool drawn_;
     gpu::ProgramCache* cache_;
+    gpu::Programs programs_;
     std::vector<Kernel> kernels_;
     gpu::Buffer alarm_;  // one word; where watched
     std::unique_ptr<MoleculeContact> contact_;

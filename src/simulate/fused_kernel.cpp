@@ -91,7 +91,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
 // The files of a kernel in the order in which they build on one another.
 std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     const bool perLane = options.lanes == Lanes::molecule;
-    std::string out = concat("// The fused step of \"", inComment(group.name), "\".\n");
+    std::string out = "// The fused step of a group.\n";  // no name: equal groups have equal text
     if (options.groupVote && perLane && group.needs.collide)
         out += "#extension GL_ARB_shader_group_vote : require\n";
     const auto include = [&](bool need, const std::string& file) {

@@ -48,6 +48,17 @@ void drawPlainly() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
+// What a program is given only once, or once a frame, and so must be equal where groups share it.
+std::string setOnceFor(const GroupPlan& group) {
+    std::string out = name(group.solver);
+    for (const auto* list : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
+        for (const GroupForces::One& one : *list)
+            out += concat(" ", one.force);
+    for (const glm::vec4& parameter : group.colliderParameters)
+        out.append(reinterpret_cast<const char*>(&parameter), sizeof parameter);
+    return out;
+}
+
 }  // namespace
 
 PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
@@ -65,7 +76,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
     }
     programs_.resize(plan.groups.size());
     for (const PassPlan& pass : plan.passes) {
-        Program& program = programs_[pass.group][size_t(pass.kind)];
+        const Program*& program = programs_[pass.group][size_t(pass.kind)];
         if (program || (pass.kind == PassKind::watch && !watch)) continue;
         gpu::ProgramOptions options;
         options.vertex = "passes/fullscreen.vert";
@@ -77,11 +88,11 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
                              {"generated/colliders.glsl", plan.collideSource}};
         options.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
         options.cache = cache;
-        program = Program(context, shaderRoot, options);
-        program.use();
+        program = &made_.get(context, shaderRoot, options, setOnceFor(plan.groups[pass.group]));
+        program->use();
         if (pass.kind == PassKind::collide)
-            program.set("colliderParameters",
-                        std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
+            program->set("colliderParameters",
+                         std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
     if (plan.contact.any())
         contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, cache);
@@ -192,7 +203,7 @@ bool readsForces(PassKind kind, const Needs& needs) {
 
 // Binds what every pass reads: the group's place, its state and the tables.
 const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
-    const Program& program = programs_[index][size_t(kind)];
+    const Program& program = *programs_[index][size_t(kind)];
     program.use();
     program.set("firstRow", group.texture.firstRow);
     program.set("slabRows", group.texture.slabRows);

@@ -67,7 +67,8 @@ class PingPong {
     const Plan* plan_;
     const Tables* tables_;
     bool drawn_;
-    std::vector<std::array<gpu::Program, 8>> programs_;  // per group, by PassKind
+    gpu::Programs made_;
+    std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
     gpu::VertexArray noAttributes_;
     gpu::Handle<gpu::deleteQuery> query_;  // where watched
     gpu::Traffic* traffic_;                // the context's

@@ -81,9 +81,10 @@ Schooling::Schooling(gpu::Context& context, const std::string& shaderRoot, const
 }
 
 void Schooling::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
-    const auto make = [&](const char* file, gpu::ProgramOptions options = {}) {
+    const auto make = [&](const char* file) {
+        gpu::ProgramOptions options;
         options.compute = concat("school/", file, ".comp");
-        if (options.label.empty()) options.label = concat("school ", file);
+        options.label = concat("school ", file);
         options.cache = cache;
         return Program(*context_, shaderRoot, options);
     };
@@ -100,7 +101,9 @@ void Schooling::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* c
         if (layout.life) options.defines.push_back("LIFE");
         if (layout.lifeApart()) options.defines.push_back("LIFE_APART");
         options.generated = {{"generated/body.glsl", bodies.text}};
-        bodyPrograms_.push_back(make("body", options));
+        options.compute = "school/body.comp";
+        options.cache = cache;
+        bodyPrograms_.push_back(&programs_.get(*context_, shaderRoot, options));
     }
 }
 
@@ -119,7 +122,7 @@ void Schooling::makeSteer(const SchoolMember& member, const std::string& shaderR
         options.defines.push_back(samplesInBuffer);
     }
     options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
-    members_.push_back({Program(*context_, shaderRoot, options), member.school});
+    members_.push_back({&programs_.get(*context_, shaderRoot, options), member.school});
 }
 
 // m: what is looked for within a radius needs cells as wide.
@@ -139,7 +142,7 @@ double Schooling::cellOf(size_t grid) const {
 void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
     for (size_t b = 0; b < bodyPrograms_.size(); ++b) {
         const SchoolBodies& bodies = school_->bodies[b];
-        const Program& program = bodyPrograms_[b];
+        const Program& program = *bodyPrograms_[b];
         program.use();
         program.set("origin", glm::vec3(school_->origin));
         store(program, "Bodies", 0, bodies_);
@@ -189,7 +192,7 @@ void Schooling::order() {
 void Schooling::setRules(size_t index, const Frame& frame) {
     const SchoolMember& member = school_->members[index];
     const School& school = members_[index].school;
-    const Program& program = members_[index].steer;
+    const Program& program = *members_[index].steer;
     std::vector<glm::ivec4> grids;
     std::vector<glm::vec4> rules;
     const auto add = [&](size_t g, double radius, double strength) {
@@ -242,7 +245,7 @@ void Schooling::setRules(size_t index, const Frame& frame) {
 
 void Schooling::steer(size_t index, const Frame& frame, const std::vector<GroupBuffers>& state) {
     const SchoolMember& member = school_->members[index];
-    const Program& program = members_[index].steer;
+    const Program& program = *members_[index].steer;
     program.use();
     program.texture("bodies", 0, bodiesRead_);
     program.texture("sorted", 1, pairsRead_);

@@ -42,7 +42,7 @@ class Schooling {
 
   private:
     struct Member {
-        gpu::Program steer;
+        const gpu::Program* steer;
         School school;
     };
 
@@ -59,7 +59,8 @@ class Schooling {
     const Plan* plan_;
     const SchoolPlan* school_;
     const Tables* tables_;
-    std::vector<gpu::Program> bodyPrograms_;  // one a SchoolBodies
+    gpu::Programs programs_;
+    std::vector<const gpu::Program*> bodyPrograms_;  // one a SchoolBodies
     std::vector<Member> members_;
     gpu::Program keys_, order_;
     RadixSort sort_;

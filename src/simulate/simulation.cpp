@@ -39,7 +39,8 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const gpu::OutOfMemory& error) {
         if (options.inPlace) throw;  // the other path takes more
-        warnings_.push_back({{}, concat(error.message(), "; going on with one side of the state")});
+        warnings_.push_back(
+            {error.location(), concat(error.message(), "; going on with one side of the state")});
         fused.inPlace = inPlace_ = true;
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const Error& error) {

@@ -107,11 +107,11 @@ Scene strewn(int count, const glm::dvec3& size, double radius, glm::dvec2 scale 
     group.place.box = {dvec3(0), size};
     group.place.scale = scale;
     group.contact.emplace().radius = radius;
-    test::setSteps(scene, 1e-7, 1);
+    test::setSteps(scene, 1e-5, 1);
     return scene;
 }
 
-// Finds what brute force finds; nothing moves far in the 1e-7 s of the step.
+// Finds what brute force finds; nothing moves far in the 1e-5 s of the step.
 void checkFound(const Scene& scene) {
     const Plan plan = compile(scene);
     const std::vector<reference::Sphere> spheres = spheresOf(plan);

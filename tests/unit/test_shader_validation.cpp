@@ -169,15 +169,15 @@ std::vector<Collider> everyCollider() {
 
 std::vector<Force> everyForce() {
     std::vector<Force> out(5);
-    AttractForce even;
+    AttractForce even{.radius = 1};
     even.falloff = AttractForce::Falloff::constant;
-    out[0].shape = AttractForce{};
+    out[0].shape = AttractForce{.most = 10};
     out[1].shape = even;
     out[2].shape = VortexLineForce{};
     out[3].shape = ThrustForce{};
     out[4].shape = WindForce{};
-    for (Force& force : out)
-        force.name = "force\n}}} #error \\";  // must not leave its comment
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i].name = concat("force ", i, "\n}}} #error \\");  // must not leave its comment
     return out;
 }
 
