@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -11,13 +13,35 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+std::string kindOf(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a FIFO";
+    if (S_ISSOCK(mode)) return "a socket";
+    return "a device";
+}
+
+}  // namespace
+
+// Looked at before it is opened, because a FIFO would wait for its writer and a device may do anything; and
+// afterwards, because it may have become another one in between.
 FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
-    std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (status.type() == fs::file_type::not_found) throw Error(location_, "no such file");
-    if (status.type() == fs::file_type::directory) throw Error(location_, "is a folder, expected a file");
-    file_.reset(std::fopen(path.c_str(), "rb"));
-    if (!file_) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    struct stat status {};
+    const auto needRegular = [&] {
+        if (!S_ISREG(status.st_mode))
+            throw Error(location_, concat("is ", kindOf(status.st_mode), ", expected a file"));
+    };
+    if (::stat(path.c_str(), &status) == 0) {
+        needRegular();
+    } else if (errno == ENOENT || errno == ENOTDIR) {
+        throw Error(location_, "no such file");
+    }
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file >= 0) file_.reset(::fdopen(file, "rb"));
+    if (!file_ || ::fstat(file, &status) != 0)
+        throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    needRegular();
 }
 
 size_t FileReader::read(void* data, size_t bytes) {

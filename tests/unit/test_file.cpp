@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include "core/file.h"
 #include "support/message_of.h"
@@ -38,6 +39,22 @@ TEST_CASE("what cannot be read says why", "[file]") {
     CHECK(messageOf([&] { readFile(folder / "large", 99); }).find("is larger than 99 bytes") !=
           std::string::npos);
     CHECK(readFile(folder / "large", 100).size() == 100);
+}
+
+TEST_CASE("what is no regular file is refused before it is read", "[file]") {
+    const test::Scratch folder;
+    REQUIRE(::mkfifo(folder.path("fifo").c_str(), 0600) == 0);
+    std::filesystem::create_symlink("/dev/zero", folder / "endless");
+    std::filesystem::create_symlink("fifo", folder / "waits");
+    CHECK(messageOf([&] { readFile(folder / "fifo"); }) ==
+          folder.path("fifo") + ": is a FIFO, expected a file");
+    CHECK(messageOf([&] { readFile(folder / "waits"); }).find("is a FIFO") != std::string::npos);
+    CHECK(messageOf([&] { readFile("/dev/null"); }) == "/dev/null: is a device, expected a file");
+    CHECK(messageOf([&] { readFile(folder / "endless"); }).find("is a device") != std::string::npos);
+    writeFile(folder / "file", std::string_view("x"));
+    std::filesystem::create_symlink("file", folder / "link");
+    CHECK(readFile(folder / "link") == "x");
+    CHECK(messageOf([&] { readFile(folder / "file/below"); }).find("no such file") != std::string::npos);
 }
 
 TEST_CASE("what cannot be written says why", "[file]") {
