@@ -1,16 +1,19 @@
 // Reading and writing whole files, with errors that say what to do.
 #pragma once
 
+#include <sys/types.h>
 #include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/error.h"
+#include "core/part_file.h"
 
 namespace shoal {
 
@@ -24,6 +27,12 @@ std::string lowerExtension(const std::filesystem::path& path);
 // Missing folders are made. Error: cannot create, write (disk full), or rename; the old file is kept.
 void writeFile(const std::filesystem::path& path, std::string_view bytes);
 void writeFile(const std::filesystem::path& path, std::span<const std::byte> bytes);
+
+// Error: writeFile would not succeed now. For those who write late what should be known early.
+void checkWritable(const std::filesystem::path& path);
+
+// "a folder", "a FIFO", "a socket" or "a device", of what is no regular file.
+std::string kindOf(mode_t mode);
 
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
@@ -45,20 +54,20 @@ class FileReader {
     FilePointer file_;
 };
 
+// Without finish() nothing stays, and the old file is kept. What is no file but takes bytes (/dev/null, a
+// FIFO that somebody reads) is never replaced: they go there as they come.
 class FileWriter {
   public:
-    // Makes missing folders and the temporary file. Error: cannot create.
+    // Error: PartFile's, or nobody reads the FIFO.
     explicit FileWriter(const std::filesystem::path& path);
-    ~FileWriter();  // without finish() nothing stays, and the old file is kept
-    FileWriter(const FileWriter&) = delete;
-    FileWriter& operator=(const FileWriter&) = delete;
     void write(const void* data, size_t bytes);  // Error: disk full
     void finish();                               // Error: disk full, cannot rename
 
   private:
     [[noreturn]] void fail(int cause) const;
 
-    std::filesystem::path path_, temporary_;
+    std::filesystem::path path_;
+    std::optional<PartFile> part_;  // none: a device or a FIFO
     FilePointer file_;
 };
 
