@@ -1,5 +1,7 @@
 // Ctrl-C, SIGTERM and SIGKILL, two runs in one place: what is on the disk afterwards, and how the program
 // ended.
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
@@ -100,16 +102,21 @@ TEST_CASE("a run that is told to end leaves whole files, and the signal to whoev
 
 TEST_CASE("a second signal ends a run at once", "[cli][signals]") {
     const Scratch scratch;
-    // a frame of hours
-    StartedShoal run(endless({"--export", scratch.path("e.pvd"), "--substeps", "1000000000"}));
-    run.waitForFile(scratch.path("e.pvd"));
-    CHECK(hidden(scratch.path("")) == 1);  // that it writes there
+    const Scratch bin;  // in place of ffmpeg, what never comes to an end
+    const std::string neverDone = bin.write("ffmpeg", "#!/bin/sh\ncat >/dev/null\nexec sleep 600\n");
+    std::filesystem::permissions(neverDone, std::filesystem::perms::owner_all);
+    const std::string path = bin.path("") + ":" + std::getenv("PATH");
+    StartedShoal run(endless({"--capture", scratch.path("out.mp4"), "--export", scratch.path("e.csv"),
+                              "--export-frames", "2"}),
+                     {.environment = {{"PATH", path}}});
+    run.waitForFile(scratch.path("e.csv"));
+    CHECK(hidden(scratch.path("")) == 3);  // the video, and that this run writes both
     run.send(SIGINT);
     run.waitForError("a second signal ends it at once");
     run.send(SIGTERM);
     const Outcome outcome = run.finish();
     CHECK(outcome.signal == SIGTERM);
-    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"e-00000.vtp", "e.pvd"});
+    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"e.csv"});
 }
 
 TEST_CASE("what a killed run left is swept by the next one that writes there", "[cli][signals]") {
@@ -161,4 +168,39 @@ TEST_CASE("numbers of frames are as long as the last one's, so that names sort",
     refusal(
         {"run", helloScene(), "--headless", "--frames", "100000", "--capture", scratch.path("a-%05d.png")},
         "say %06d");
+}
+
+TEST_CASE("what cannot be written is told before the first frame", "[cli][signals]") {
+    const Scratch scratch;
+    const std::string file = scratch.write("taken", "old");
+    for (const char* option : {"--export", "--save"})
+        for (const char* name : {"/x.csv", "/deep/x.pvd"})
+            refusal(endless({"--capture", scratch.path("p"), option, file + name}),
+                    "cannot make this folder");
+    refusal(endless({"--export", scratch.path("x.csv"), "--capture", file + "/v.mp4"}),
+            "cannot make this folder");
+    refusal({"measure", helloScene(), "--csv", file + "/x.csv"}, "cannot make this folder");
+    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"taken"});
+}
+
+TEST_CASE("what is no file is neither waited for nor replaced", "[cli][signals]") {
+    const Scratch scratch;
+    const std::string fifo = scratch.path("fifo.json"), link = scratch.path("null.csv");
+    REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
+    for (const char* command : {"run", "check", "explain", "measure"})
+        CHECK_THAT(runShoal({command, fifo}).err, Catch::Contains("fifo.json: is a FIFO, expected a file"));
+    const Words words{"run", helloScene(), "--headless", "--frames", "1"};
+    const auto with = [&](Words more) {
+        more.insert(more.begin(), words.begin(), words.end());
+        return more;
+    };
+    refusal(with({"--resume", fifo}), "is a FIFO, expected a file");
+    refusal(with({"--save", fifo}), "fifo.json: cannot be written: nobody reads there");
+    std::filesystem::create_symlink("/dev/null", link);
+    CHECK(runShoal(with({"--save", link, "--export", link})).code == 0);
+    CHECK(std::filesystem::is_symlink(link));
+    CHECK(std::filesystem::is_character_file("/dev/null"));
+    std::filesystem::create_symlink("/dev/null", scratch.path("null.mp4"));
+    if (hasFfmpeg())
+        refusal(with({"--capture", scratch.path("null.mp4")}), "is a device, expected a file to write");
 }
