@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "cli/shoal_command.h"
 #include "core/image.h"
@@ -126,8 +127,8 @@ TEST_CASE("what a killed run left is swept by the next one that writes there", "
     run.waitForFile(scratch.path(concat(".shoal-", run.process(), "-out.mp4")));
     run.send(SIGKILL);
     CHECK(run.finish().signal == SIGKILL);
-    CHECK(hidden(scratch.path("")) == 2);  // the video, and that it was written
-    scratch.write(".shoal-notes", "mine");
+    CHECK(hidden(scratch.path("")) == 2);               // the video, and that it was written
+    std::ofstream(scratch / ".shoal-notes") << "mine";  // Scratch::write would sweep
     CHECK(runShoal({"run", helloScene(), "--headless", "--frames", "1", "--export", scratch.path("x.csv")})
               .code == 0);
     CHECK(filesIn(scratch.path("")) == std::vector<std::string>{".shoal-notes", "x.csv"});
