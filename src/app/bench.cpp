@@ -68,7 +68,7 @@ Wanted wantedOf(const Options& options) {
                  [&](const BenchCase& one) { return named(one.name()); });
     Wanted out{byGroup(some), named(errors), named(starts), named(passes)};
     if (!some.empty() || out.errors || out.starts || out.passes) {
-        if (!options.plot.empty()) checkPlot(some);
+        if (!options.plot.empty()) checkPlot(options.plot, some);
         return out;
     }
     std::string names;

@@ -41,10 +41,10 @@ void addData(std::ostringstream& out, Subject subject, const std::vector<BenchRe
 
 }  // namespace
 
-void checkPlot(const std::vector<BenchCase>& cases) {
+void checkPlot(const std::string& file, const std::vector<BenchCase>& cases) {
     if (std::none_of(cases.begin(), cases.end(), plotted))
         throw Error("--plot draws the quads on each path and yardstick: --only leaves none of them");
-    needGnuplot();
+    needGnuplot(file);
 }
 
 std::string plotScript(const std::string& file, const std::string& title,

@@ -8,8 +8,8 @@
 
 namespace shoal::app {
 
-// Before anything is measured. Error: gnuplot is not installed; none of the cases is one that is plotted.
-void checkPlot(const std::vector<measure::BenchCase>& cases);
+// Before anything is measured. Error: needGnuplot's; none of the cases is one that is plotted.
+void checkPlot(const std::string& file, const std::vector<measure::BenchCase>& cases);
 
 // `file`: .svg or .png. Error: gnuplot fails, the file cannot be written.
 void plot(const std::string& file, const std::string& title,

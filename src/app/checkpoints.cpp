@@ -11,16 +11,16 @@ namespace shoal::app {
 
 namespace fs = std::filesystem;
 
-std::string numbered(const std::string& target, int frame, bool several) {
+std::string numbered(const std::string& target, int frame, bool several, int last) {
     if (!several) return target;
     const fs::path path(target);
     char number[16];
-    std::snprintf(number, sizeof number, "-%05d", frame);
+    std::snprintf(number, sizeof number, "-%0*d", std::max(5, int(std::to_string(last).size())), frame);
     return (path.parent_path() / (path.stem().string() + number + path.extension().string())).string();
 }
 
-bool asksFor(const std::vector<int>& frames, int frame, int last) {
-    return frames.empty() ? frame == last : std::find(frames.begin(), frames.end(), frame) != frames.end();
+bool contains(const std::vector<int>& frames, int frame) {
+    return std::find(frames.begin(), frames.end(), frame) != frames.end();
 }
 
 void checkFrames(const char* option, const std::vector<int>& frames, int first, int last) {
@@ -39,7 +39,7 @@ void resume(const Options& options, Simulation& simulation) {
 }
 
 void checkSave(const Options& options) {
-    if (!options.save.empty()) FileWriter(options.save);  // made, and taken away again
+    if (!options.save.empty()) checkWritable(options.save);
 }
 
 void saveState(const std::string& file, const Simulation& simulation) {

@@ -9,14 +9,14 @@
 
 namespace shoal::app {
 
-// Where a frame's file goes: "out.csv" becomes "out-00060.csv" where several frames are asked for.
-std::string numbered(const std::string& target, int frame, bool several);
+// Where a frame's file goes: "out.csv" becomes "out-00060.csv" where several frames are asked for. Numbers
+// are as long as `last`, so that names sort.
+std::string numbered(const std::string& target, int frame, bool several, int last = 99999);
 
 // "hello" of "models/hello.scene.json".
 std::string sceneStem(const std::string& file);
 
-// Whether `frame` is among `frames`, or the last where there are none.
-bool asksFor(const std::vector<int>& frames, int frame, int last);
+bool contains(const std::vector<int>& frames, int frame);
 // Error: one of them lies beyond the last, or before the first, which is 0 unless the run was resumed.
 void checkFrames(const char* option, const std::vector<int>& frames, int first, int last);
 

@@ -77,11 +77,12 @@ std::string ply(Simulation& simulation, const Scene& scene) {
 
 }  // namespace
 
-std::string exportName(const std::string& target, int frame, bool several) {
+std::string exportName(const std::string& target, int frame, bool several, int last) {
     const std::string kind = lowerExtension(target);
-    if (kind == ".pvd") return numbered(fs::path(target).replace_extension(".vtp").string(), frame, true);
-    if (kind == ".csv" || kind == ".ply" || kind == ".vtp") return numbered(target, frame, several);
-    return numbered((fs::path(target) / "state.csv").string(), frame, true);
+    if (kind == ".pvd")
+        return numbered(fs::path(target).replace_extension(".vtp").string(), frame, true, last);
+    if (kind == ".csv" || kind == ".ply" || kind == ".vtp") return numbered(target, frame, several, last);
+    return numbered((fs::path(target) / "state.csv").string(), frame, true, last);
 }
 
 Exporter::Exporter(const Options& options, int first, int last)
@@ -89,19 +90,30 @@ Exporter::Exporter(const Options& options, int first, int last)
     if (options.exportEvery && *options.exportEvery > last - first)
         throw Error(
             concat("--export-every ", *options.exportEvery, " is beyond the last frame, ", last - first));
+    if (options.exports.empty()) return;
+    const std::string kind = lowerExtension(options.exports);
+    checkWritable(kind == ".pvd" ? options.exports : exportName(options.exports, last, several(), last));
+    sole_.emplace(kind.empty() ? fs::path(options.exports) / "state.csv" : fs::path(options.exports));
+}
+
+bool Exporter::several() const {
+    return options_.exportFrames.size() > 1 || options_.exportEvery;
 }
 
 bool Exporter::asksFor(int frame) const {
     if (options_.exports.empty()) return false;
-    // an index of a single frame is of no use
-    const bool all = options_.exportFrames.empty() && lowerExtension(options_.exports) == ".pvd";
-    if (options_.exportEvery || all) return (frame - first_) % options_.exportEvery.value_or(1) == 0;
-    return app::asksFor(options_.exportFrames, frame, last_);
+    if (!options_.exportFrames.empty()) return contains(options_.exportFrames, frame);
+    return !asksForLast() && (frame - first_) % options_.exportEvery.value_or(1) == 0;
+}
+
+// Of an index every one: that of a single frame is of no use.
+bool Exporter::asksForLast() const {
+    return !options_.exports.empty() && options_.exportFrames.empty() && !options_.exportEvery &&
+           lowerExtension(options_.exports) != ".pvd";
 }
 
 std::string Exporter::write(Simulation& simulation, const Scene& scene) {
-    const bool several = options_.exportFrames.size() > 1 || options_.exportEvery;
-    const std::string file = exportName(options_.exports, simulation.frames(), several);
+    const std::string file = exportName(options_.exports, simulation.frames(), several(), last_);
     const std::string kind = lowerExtension(file);
     if (kind == ".vtp")
         writeVtp(file, simulation, scene, options_.exportCells);

@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/part_file.h"
 
 namespace shoal::app {
 
@@ -28,15 +29,6 @@ std::string findGnuplot() {
     }
     return {};
 }
-
-// Removed unless it becomes the picture.
-struct Partial {
-    fs::path path;
-    ~Partial() {
-        std::error_code ignored;
-        fs::remove(path, ignored);
-    }
-};
 
 int memoryFile(const char* what) {
     const int out = memfd_create(what, MFD_CLOEXEC);
@@ -86,28 +78,23 @@ std::string quoted(std::string text) {
     return "'" + text + "'";
 }
 
-void needGnuplot() {
+void needGnuplot(const std::string& file) {
     if (findGnuplot().empty())
         throw Error(
             "--plot needs the gnuplot command, which is not installed (on Debian and Ubuntu: apt install "
             "gnuplot-nox)");
+    PartFile{file};  // made, and taken away again
 }
 
 void drawWithGnuplot(const std::string& file, const std::function<std::string(const std::string&)>& script) {
-    const fs::path target = fs::absolute(file);
-    std::error_code error;
-    fs::create_directories(target.parent_path(), error);
-    if (error)
-        throw Error(concat(target.parent_path().string(), ": cannot make this folder: ", error.message()));
-    const Partial partial{target.parent_path() / concat(".", target.stem().string(), ".", getpid(),
-                                                        ".partial", target.extension().string())};
+    PartFile part(fs::absolute(file));
     std::string log;
-    const int code = runGnuplot(findGnuplot(), script(partial.path.string()), log);
-    const bool written = fs::exists(partial.path, error) && fs::file_size(partial.path, error) > 0;
+    const int code = runGnuplot(findGnuplot(), script(part.path().string()), log);
+    std::error_code error;
+    const bool written = fs::exists(part.path(), error) && fs::file_size(part.path(), error) > 0;
     if (code != 0 || !written)
         throw Error(concat(file, ": gnuplot did not draw it", log.empty() ? "" : ": ", log));
-    fs::rename(partial.path, target, error);
-    if (error) throw Error(concat(file, ": cannot be written: ", error.message()));
+    part.replaceTarget();
 }
 
 }  // namespace shoal::app

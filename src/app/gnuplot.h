@@ -6,8 +6,8 @@
 
 namespace shoal::app {
 
-// Before anything is measured. Error: gnuplot is not installed.
-void needGnuplot();
+// Before anything is measured. Error: gnuplot is not installed, or `file` cannot be written.
+void needGnuplot(const std::string& file);
 
 // `script` gives what gnuplot is told, for the name of the file that it is to write. The picture replaces
 // `file` (.svg or .png) when it is whole; folders are made.

@@ -5,12 +5,14 @@
 
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/signals.h"
 
 int main(int argc, char** argv) {
     using namespace shoal::app;
     // A full disk or a closed pipe shows as an error of the write that met it, not as a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
+    catchSignals();
     try {
         const std::optional<Options> options = parseOptions(argc, argv);
         int code = 0;
@@ -51,6 +53,7 @@ int main(int argc, char** argv) {
         }
         std::cout.flush();
         if (!std::cout) throw shoal::Error("standard output cannot be written");
+        if (const int signal = signalThatAsked()) endBySignal(signal);
         return code;
     } catch (const std::bad_alloc&) {
         std::cerr << "shoal: out of memory\n";

@@ -149,7 +149,9 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const Acc
 }
 
 int measureCommand(const Options& options) {
-    if (!options.plot.empty()) needGnuplot();
+    // known before the measuring, not after it
+    if (!options.plot.empty()) needGnuplot(options.plot);
+    if (!options.csv.empty()) checkWritable(options.csv);
     if (!options.report.empty()) return measureReport(options);
     FieldWatch watch;
     Scene scene = readScene(options.files.front(), watch.baking());

@@ -194,7 +194,7 @@ void tellAll(const Options& options, const std::vector<ReportScene>& all) {
 int measureReport(const Options& given) {
     Options options = given;
     if (options.samplings.empty()) options.samplings = {FieldSampling::vertexSubstep};
-    needGnuplot();
+    needGnuplot((fs::path(options.report) / "tables.md").string());
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.visible = false;

@@ -32,7 +32,8 @@ static bool hasFfmpeg() {
 void Recorder::start(const std::string& stem, double frameRate) {
     target_ = freeName(stem, hasFfmpeg() ? ".mp4" : "");
     frames_ = 0;
-    writer_ = std::make_unique<PictureWriter>(target_, frameRate);
+    constexpr int most = 9'999'999;  // pictures: nobody knows yet when it stops
+    writer_ = std::make_unique<PictureWriter>(target_, frameRate, true, most);
 }
 
 void Recorder::add(const Image& picture) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <limits>
@@ -15,6 +16,7 @@
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/signals.h"
 #include "core/cache_folder.h"
 #include "render/picture.h"
 #include "render/renderer.h"
@@ -98,8 +100,8 @@ class HeadlessRun {
         size.height = options.height;
         if (options.timings) size.timing = gpu::PassTimers::suitedTo(context.info());
         renderer_ = std::make_unique<Renderer>(context, shaderRoot(), loaded_.scene, loaded_.plan, size);
-        pictures_ =
-            std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_, frames_ > every_);
+        pictures_ = std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_,
+                                                    frames_ > every_, last_);
     }
 
     void go() {
@@ -113,7 +115,7 @@ class HeadlessRun {
                         concat(runaway.message(), ". ", saveForInspection(options_, simulation_, runaway)));
         }
         if (pictures_) pictures_->finish();
-        if (pictures_) note(pictures_->last().string());
+        if (pictures_ && isVideo(pictures_->target())) note(pictures_->last().string());
         context_.checkErrors("run");
         simulation_.timers().drain();
         if (renderer_) renderer_->timers().drain();
@@ -123,7 +125,7 @@ class HeadlessRun {
     void runFrames() {
         Progress progress("frames", frames_);
         outside([&] { writeIfAsked(first_); });
-        for (int frame = first_ + 1; frame <= last_; ++frame) {
+        for (int frame = first_ + 1; frame <= last_ && !signalThatAsked(); ++frame) {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
@@ -133,12 +135,13 @@ class HeadlessRun {
             outside([&] {
                 if (draws) {
                     pictures_->write(renderer_->capture(), frame);
-                    note(pictures_->last().string());
+                    if (!isVideo(pictures_->target())) note(pictures_->last().string());
                 }
                 writeIfAsked(frame);
             });
             progress.step();
         }
+        outside([&] { writeLast(); });
         simulation_.check();
     }
 
@@ -149,13 +152,14 @@ class HeadlessRun {
             report_.lives = livesOf(simulation_);
         });
         tellDropped();
+        tellStopped();
         if (options_.json) {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
         }
-        std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds
-                  << " s on the " << name(simulation_.path().path) << " path, " << context_.info().renderer
-                  << " (" << gpu::name(context_.info().kind) << ")\n";
+        std::cout << simulation_.frames() - first_ << " frames, " << simulation_.time() << " s simulated in "
+                  << report_.seconds << " s on the " << name(simulation_.path().path) << " path, "
+                  << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
         for (const GroupLives& lives : report_.lives)
             std::cout << text(lives) << "\n";
@@ -172,6 +176,17 @@ class HeadlessRun {
                   << " contacts were left out, because a sphere touched more than "
                   << simulation_.contact()->listLength()
                   << " others: a smaller radius, or molecules that start further apart, touch fewer\n";
+    }
+    void tellStopped() {
+        const int signal = signalThatAsked();
+        if (!signal) return;
+        std::cerr << "shoal: stopped by signal " << signal << " (" << ::strsignal(signal) << ") after frame "
+                  << simulation_.frames() << " of " << last_;
+        const size_t count = report_.written.size();
+        if (count > 0) std::cerr << "; whole: " << report_.written.front();
+        if (count > 1) std::cerr << (count > 2 ? " to " : ", ") << report_.written.back();
+        if (count > 2) std::cerr << ", " << count << " files";
+        std::cerr << "\n";
     }
     std::vector<gpu::PassTime> passTimes() {
         std::vector<gpu::PassTime> out = simulation_.timers().report();
@@ -199,11 +214,17 @@ class HeadlessRun {
     // What frames leave in files beside pictures.
     void writeIfAsked(int frame) {
         if (exporter_->asksFor(frame)) note(exporter_->write(simulation_, loaded_.scene));
-        if (!options_.save.empty() && asksFor(options_.saveFrames, frame, last_)) {
-            const std::string file = numbered(options_.save, frame, options_.saveFrames.size() > 1);
-            saveState(file, simulation_);
-            note(file);
-        }
+        if (contains(options_.saveFrames, frame)) save(frame);
+    }
+    // What is asked of the last frame, which may be one before its time.
+    void writeLast() {
+        if (exporter_->asksForLast()) note(exporter_->write(simulation_, loaded_.scene));
+        if (options_.saveFrames.empty() && !options_.save.empty()) save(simulation_.frames());
+    }
+    void save(int frame) {
+        const std::string file = numbered(options_.save, frame, options_.saveFrames.size() > 1, last_);
+        saveState(file, simulation_);
+        note(file);
     }
 
     const Options& options_;
@@ -230,6 +251,7 @@ void tellWarnings(const Simulation& simulation, gpu::ProgramCache& cache) {
 
 int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
     HeadlessRun run(options, context, std::move(loaded));
+    const FinishesOnSignal finishes;
     run.go();
     run.tell();
     return 0;

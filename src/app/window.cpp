@@ -25,6 +25,7 @@
 #include "app/run.h"
 #include "app/scene_list.h"
 #include "app/screenshot.h"
+#include "app/signals.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
 #include "gpu/gl.h"
@@ -61,6 +62,7 @@ class WindowRun {
     }
 
     void go() {
+        const FinishesOnSignal finishes;
         auto last = std::chrono::steady_clock::now();
         while (!closes()) {
             glfwPollEvents();
@@ -82,6 +84,7 @@ class WindowRun {
   private:
     // Not before the user has said what becomes of what is not saved.
     bool closes() {
+        if (signalThatAsked()) return true;
         if (!glfwWindowShouldClose(window_)) return false;
         if (!open_ || discards_ || !open_->running.unsaved()) return true;
         asked_ = Wish();
@@ -205,9 +208,11 @@ class WindowRun {
         const Options& options = open_->options;
         const Simulation& simulation = open_->simulation();
         const bool now =
-            options.saveFrames.empty() ? end : !end && asksFor(options.saveFrames, simulation.frames(), -1);
+            options.saveFrames.empty() ? end : !end && contains(options.saveFrames, simulation.frames());
         if (options.save.empty() || !now) return;
-        const std::string file = numbered(options.save, simulation.frames(), options.saveFrames.size() > 1);
+        const auto last = std::max_element(options.saveFrames.begin(), options.saveFrames.end());
+        const std::string file = numbered(options.save, simulation.frames(), options.saveFrames.size() > 1,
+                                          last == options.saveFrames.end() ? 0 : *last);
         saveState(file, simulation);
         std::cout << "saved: " << file << "\n";
     }

@@ -141,7 +141,7 @@ void Document::save() {
     if (there != text_)
         throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
     const std::string edited = withEdits(text_, now_.draft);
-    if (edited != text_) writeFile(targetOf(file_), edited);
+    if (edited != text_) writeFile(file_, edited);
     // one state of the draft is the file's now; those before and after it keep their origins where the
     // elements are the same ones
     text_ = edited;

@@ -3,6 +3,8 @@
 #include <cerrno>
 #include <cstring>
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "core/error.h"
@@ -12,14 +14,32 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
+std::string kindOf(mode_t mode) {
+    if (S_ISDIR(mode)) return "a folder";
+    if (S_ISFIFO(mode)) return "a FIFO";
+    if (S_ISSOCK(mode)) return "a socket";
+    return "a device";
+}
+
+// Looked at before it is opened, because a FIFO would wait for its writer and a device may do anything; and
+// afterwards, because it may have become another one in between.
 FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
     refuseOutside(path);
-    std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (status.type() == fs::file_type::not_found) throw Error(location_, "no such file");
-    if (status.type() == fs::file_type::directory) throw Error(location_, "is a folder, expected a file");
-    file_.reset(std::fopen(path.c_str(), "rb"));
-    if (!file_) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    struct stat status {};
+    const auto needRegular = [&] {
+        if (!S_ISREG(status.st_mode))
+            throw Error(location_, concat("is ", kindOf(status.st_mode), ", expected a file"));
+    };
+    if (::stat(path.c_str(), &status) == 0) {
+        needRegular();
+    } else if (errno == ENOENT || errno == ENOTDIR) {
+        throw Error(location_, "no such file");
+    }
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    if (file >= 0) file_.reset(::fdopen(file, "rb"));
+    if (!file_ || ::fstat(file, &status) != 0)
+        throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    needRegular();
 }
 
 size_t FileReader::read(void* data, size_t bytes) {
@@ -49,23 +69,37 @@ std::string lowerExtension(const fs::path& path) {
     return extension;
 }
 
-FileWriter::FileWriter(const fs::path& path) : path_(path) {
-    std::error_code code;
-    if (path.has_parent_path()) fs::create_directories(path.parent_path(), code);
-    if (code)
-        throw Error(Location{path.parent_path().string(), 0, 0, {}},
-                    "cannot make this folder: " + code.message());
-    if (fs::is_directory(path, code))
-        throw Error(Location{path.string(), 0, 0, {}}, "is a folder, expected a file to write");
-    temporary_ = path.string() + ".part-" + std::to_string(::getpid());
-    file_.reset(std::fopen(temporary_.c_str(), "wb"));
-    if (!file_)
+// Disks are devices, too, and are not among them.
+static bool takesBytes(const fs::path& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 && (S_ISCHR(status.st_mode) || S_ISFIFO(status.st_mode));
+}
+
+// A FIFO that nobody reads would be waited for.
+static FilePointer openForBytes(const fs::path& path) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    const Location location{path.string(), 0, 0, {}};
+    if (file < 0 && errno == ENXIO) throw Error(location, "cannot be written: nobody reads there");
+    if (file < 0) throw Error(location, concat("cannot be written: ", std::strerror(errno)));
+    ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
+    return FilePointer(::fdopen(file, "wb"));
+}
+
+void checkWritable(const fs::path& path) {
+    if (!takesBytes(path))
+        PartFile{path};  // made, and taken away again
+    else if (::access(path.c_str(), W_OK) != 0)
         throw Error(Location{path.string(), 0, 0, {}}, concat("cannot be written: ", std::strerror(errno)));
 }
 
-FileWriter::~FileWriter() {
-    std::error_code ignored;
-    if (!temporary_.empty()) fs::remove(temporary_, ignored);
+FileWriter::FileWriter(const fs::path& path) : path_(path) {
+    if (takesBytes(path)) {
+        file_ = openForBytes(path);
+    } else {
+        part_.emplace(path);
+        file_.reset(::fdopen(::fcntl(part_->file(), F_DUPFD_CLOEXEC, 0), "wb"));
+    }
+    if (!file_) fail(errno);
 }
 
 void FileWriter::fail(int cause) const {
@@ -81,10 +115,7 @@ void FileWriter::write(const void* data, size_t bytes) {
 void FileWriter::finish() {
     if (std::fflush(file_.get()) != 0) fail(errno);
     if (std::fclose(file_.release()) != 0) fail(errno);
-    std::error_code code;
-    fs::rename(temporary_, path_, code);
-    if (code) throw Error(Location{path_.string(), 0, 0, {}}, concat("cannot be written: ", code.message()));
-    temporary_.clear();
+    if (part_) part_->replaceTarget();
 }
 
 void writeFile(const fs::path& path, std::string_view bytes) {

@@ -1,5 +1,6 @@
 #include "render/picture.h"
 
+#include <algorithm>
 #include <cctype>
 
 #include "core/error.h"
@@ -14,7 +15,7 @@ static std::string number(int frame, int digits) {
 }
 
 // Replaces the one %d, %5d or %05d of a name. Not printf: the name comes from the user.
-static std::string withNumber(const std::string& name, int frame) {
+static std::string withNumber(const std::string& name, int frame, int last) {
     const size_t percent = name.find('%');
     size_t end = percent + 1;
     int digits = 0;
@@ -25,15 +26,21 @@ static std::string withNumber(const std::string& name, int frame) {
     if (!sound)
         throw Error(
             concat("expected one frame number such as %05d in the name of a picture, found \"", name, "\""));
+    const auto needed = std::to_string(last).size();
+    if (digits > 0 && size_t(digits) < needed)
+        throw Error(concat("\"", name, "\" has ", digits,
+                           " digits for a frame's number, and the last frame, ", last, ", has ", needed,
+                           ": the names would not sort; say %0", needed, "d"));
     return name.substr(0, percent) + number(frame, digits) + name.substr(end + 1);
 }
 
-std::filesystem::path frameFile(const std::string& target, int frame, bool many) {
-    if (target.find('%') != std::string::npos) return withNumber(target, frame);
+std::filesystem::path frameFile(const std::string& target, int frame, bool many, int last) {
+    if (target.find('%') != std::string::npos) return withNumber(target, frame, last);
     const std::filesystem::path path(target);
-    if (lowerExtension(path) != ".png") return path / ("frame-" + number(frame, 5) + ".png");
+    const std::string padded = number(frame, std::max(5, int(std::to_string(last).size())));
+    if (lowerExtension(path) != ".png") return path / ("frame-" + padded + ".png");
     if (!many) return path;
-    return path.parent_path() / (path.stem().string() + "-" + number(frame, 5) + path.extension().string());
+    return path.parent_path() / (path.stem().string() + "-" + padded + path.extension().string());
 }
 
 bool isVideo(const std::string& target) {
@@ -41,18 +48,26 @@ bool isVideo(const std::string& target) {
     return extension == ".mp4" || extension == ".mkv" || extension == ".webm" || extension == ".mov";
 }
 
-PictureWriter::PictureWriter(std::string target, double frameRate, bool many)
-    : target_(std::move(target)), frameRate_(frameRate), many_(many) {
+PictureWriter::PictureWriter(std::string target, double frameRate, bool many, int last)
+    : target_(std::move(target)), frameRate_(frameRate), many_(many), lastFrame_(last) {
     if (isVideo(target_)) {
         VideoWriter::checkInstalled();
+        PartFile{target_};  // can be written
     } else {
-        frameFile(target_, 0, many_);
+        frameFile(target_, 0, many_, lastFrame_);
     }
+    const std::filesystem::path path(target_);
+    if (!isVideo(target_) && target_.find('%') == std::string::npos && lowerExtension(path) != ".png")
+        sole_.emplace(path / "frame.png");
+    else if (path.parent_path().string().find('%') == std::string::npos)  // else a folder a frame
+        sole_.emplace(path);
 }
 
 void PictureWriter::write(const Image& picture, int frame) {
     if (!isVideo(target_)) {
-        last_ = frameFile(target_, frame, many_);
+        if (frame > lastFrame_)
+            throw Error(concat(target_, ": frame ", frame, " is beyond the last that names have digits for"));
+        last_ = frameFile(target_, frame, many_, lastFrame_);
         writePng(last_, picture);
         return;
     }
@@ -64,6 +79,7 @@ void PictureWriter::write(const Image& picture, int frame) {
 void PictureWriter::finish() {
     if (video_) video_->finish();
     video_.reset();
+    sole_.reset();
 }
 
 }  // namespace shoal

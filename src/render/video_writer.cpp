@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <pthread.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -38,29 +39,44 @@ void VideoWriter::checkInstalled() {
 }
 
 VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate)
-    : file_(std::move(file)), width_(width), height_(height) {
-    if (file_.has_parent_path()) {
-        std::error_code error;
-        std::filesystem::create_directories(file_.parent_path(), error);
-        if (error)
-            throw Error(concat(file_.parent_path().string(), ": cannot make this folder: ", error.message()));
-    }
-    // The extension stays last: ffmpeg chooses the container by it.
-    const std::string unfinished = concat(".", file_.stem().string(), ".", getpid(), ".partial");
-    partial_ = std::filesystem::absolute(file_).parent_path() / (unfinished + file_.extension().string());
+    : file_(std::move(file)), part_(file_), width_(width), height_(height) {
     start(frameRate);
 }
+
+namespace {
+
+// ffmpeg gets what ends the whole group of processes as we do (Ctrl-C, systemd, timeout), and would stop
+// before the last picture. It inherits that these are held back; when the pipe is closed, it ends by itself.
+class EndingSignalsHeld {
+  public:
+    EndingSignalsHeld() {
+        sigset_t ending;
+        sigemptyset(&ending);
+        for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+            sigaddset(&ending, signal);
+        pthread_sigmask(SIG_BLOCK, &ending, &before_);
+    }
+    ~EndingSignalsHeld() { pthread_sigmask(SIG_SETMASK, &before_, nullptr); }
+    EndingSignalsHeld(const EndingSignalsHeld&) = delete;
+    EndingSignalsHeld& operator=(const EndingSignalsHeld&) = delete;
+
+  private:
+    sigset_t before_{};
+};
+
+}  // namespace
 
 void VideoWriter::start(double frameRate) {
     const std::string program = findFfmpeg();
     if (program.empty()) checkInstalled();
     const bool vp9 = lowerExtension(file_) == ".webm";
+    // ffmpeg chooses the container by the extension, which part_ has, too.
     const std::vector<std::string> arguments = {
         program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pix_fmt", "rgba",
         "-video_size", concat(width_, "x", height_), "-framerate", concat(frameRate), "-i", "pipe:0",
         // Chroma at half size needs even sides; a side that is odd gains a row or column.
         "-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p", "-c:v", vp9 ? "libvpx-vp9" : "libx264",
-        "-crf", vp9 ? "24" : "18", partial_.string()};
+        "-crf", vp9 ? "24" : "18", std::filesystem::absolute(part_.path()).string()};
     std::vector<char*> argv;
     for (const std::string& argument : arguments)
         argv.push_back(const_cast<char*>(argument.c_str()));
@@ -71,9 +87,11 @@ void VideoWriter::start(double frameRate) {
         throw Error(concat("cannot make a pipe to ffmpeg: ", std::strerror(errno)));
     // In memory: what ffmpeg has to say about a full disk must not need that disk.
     log_ = memfd_create("ffmpeg's log", MFD_CLOEXEC);
+    const EndingSignalsHeld held;
     process_ = log_ >= 0 ? fork() : -1;
     if (process_ == 0) {
         // Only calls that are safe between fork and exec.
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // its file is removed with us
         dup2(ends[0], STDIN_FILENO);
         dup2(log_, STDOUT_FILENO);
         dup2(log_, STDERR_FILENO);
@@ -91,12 +109,10 @@ void VideoWriter::start(double frameRate) {
 
 VideoWriter::~VideoWriter() {
     if (process_ > 0) {
-        kill(process_, SIGKILL);  // the file is removed below: there is nothing to finish
+        kill(process_, SIGKILL);  // the file is removed: there is nothing to finish
         closePipe();
         wait();
     }
-    std::error_code ignored;
-    std::filesystem::remove(partial_, ignored);
     closeLog();
 }
 
@@ -196,10 +212,7 @@ void VideoWriter::finish() {
     const int status = wait();
     // It ends well even when the file's end could not be written; then it has said so.
     if (status != 0 || !complaint().empty()) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");
-    std::error_code error;
-    std::filesystem::rename(partial_, file_, error);
-    if (error)
-        throw Error(concat(file_.string(), ": cannot give the finished video its name: ", error.message()));
+    part_.replaceTarget();
 }
 
 }  // namespace shoal

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/image.h"
+#include "core/part_file.h"
 
 namespace shoal {
 
@@ -13,7 +14,7 @@ class VideoWriter {
     // Error: ffmpeg is not installed; says how to get it.
     static void checkInstalled();
 
-    // Error: ffmpeg cannot be started.
+    // Error: ffmpeg cannot be started, or PartFile's.
     VideoWriter(std::filesystem::path file, int width, int height, double frameRate);
     ~VideoWriter();  // without finish(): nothing is left behind
     VideoWriter(const VideoWriter&) = delete;
@@ -32,7 +33,8 @@ class VideoWriter {
     [[noreturn]] void fail(const std::string& what);
     std::string complaint() const;  // the end of what ffmpeg said
 
-    std::filesystem::path file_, partial_;
+    std::filesystem::path file_;
+    PartFile part_;
     int width_, height_;
     int pipe_ = -1, log_ = -1;
     pid_t process_ = -1;

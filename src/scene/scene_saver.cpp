@@ -1,7 +1,5 @@
 #include "scene/scene_saver.h"
 
-#include <filesystem>
-
 #include "core/file.h"
 #include "core/json_edit.h"
 #include "scene/life_writer.h"
@@ -130,10 +128,7 @@ bool differ(const Scene& before, const Scene& after) {
 
 void saveEdits(const Scene& before, const Scene& after) {
     const std::string text = readFile(before.file), edited = withEdits(text, before, after);
-    // through a link, into what it points to
-    std::error_code code;
-    const std::filesystem::path target = std::filesystem::canonical(before.file, code);
-    if (edited != text) writeFile(code ? std::filesystem::path(before.file) : target, edited);
+    if (edited != text) writeFile(before.file, edited);
 }
 
 }  // namespace shoal

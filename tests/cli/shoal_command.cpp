@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "support/catch.h"
 
@@ -36,6 +37,7 @@ struct Pipe {
         close(read);
         close(write);
     }
+    int takeRead() { return std::exchange(read, -1); }
     Pipe(const Pipe&) = delete;
     Pipe& operator=(const Pipe&) = delete;
     static void close(int& end) {
@@ -74,6 +76,8 @@ std::vector<char*> pointers(Words& words) {
     if (!surroundings.standardOutput.empty()) out = ::open(surroundings.standardOutput.c_str(), O_WRONLY);
     const int in = ::open("/dev/null", O_RDONLY);
     if (out < 0 || in < 0) ::_exit(126);
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP})  // whatever the tests were started with
+        ::signal(signal, SIG_DFL);
     ::dup2(in, STDIN_FILENO);
     ::dup2(out, STDOUT_FILENO);
     ::dup2(err, STDERR_FILENO);
@@ -81,50 +85,96 @@ std::vector<char*> pointers(Words& words) {
     ::_exit(127);
 }
 
-// Reads both ends until the program closes them; false when the time is up.
-bool collect(Pipe& out, Pipe& err, Outcome& outcome, double seconds) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-    pollfd ends[] = {{out.read, POLLIN, 0}, {err.read, POLLIN, 0}};
+// Reads what both ends have, and waits for it at most so long. False: the program has closed them.
+bool readSome(int& out, int& err, Outcome& outcome, int milliseconds) {
+    pollfd ends[] = {{out, POLLIN, 0}, {err, POLLIN, 0}};
     std::string* texts[] = {&outcome.out, &outcome.err};
-    while (ends[0].fd >= 0 || ends[1].fd >= 0) {
-        const std::chrono::duration<double> left = end - std::chrono::steady_clock::now();
-        if (left.count() <= 0) return false;
-        ::poll(ends, 2, int(left.count() * 1000) + 1);
-        for (int i = 0; i < 2; ++i) {
-            if (ends[i].fd < 0 || ends[i].revents == 0) continue;
-            char chunk[4096];
-            const ssize_t count = ::read(ends[i].fd, chunk, sizeof chunk);
-            if (count > 0)
-                texts[i]->append(chunk, size_t(count));
-            else
-                ends[i].fd = -1;
-        }
+    int* files[] = {&out, &err};
+    ::poll(ends, 2, milliseconds);
+    for (int i = 0; i < 2; ++i) {
+        if (ends[i].fd < 0 || ends[i].revents == 0) continue;
+        char chunk[4096];
+        const ssize_t count = ::read(ends[i].fd, chunk, sizeof chunk);
+        if (count > 0)
+            texts[i]->append(chunk, size_t(count));
+        else
+            Pipe::close(*files[i]);
     }
-    return true;
+    return out >= 0 || err >= 0;
+}
+
+double secondsNow() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 }  // namespace
 
-Outcome runShoal(const Words& arguments, const Surroundings& surroundings) {
+StartedShoal::StartedShoal(const Words& arguments, const Surroundings& surroundings)
+    : seconds_(surroundings.seconds) {
     Words words{SHOAL_COMMAND}, variables = environmentOf(surroundings);
     words.insert(words.end(), arguments.begin(), arguments.end());
     const std::vector<char*> argv = pointers(words), envp = pointers(variables);
     Pipe out, err;
-    const pid_t process = ::fork();
-    if (process < 0) throw std::runtime_error("the program cannot be started");
-    if (process == 0)
+    process_ = ::fork();
+    if (process_ < 0) throw std::runtime_error("the program cannot be started");
+    if (process_ == 0) {
+        ::setpgid(0, 0);
         become(const_cast<char**>(argv.data()), const_cast<char**>(envp.data()), surroundings, out.write,
                err.write);
-    Pipe::close(out.write);
-    Pipe::close(err.write);
-    Outcome outcome;
-    outcome.late = !collect(out, err, outcome, surroundings.seconds);
-    if (outcome.late) ::kill(process, SIGKILL);
+    }
+    ::setpgid(process_, process_);  // here as well, since nobody knows who comes first
+    out_ = out.takeRead();
+    err_ = err.takeRead();
+}
+
+StartedShoal::~StartedShoal() {
+    if (process_ > 0) {
+        ::kill(process_, SIGKILL);
+        ::waitpid(process_, nullptr, 0);
+    }
+    Pipe::close(out_);
+    Pipe::close(err_);
+}
+
+template <typename Test>
+void StartedShoal::waitUntil(const char* what, const Test& test) {
+    const double end = secondsNow() + seconds_;
+    while (!test()) {
+        const bool runs = readSome(out_, err_, outcome_, 20);
+        INFO("waits for " << what << "\n" << outcome_.out << outcome_.err);
+        REQUIRE((runs || test()));
+        REQUIRE(secondsNow() < end);
+    }
+}
+
+void StartedShoal::waitForFile(const std::string& file) {
+    waitUntil(file.c_str(), [&] { return fs::exists(file); });
+}
+
+void StartedShoal::waitForError(const std::string& part) {
+    waitUntil(part.c_str(), [&] { return outcome_.err.find(part) != std::string::npos; });
+}
+
+void StartedShoal::send(int signal, bool toAll) {
+    REQUIRE(::kill(toAll ? -process_ : process_, signal) == 0);
+}
+
+Outcome StartedShoal::finish() {
+    const double end = secondsNow() + seconds_;
+    while (readSome(out_, err_, outcome_, 100) && !outcome_.late)
+        outcome_.late = secondsNow() > end;
+    if (outcome_.late) ::kill(process_, SIGKILL);
     int status = 0;
-    ::waitpid(process, &status, 0);
-    if (WIFEXITED(status)) outcome.code = WEXITSTATUS(status);
-    if (outcome.late) outcome.err += "\n(ended by the test: it took longer than the time limit)";
-    return outcome;
+    ::waitpid(process_, &status, 0);
+    process_ = -1;
+    if (WIFEXITED(status)) outcome_.code = WEXITSTATUS(status);
+    if (WIFSIGNALED(status)) outcome_.signal = WTERMSIG(status);
+    if (outcome_.late) outcome_.err += "\n(ended by the test: it took longer than the time limit)";
+    return outcome_;
+}
+
+Outcome runShoal(const Words& arguments, const Surroundings& surroundings) {
+    return StartedShoal(arguments, surroundings).finish();
 }
 
 std::vector<std::string> Outcome::messages() const {

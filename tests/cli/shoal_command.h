@@ -12,7 +12,8 @@
 namespace shoal::test {
 
 struct Outcome {
-    int code = -1;  // exit code; -1: ended by a signal or by the time limit
+    int code = -1;   // exit code; -1: ended by a signal or by the time limit
+    int signal = 0;  // that ended it
     bool late = false;
     std::string out, err;
 
@@ -33,6 +34,28 @@ struct Surroundings {
 using Words = std::vector<std::string>;
 
 Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {});
+
+// The same while it runs, in a group of processes of its own.
+class StartedShoal {
+  public:
+    explicit StartedShoal(const Words& arguments, const Surroundings& surroundings = {});
+    ~StartedShoal();  // ends it, if it still runs
+    StartedShoal(const StartedShoal&) = delete;
+    StartedShoal& operator=(const StartedShoal&) = delete;
+
+    int process() const { return process_; }
+    void waitForFile(const std::string& file);   // both fail the test when it ends before, or after the limit
+    void waitForError(const std::string& part);  // on standard error
+    void send(int signal, bool toAll = false);   // to all: as a terminal does
+    Outcome finish();
+
+  private:
+    int process_ = -1, out_ = -1, err_ = -1;
+    double seconds_;
+    Outcome outcome_;
+    template <typename Test>
+    void waitUntil(const char* what, const Test& test);
+};
 
 // Whether this machine has the context ("egl", "osmesa", "window"); asked once.
 bool hasContext(const std::string& name);

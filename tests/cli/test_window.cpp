@@ -1,5 +1,7 @@
 // The window, seen: under a display (tests/CMakeLists.txt starts one) a screenshot shows scene and panel.
 // Hidden from plain runs of shoal-cli, which have no display.
+#include <csignal>
+
 #include "cli/shoal_command.h"
 #include "core/image.h"
 #include "support/catch.h"
@@ -32,6 +34,19 @@ TEST_CASE("a window shows the scene and the panel", "[.window]") {
     CHECK(brightness(image, 500, 20, 250, 60) > 110);  // the sky beside it
     CHECK(brightness(image, 20, 14, 90, 10) > 25);     // its title is written on it
     CHECK(brightness(image, 20, 14, 90, 10) < 160);
+}
+
+TEST_CASE("a window that is told to end closes, and ends by the signal", "[.window]") {
+    const Scratch scratch;
+    StartedShoal window({"run", helloScene(), "--context", "window", "--size", "320x240", "--save",
+                         scratch.path("s.shoal"), "--save-frames", "1"});
+    window.waitForFile(scratch.path("s.shoal"));
+    window.send(SIGTERM);
+    const Outcome outcome = window.finish();
+    INFO(outcome.err);
+    CHECK(outcome.signal == SIGTERM);
+    CHECK_THAT(outcome.err, Catch::Contains("a second signal ends it at once"));
+    CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"s.shoal"});
 }
 
 TEST_CASE("a window saves when it closes, and goes on from there", "[.window]") {

@@ -53,7 +53,9 @@ size_t filesIn(const std::string& folder) {
 
 TEST_CASE("frames are numbered in a folder or where the name says", "[picture]") {
     CHECK(frameFile("out", 7) == "out/frame-00007.png");
-    CHECK(frameFile("out", 123456) == "out/frame-123456.png");
+    CHECK(frameFile("out", 7, true, 123456) == "out/frame-000007.png");
+    CHECK(frameFile("a/%d.png", 7, true, 123456) == "a/7.png");
+    CHECK_THROWS_AS(frameFile("a/%05d.png", 7, true, 123456), Error);
     CHECK(frameFile("a/b-%04d.png", 12) == "a/b-0012.png");
     CHECK(frameFile("a/%d.png", 12) == "a/12.png");
     CHECK(frameFile("one.png", 12, false) == "one.png");
@@ -71,6 +73,8 @@ TEST_CASE("pictures are written under their number", "[picture]") {
     writer.finish();
     CHECK(writer.last() == scratch.path("out") + "/frame-00002.png");
     CHECK(readPng(writer.last()).width == 5);
+    PictureWriter few(scratch.path("few"), 60, true, 10);
+    CHECK_THROWS_AS(few.write(plain(5, 3), 11), Error);
 }
 
 TEST_CASE("a video without ffmpeg says what to install", "[picture]") {

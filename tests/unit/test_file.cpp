@@ -4,7 +4,12 @@
 #include <cstddef>
 #include <fstream>
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "core/file.h"
 #include "support/message_of.h"
@@ -40,6 +45,22 @@ TEST_CASE("what cannot be read says why", "[file]") {
     CHECK(readFile(folder / "large", 100).size() == 100);
 }
 
+TEST_CASE("what is no regular file is refused before it is read", "[file]") {
+    const test::Scratch folder;
+    REQUIRE(::mkfifo(folder.path("fifo").c_str(), 0600) == 0);
+    std::filesystem::create_symlink("/dev/zero", folder / "endless");
+    std::filesystem::create_symlink("fifo", folder / "waits");
+    CHECK(messageOf([&] { readFile(folder / "fifo"); }) ==
+          folder.path("fifo") + ": is a FIFO, expected a file");
+    CHECK(messageOf([&] { readFile(folder / "waits"); }).find("is a FIFO") != std::string::npos);
+    CHECK(messageOf([&] { readFile("/dev/null"); }) == "/dev/null: is a device, expected a file");
+    CHECK(messageOf([&] { readFile(folder / "endless"); }).find("is a device") != std::string::npos);
+    writeFile(folder / "file", std::string_view("x"));
+    std::filesystem::create_symlink("file", folder / "link");
+    CHECK(readFile(folder / "link") == "x");
+    CHECK(messageOf([&] { readFile(folder / "file/below"); }).find("no such file") != std::string::npos);
+}
+
 TEST_CASE("what cannot be written says why", "[file]") {
     const test::Scratch folder;
     writeFile(folder / "file", std::string_view("x"));
@@ -48,6 +69,71 @@ TEST_CASE("what cannot be written says why", "[file]") {
     CHECK(messageOf([&] {
               writeFile(folder / "file/below", std::string_view("x"));
           }).find("cannot make this folder") != std::string::npos);
+}
+
+TEST_CASE("a file is written through links, and into what is no file", "[file]") {
+    const test::Scratch folder;
+    writeFile(folder / "file", std::string_view("old"));
+    std::filesystem::create_symlink("file", folder / "link");
+    std::filesystem::create_symlink("deep/new", folder / "dangling");
+    std::filesystem::create_symlink("loop", folder / "loop");
+    std::filesystem::create_symlink("/dev/null", folder / "null");
+    for (const char* name : {"link", "dangling", "null"}) {
+        writeFile(folder / name, std::string_view("new"));
+        CHECK(std::filesystem::is_symlink(folder / name));
+    }
+    CHECK(readFile(folder / "file") == "new");
+    CHECK(readFile(folder / "deep/new") == "new");
+    CHECK(std::filesystem::is_character_file("/dev/null"));
+    CHECK(messageOf([&] { writeFile(folder / "loop", std::string_view("x")); }).find("cannot be written") !=
+          std::string::npos);
+
+    REQUIRE(::mkfifo(folder.path("fifo").c_str(), 0600) == 0);
+    CHECK(messageOf([&] { writeFile(folder / "fifo", std::string_view("x")); }).find("nobody reads there") !=
+          std::string::npos);
+    const int reader = ::open(folder.path("fifo").c_str(), O_RDONLY | O_NONBLOCK);
+    writeFile(folder / "fifo", std::string_view("x"));
+    char got = 0;
+    CHECK(::read(reader, &got, 1) == 1);
+    CHECK(got == 'x');
+    ::close(reader);
+    CHECK(std::filesystem::is_fifo(folder / "fifo"));
+    checkWritable(folder / "fifo");
+    CHECK(messageOf([&] { PartFile{folder / "fifo"}; }).find("is a FIFO") != std::string::npos);
+}
+
+TEST_CASE("what dead processes left is swept, and what is written stays", "[file]") {
+    const test::Scratch folder;
+    const pid_t dead = ::fork();
+    if (dead == 0) ::_exit(0);
+    REQUIRE(::waitpid(dead, nullptr, 0) == dead);
+    const std::string own = std::to_string(::getpid());
+    const auto make = [&](const std::string& name) { std::ofstream(folder / name) << "x"; };
+    make(concat(".shoal-", dead, "-a.csv"));
+    make(concat(".shoal-", dead, "-locked.csv"));  // by a process in another container, say
+    make(concat(".shoal-", own, "-c.csv"));        // of one that had our number
+    make(concat(".shoal-", ::getppid(), "-d.csv"));
+    make(".shoal-notes");
+    make("a.csv.part-" + own);
+    const int locked = ::open(folder.path(concat(".shoal-", dead, "-locked.csv")).c_str(), O_RDONLY);
+    REQUIRE(::flock(locked, LOCK_EX) == 0);
+    {
+        const PartFile unfinished(folder / "x.csv");
+        CHECK(unfinished.path() == folder / concat(".shoal-", own, "-x.csv"));
+        CHECK(entries(folder.folder()) == 5);  // of those above four
+        CHECK(messageOf([&] {
+                  writeFile(folder / "x.csv", std::string_view("x"));
+              }).find("is being written already") != std::string::npos);
+    }
+    CHECK(entries(folder.folder()) == 4);
+    CHECK(std::filesystem::exists(folder / concat(".shoal-", dead, "-locked.csv")));
+    CHECK(std::filesystem::exists(folder / concat(".shoal-", ::getppid(), "-d.csv")));
+    ::close(locked);
+    const PartFile unfinished(folder / "x.csv");
+    removePartFiles();
+    CHECK(entries(folder.folder()) == 4);
+    writeFile(folder / std::string(250, 'n'), std::string_view("long"));
+    CHECK(readFile(folder / std::string(250, 'n')) == "long");
 }
 
 TEST_CASE("a full disk leaves the old file and nothing else", "[file]") {

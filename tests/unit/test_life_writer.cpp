@@ -372,7 +372,8 @@ TEST_CASE("where nothing can be written the old file is kept and one error says 
         fs::permissions(scratch.folder(), fs::perms::owner_all);
         CHECK_THAT(message, Catch::Contains(file) && Catch::Contains("cannot be written"));
     }
-    fs::create_directory(concat(file, ".part-", ::getpid()));  // in the way of the file beside it
+    // in the way of the file beside it
+    fs::create_directory(scratch / concat(".shoal-", ::getpid(), "-", fs::path(file).filename().string()));
     CHECK_THAT(messageOf([&] { saveEdits(before, after); }),
                Catch::Contains(file) && Catch::Contains("cannot be written"));
     CHECK(readFile(file) == sparks);
