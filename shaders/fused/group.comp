@@ -83,6 +83,9 @@ void main()
 #ifdef FIELDS
     loadFieldParameters();
 #endif
+#ifdef MUSCLE_ANGLES
+    loadMuscleAngles();
+#endif
 #ifdef FORCE_PARAMETERS
     loadForceParameters();
 #endif

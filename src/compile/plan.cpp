@@ -88,6 +88,11 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
         out.pinned.push_back(out.needs.pins && vertex.pinned);
     if (group.release) out.release = *group.release;
     out.phaseSpread = group.phaseSpread;
+    out.muscles = muscleFrequencies(group.molecule);
+    if (countsMuscles(out.needs) && out.muscles.size() > mostMuscleFrequencies)
+        throw Error(group.location,
+                    concat("the muscles of \"", group.molecule.name, "\" beat at ", out.muscles.size(),
+                           " different frequencies; at most ", mostMuscleFrequencies, " are possible"));
     out.musclePeriod = musclePeriod(group.molecule);
     out.stiffness = group.stiffness;
     out.damping = group.damping;
@@ -282,10 +287,13 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                         "tangent rate in all directions")});
         chooseSolver(scene, scene.groups[i], group);
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
-        group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
+        group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
-        if (group.needs.liveSprings) group.springNumbers = springNumbers(scene.groups[i].molecule);
+        if (group.needs.liveSprings) {
+            group.springNumbers = springNumbers(scene.groups[i].molecule);
+            group.springFrequencies = springFrequencies(scene.groups[i].molecule);
+        }
         if (group.factored()) group.shape = scene.groups[i].molecule;
         checkMuscles(scene, scene.groups[i], plan.warnings);
         listPasses(group, i, plan);
@@ -330,6 +338,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
     plan.fieldWeights = std::move(fields.weights);
+    plan.fieldClocks = std::move(fields.clocks);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)

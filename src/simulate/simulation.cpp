@@ -61,6 +61,7 @@ void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         writeGroup(g, plan_.groups[g].start, 0);
     time_ = lastStep_ = 0;
+    lastParameters_.reset();
     frames_ = 0;
     disarm();
     computeNormals();
@@ -76,10 +77,12 @@ void Simulation::computeNormals() {
 void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
     check();
+    if (lastParameters_ && jumps(*lastParameters_, parameters)) lastStep_ = 0;
     before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;
     const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};
     lastStep_ = step;
+    lastParameters_ = parameters;
     timers_.beginFrame();
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
     if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
@@ -132,13 +135,16 @@ bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
     if (!fused || !plan.needs.liveSprings || fused->lanes(group) != Lanes::molecule) return false;
     if (molecule.springs.size() != size_t(plan.springCount)) return false;
     plan.springNumbers = springNumbers(molecule);
-    fused->changeSprings(group, plan.springNumbers);
+    plan.springFrequencies = springFrequencies(molecule);
+    lastStep_ = 0;
     return true;
 }
 
 bool Simulation::changeSchool(size_t group, const School& school) {
     auto* fused = std::get_if<Fused>(&path_);
-    return fused && fused->school() && fused->school()->change(group, school);
+    if (!fused || !fused->school() || !fused->school()->change(group, school)) return false;
+    lastStep_ = 0;
+    return true;
 }
 
 StateView Simulation::state() const {

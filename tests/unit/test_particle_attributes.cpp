@@ -109,3 +109,15 @@ TEST_CASE("ages: shares of a life", "[particle]") {
     CHECK(ageShare(vec2(100, 1e30f)) < 1e-20f);
     CHECK(ageShare(vec2(0, 0)) == 0);
 }
+
+TEST_CASE("what turns for ever turns on evenly after a day", "[particle]") {
+    const double late = 1e5, turn = 2 * std::acos(-1.0);
+    for (const double rate : {0.3, 5.0, -7.3}) {
+        // a particle's rate is a float: what it turns within 64 s is what counts
+        const double turns = double(float(rate)) * late / turn;
+        const auto blocks = uint32_t(late / 64);
+        const float angle = turnedBy(float(rate), blocks, float(late - 64.0 * blocks));
+        const double off = double(angle) / turn - turns;
+        CHECK(std::abs(off - std::round(off)) < 2e-3);
+    }
+}
