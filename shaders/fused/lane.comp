@@ -80,7 +80,7 @@ void main()
 #ifdef FIELDS
     loadFieldParameters();
 #endif
-#ifdef MUSCLE_ANGLES
+#if defined(ACTUATION) && !defined(STEERED)
     loadMuscleAngles();
 #endif
 #ifdef FORCE_PARAMETERS

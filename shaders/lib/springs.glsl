@@ -7,7 +7,7 @@ uniform float dampingFactor;
 uniform float springTime;   // s since the frame's start, for muscles
 uniform float predictTime;  // s: leapfrog's force uses the velocity v + a h/2; 0 at the start of a frame
 
-#ifdef ACTUATION
+#ifdef MUSCLES
 uniform vec4 muscleAngles[MUSCLES];  // rad, when the frame begins, four frequencies each
 #endif
 #ifdef VERLET
@@ -44,7 +44,7 @@ vec3 springForces(int vertex, int molecule)
         relative = v - predictedVelocity(other);
 #endif
         float restLength = spring.w * constant.y;
-#ifdef ACTUATION
+#ifdef MUSCLES
         vec4 muscle = table(first + 2 * i + 1);
         int number = int(muscle.w);
         restLength = bentLength(restLength, muscle.x,

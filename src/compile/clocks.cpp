@@ -62,6 +62,22 @@ size_t muscleNumber(const std::vector<double>& frequencies, const Spring& spring
                   frequencies.begin());
 }
 
+double commonPeriod(const std::vector<double>& frequencies) {
+    double slowest = 0;
+    for (const double frequency : frequencies)
+        if (frequency > 0 && (slowest == 0 || frequency < slowest)) slowest = frequency;
+    if (slowest == 0) return 0;
+    double best = 1 / slowest, least = 1;  // the largest share of a wave that is off
+    for (int n = 1; least > 1e-6 && (n == 1 || n / slowest <= 256); ++n) {
+        double off = 0;
+        for (const double frequency : frequencies)
+            off = std::max(off, std::abs(std::remainder(frequency * n / slowest, 1.0)));
+        if (off < least) best = n / slowest;
+        least = std::min(least, off);
+    }
+    return best;
+}
+
 std::vector<glm::vec4> muscleAngles(const std::vector<double>& frequencies, double time) {
     std::vector<glm::vec4> out(std::max<size_t>(1, (frequencies.size() + 3) / 4), glm::vec4(0));
     for (size_t i = 0; i < frequencies.size(); ++i)

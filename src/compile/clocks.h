@@ -34,6 +34,9 @@ std::vector<double> muscleFrequencies(const Molecule& molecule);
 size_t muscleNumber(const std::vector<double>& frequencies, const Spring& spring);
 // Frequencies of one molecule: four share a 4-vector of uniforms.
 constexpr size_t mostMuscleFrequencies = 128;
+// s, at most 256, after which waves of these frequencies are where they were: exactly, or as nearly as any
+// such time has it. 0: none moves.
+double commonPeriod(const std::vector<double>& frequencies);
 // rad, how far each muscle's wave is at a time, four in a 4-vector; at least one of those.
 std::vector<glm::vec4> muscleAngles(const std::vector<double>& frequencies, double time);
 

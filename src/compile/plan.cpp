@@ -53,16 +53,6 @@ std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     return taken ? concat(name, " ", index + 1) : name;
 }
 
-double musclePeriod(const Molecule& molecule) {
-    double frequency = 0;
-    for (const Spring& spring : molecule.springs) {
-        if (!spring.actuation || spring.actuation->amplitude == 0) continue;
-        if (frequency != 0 && spring.actuation->frequency != frequency) return 0;
-        frequency = spring.actuation->frequency;
-    }
-    return frequency > 0 ? 1 / frequency : 0;
-}
-
 int placesOf(const Group& group) {
     return group.life ? group.life->capacity : group.count;
 }
@@ -93,7 +83,7 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
         throw Error(group.location,
                     concat("the muscles of \"", group.molecule.name, "\" beat at ", out.muscles.size(),
                            " different frequencies; at most ", mostMuscleFrequencies, " are possible"));
-    out.musclePeriod = musclePeriod(group.molecule);
+    out.musclePeriod = commonPeriod(out.muscles);
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();

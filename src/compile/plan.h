@@ -59,7 +59,7 @@ struct GroupPlan {
     double stiffness = 1, damping = 1;
     double phaseSpread = 0;        // rad
     std::vector<double> muscles;   // Hz, their different frequencies (compile/clocks.h)
-    double musclePeriod = 0;       // s, of all its muscles; 0: they differ, or there are none
+    double musclePeriod = 0;       // s, of all its muscles; 0: there are none
     double size = 1;               // m, of the molecule
     double highestFrequency = 0;   // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;         // s, largest substep of the solver; infinite without springs

@@ -68,7 +68,6 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.springs, "SPRINGS");
     define(group.solver == SolverKind::verlet, "VERLET");
     define(needs.actuation, "ACTUATION");
-    define(countsMuscles(needs), "MUSCLE_ANGLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
     define(options.births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");

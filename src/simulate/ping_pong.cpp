@@ -32,7 +32,6 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(needs.directionalDrag && group.solver == SolverKind::leapfrog, "AHEAD");
     define(needs.springs, "SPRINGS");
     define(needs.springDamping, "SPRING_DAMPING");
-    define(needs.actuation, "ACTUATION");
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.pins, "PINS");
     define(needs.release, "RELEASE");

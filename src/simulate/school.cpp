@@ -41,7 +41,7 @@ void checkLimits(const gpu::ContextInfo& info, const SchoolPlan& school, const L
 
 constexpr double wanderPeriod = 512 * std::numbers::pi;  // s, of shaders/physics/school.glsl
 
-// s: after which all muscles are where they were; where they have several frequencies, a long time.
+// s: after which all muscles are where they were; without any, a long time.
 double clockPeriodOf(const GroupPlan& group) {
     return group.musclePeriod > 0 ? group.musclePeriod : 1e5;
 }

@@ -1,5 +1,8 @@
 #include "simulate/simulation.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/contract.h"
 
 namespace shoal {
@@ -74,10 +77,34 @@ void Simulation::computeNormals() {
     if (auto* fused = std::get_if<Fused>(&path_)) fused->computeNormals(timers_);
 }
 
+// Whether a force that comes back to the start of its path, which ends elsewhere, does so between two times.
+static bool comesBack(const Force& force, double from, double to) {
+    if (!force.path || !force.path->repeats) return false;
+    const auto& frames = force.path->keyframes;
+    const auto &first = frames.front(), &last = frames.back();
+    if (first.offset == last.offset && first.factor == last.factor) return false;
+    const auto round = [&](double time) {
+        return std::max(0.0, std::floor((time - first.time) / (last.time - first.time)));
+    };
+    return round(from) != round(to);
+}
+
+// Whether what acts on molecules is not what went on in the last frame.
+bool Simulation::forcesJump() const {
+    if (!lastParameters_) return false;
+    // forces hold what they are in the middle of a frame (simulate/force_parameters.h)
+    const auto middle = [](const Parameters& p) { return (0.5 + 0.5 / p.substeps) * p.frameTime; };
+    return jumps(*lastParameters_, parameters) ||
+           std::any_of(plan_.forces.begin(), plan_.forces.end(), [&](const Force& force) {
+               return comesBack(force, time_ - lastParameters_->frameTime + middle(*lastParameters_),
+                                time_ + middle(parameters));
+           });
+}
+
 void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
     check();
-    if (lastParameters_ && jumps(*lastParameters_, parameters)) lastStep_ = 0;
+    if (forcesJump()) lastStep_ = 0;
     before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;
     const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};

@@ -114,6 +114,7 @@ class Simulation {
     void computeNormals();
     bool alarmed() const;
     void disarm();
+    bool forcesJump() const;
 
     gpu::Context* context_;
     Plan plan_;

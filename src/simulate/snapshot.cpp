@@ -31,8 +31,7 @@ void Simulation::writeGroup(size_t index, const GroupState& state, double time) 
 }
 
 SavedState Simulation::save() const {
-    const bool jumped = lastParameters_ && jumps(*lastParameters_, parameters);
-    SavedState out{time_, frames_, {}, jumped ? 0 : lastStep_};
+    SavedState out{time_, frames_, {}, forcesJump() ? 0 : lastStep_};
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         out.groups.push_back(readGroup(g));
     return out;

@@ -57,7 +57,8 @@ TEST_CASE("a leaf that pins have let go follows the recurrence from there", "[nu
         reference::Problem problem = test::problemOf(scene, 0);
         reference::frame(problem, state, solver, 0.2, 48);
         problem.held = false;
-        reference::frame(problem, state, solver, 0.3, 72);
+        // the matrix is of the leaf with its pins: without them sweeps solve the stage
+        reference::frame(problem, state, SolverKind::bdf2Xpbd, 0.3, 72);
         test::run(simulation, 30);
         const double error = reference::relativeError(test::stateOf(simulation.snapshot(0), 0), state, 1);
         INFO(name(solver) << ", off by " << error);

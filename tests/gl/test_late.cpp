@@ -58,7 +58,7 @@ double errorLate(const Scene& scene, const CompileOptions& compiled, const Simul
     std::vector<reference::State> expected;
     for (int m = 0; m < count; ++m) {
         expected.push_back(test::stateOf(simulation.snapshot(0), m));
-        reference::frame(test::problemOf(scene, m), expected.back(), scene.solver.kind,
+        reference::frame(test::problemOf(scene, m), expected.back(), *scene.solver.kind,
                          frames / scene.frameRate, frames * scene.solver.substeps);
     }
     test::run(simulation, frames);

@@ -111,13 +111,15 @@ TEST_CASE("ages: shares of a life", "[particle]") {
 }
 
 TEST_CASE("what turns for ever turns on evenly after a day", "[particle]") {
-    const double late = 1e5, turn = 2 * std::acos(-1.0);
-    for (const double rate : {0.3, 5.0, -7.3}) {
-        // a particle's rate is a float: what it turns within 64 s is what counts
-        const double turns = double(float(rate)) * late / turn;
-        const auto blocks = uint32_t(late / 64);
-        const float angle = turnedBy(float(rate), blocks, float(late - 64.0 * blocks));
-        const double off = double(angle) / turn - turns;
-        CHECK(std::abs(off - std::round(off)) < 2e-3);
-    }
+    const double turn = 2 * std::acos(-1.0);
+    const auto at = [](float rate, double time) {
+        const double blocks = std::floor(time / 64);
+        return double(turnedBy(rate, uint32_t(blocks), float(time - 64 * blocks)));
+    };
+    for (const float rate : {0.3f, 5.0f, -7.3f})
+        for (int frame = -3; frame < 3; ++frame) {  // 1600 blocks are 102,400 s
+            const double time = 1600 * 64 + frame / 60.0;
+            const double turned = at(rate, time + 1 / 60.0) - at(rate, time);
+            CHECK(std::abs(std::remainder(turned - double(rate) / 60, turn)) < 1e-4);
+        }
 }
