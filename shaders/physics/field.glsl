@@ -18,7 +18,8 @@ vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, floa
 {
     vec3 third = cross(along, across);
     vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x - gone, dot(x, across) / size.y, dot(x, third) / size.y);
-    float n = 1.2f * (gradientNoise(p, 0u - cells, seed) + 0.5f * gradientNoise(2.0f * p + 17.31f, 0u - 2u * cells, seed + 1u));
+    float fine = gradientNoise(2.0f * p + 17.31f, 0u - 2u * cells, seed + 1u);
+    float n = 1.2f * (gradientNoise(p, 0u - cells, seed) + 0.5f * fine);
     return along * (speed * (1.0f + strength * n));
 }
 
@@ -56,7 +57,8 @@ vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period
     float scale = 1.0f;
     float amplitude = speed;
     for (int i = 0; i < octaves; ++i) {
-        sum += amplitude * curlNoise(x * (scale / size), (gone + time / period) * scale, cells << uint(i), seed + uint(i));
+        sum += amplitude *
+               curlNoise(x * (scale / size), scale * (gone + time / period), cells << uint(i), seed + uint(i));
         scale *= 2.0f;
         amplitude *= 0.79370053f;
     }

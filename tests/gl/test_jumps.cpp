@@ -5,7 +5,9 @@
 #include "gl/agreement.h"
 #include "gl/numerics.h"
 #include "reference/discrete.h"
+#include "simulate/checkpoint.h"
 #include "support/catch.h"
+#include "support/scratch.h"
 
 namespace shoal {
 
@@ -131,6 +133,53 @@ TEST_CASE("a state that is saved between a jump and its frame goes on the same",
     test::run(one, 5);
     test::run(other, 5);
     CHECK(one.hash() == other.hash());
+}
+
+TEST_CASE("a force that comes back to the start of its path starts history anew",
+          "[numerics][fused][jumps]") {
+    if (!test::canFuse()) return;
+    Scene scene = test::sceneOf(test::point(1), SolverKind::bdf2Xpbd);
+    AttractForce pull;
+    pull.position = {0, 1000, 0};
+    pull.strength = 1e7;
+    pull.most = 50;
+    Force& force = scene.forces.emplace_back();
+    force.shape = pull;
+    // from 10 m/s^2 up to as much down, and at 0.25 s back at once
+    ForcePath& path = force.path.emplace();
+    path.keyframes = {{0, {}, 1}, {0.25, {}, -1}};
+    path.repeats = true;
+    test::setSteps(scene, 0.02, 1);
+    Simulation simulation = fused(scene);
+    test::run(simulation, 12);
+    const double before = simulation.snapshot(0).velocities[0].y;
+    test::run(simulation, 1);  // its force is that at 0.26 s
+    const double gained = simulation.snapshot(0).velocities[0].y - before;
+    INFO(gained << " m/s");
+    CHECK(gained == Approx(0.02 * 10 * (1 - 2 * 0.01 / 0.25)).epsilon(0.01));
+}
+
+TEST_CASE("a checkpoint goes on with its history only under the same forces", "[fused][jumps][checkpoint]") {
+    if (!test::canFuse()) return;
+    const test::Scratch scratch;
+    const std::string file = scratch.path("x.shoal");
+    Scene scene = test::sceneOf(test::leaf(400, 2), SolverKind::bdf2Xpbd);
+    scene.gravity = {0, -9.81, 0};
+    Simulation simulation = fused(scene);
+    test::run(simulation, 3);
+    writeCheckpoint(file, simulation.plan(), {simulation.save(), simulation.parameters});
+    const auto stepIn = [&](const Scene& other) { return readCheckpoint(file, compile(other)).state.step; };
+    CHECK(stepIn(scene) == simulation.save().step);
+    Scene camera = scene, gravity = scene, field = scene, collider = scene, stiff = scene;
+    camera.camera.eye.x += 1;
+    gravity.gravity.y = -5;
+    field.fields = {test::field(test::shear())};
+    field.groups[0].drag = {1, 1};
+    collider.colliders.emplace_back().shape = PlaneCollider{};
+    stiff.groups[0].stiffness = 2;
+    CHECK(stepIn(camera) == simulation.save().step);
+    for (const Scene* other : {&gravity, &field, &collider, &stiff})
+        CHECK(stepIn(*other) == 0);
 }
 
 }  // namespace shoal
