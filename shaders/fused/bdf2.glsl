@@ -6,8 +6,8 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, or when the substep has changed - a step is exact for free
-// flight in a fluid of that velocity, however heavy the drag, and takes the springs by backward Euler:
+// Where there is no history - at the start, after a contact, when pins have let go, when the substep or a slider has
+// changed - a step is exact for free flight in a fluid of that velocity, however heavy the drag, and takes the springs by backward Euler:
 //
 //   z = flight - h flown,  q = flight without springs,  eta = h
 //
@@ -53,8 +53,10 @@ void thrustAhead()
 // The stage without springs.
 void predict(int step)
 {
-    thrustAhead();
+    bool held = !released;
     releasePins(step);
+    restart = restart || (held && released);  // what was at rest on its pins has no changes to go on from
+    thrustAhead();
     eta = restart ? substep : stageEta;
     vec2 stepPhi = restart ? phi : stagePhi;
 #ifdef DIRECTIONAL_DRAG
@@ -67,7 +69,7 @@ void predict(int step)
 #ifdef DIRECTIONAL_DRAG
     surfaceNormals();
 #endif
-    sampleSubstep(frameTime + float(step + 1) * substep);
+    sampleSubstep(float(step + 1) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         vec3 flown = dragged(v[i], fluid[i], FALL(i), normal[i]);

@@ -24,9 +24,12 @@ void springForces(float time)
 #ifdef ACTUATION
             vec4 muscle = table(int(spans.x) + 2 * s + 1);
 #ifdef STEERED
-            restLength *= 1.0 + muscle.x * sin(muscle.y * swimClock(time) + muscle.z + phase) + muscle.w * curvature;
+            restLength =
+                bentLength(restLength, muscle.x, muscle.y * swimClock(time) + muscle.z + phase, muscle.w * curvature);
 #else
-            restLength = actuatedLength(restLength, muscle.x, muscle.y * time + muscle.z + phase);
+            int number = int(muscle.w);
+            restLength = bentLength(restLength, muscle.x,
+                                    muscle.y * time + (muscle.z + muscleAngles[number / 4][number % 4]) + phase, 0.0);
 #endif
 #endif
             float stiffness = spring.y * stiffnessFactor;

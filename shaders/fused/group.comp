@@ -83,6 +83,9 @@ void main()
 #ifdef FIELDS
     loadFieldParameters();
 #endif
+#if defined(ACTUATION) && !defined(STEERED)
+    loadMuscleAngles();
+#endif
 #ifdef FORCE_PARAMETERS
     loadForceParameters();
 #endif

@@ -55,7 +55,7 @@ void releasePins(int step)
     for (int i = 0; i < VERTICES; ++i) {
         w[i] = v[i];
     }
-    springForces(frameTime + float(step) * substep);
+    springForces(float(step) * substep);
 #endif
     letGo(step);
 #endif

@@ -23,7 +23,6 @@ uniform samplerBuffer constants;
 uniform int givenFrame;
 uniform int givenSubsteps;
 uniform float givenSubstep;
-uniform float givenFrameTime;
 uniform float givenFrameDuration;
 uniform vec3 givenGravity;
 uniform float givenWind;
@@ -48,7 +47,6 @@ uniform vec2 givenFlightBend;
 int frame;  // number of this frame, from 0
 int substeps;  // of a frame
 float substep;  // h, s
-float frameTime;  // s, at the start of the frame
 float frameDuration;  // s
 vec3 gravity;  // m/s^2
 float wind;  // factor on the fields
@@ -86,7 +84,6 @@ void loadUniforms()
     frame = inRegister(givenFrame);
     substeps = inRegister(givenSubsteps);
     substep = inRegister(givenSubstep);
-    frameTime = inRegister(givenFrameTime);
     frameDuration = inRegister(givenFrameDuration);
     gravity = inRegister(givenGravity);
     wind = inRegister(givenWind);

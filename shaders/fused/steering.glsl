@@ -4,7 +4,7 @@
 //   xyz steering as it was smoothed, m/s^2        w  its muscles' clock at the end of the frame, s
 #ifdef STEERED
 uniform samplerBuffer steering;
-uniform float givenSteeringEnd;  // s, of the frame
+uniform float givenSteeringEnd;  // s, of the frame that was steered, since the start of this one
 
 vec3 steeringPush;
 vec3 steeringSpin;

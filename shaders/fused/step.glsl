@@ -1,6 +1,6 @@
 // What a solver calls in a substep beside the springs: fields, drag and gravity, pins that let go. Needs
 // fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl, with FORCES, THRUST or WIND
-// generated/scene_forces.glsl.
+// generated/scene_forces.glsl. Times are in s since the frame's start.
 #include "physics/drag.glsl"
 #include "physics/random.glsl"
 
@@ -52,12 +52,12 @@ vec3 fieldAt(vec3 position, float time)
 void sampleFrame()
 {
 #if defined(FIELDS) && !defined(SAMPLE_SUBSTEPS)
-    float middle = frameTime + 0.5 * frameDuration;
+    float middle = 0.5 * frameDuration;
 #ifdef HISTORY
     middle += 0.5 * substep;  // substeps ask for the field at their ends
 #endif
     for (int i = 0; i < VERTICES; ++i) {
-        probe[i] = x[i] + v[i] * (middle - frameTime);
+        probe[i] = x[i] + v[i] * middle;
     }
 #ifdef SAMPLE_MOLECULE
     meet();

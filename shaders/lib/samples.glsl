@@ -65,24 +65,18 @@ vec3 gridSequenceVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, boo
                gridVelocity(x, perMetre, resolution, base + next * cells, wrap), place - first);
 }
 
-// The place of a time among frames whose times, from the first on, rise at samples base .. base + frames - 1;
-// interval: from the last frame to the first where the sequence repeats, else 0.
-float placeAmong(float time, int base, int frames, float interval)
+// The place, in frames, `elapsed` s after frame `first`. Samples base .. base + frames - 1: from each frame to the next,
+// from the last to the first where the sequence repeats; period: then of all of it, else 0.
+float placeAmong(float first, float elapsed, int base, int frames, float period)
 {
-    float last = sampleAt(base + frames - 1).x;
-    if (interval > 0.0) {
-        float period = last + interval;
-        time = min(time - period * floor(time / period), period);
-        if (time >= last) return float(frames - 1) + (time - last) / interval;
+    if (period > 0.0) elapsed -= period * floor(elapsed / period);
+    int here = int(first);
+    float interval = sampleAt(base + here).x;
+    for (int passed = 0; passed < frames && elapsed >= interval && (period > 0.0 || here + 1 < frames); ++passed) {
+        elapsed -= interval;
+        here = here + 1 < frames ? here + 1 : 0;
+        interval = sampleAt(base + here).x;
     }
-    int low = 0;
-    int high = frames - 1;
-    while (high - low > 1) {
-        int middle = (low + high) / 2;
-        bool later = time < sampleAt(base + middle).x;
-        high = later ? middle : high;
-        low = later ? low : middle;
-    }
-    float before = sampleAt(base + low).x;
-    return float(low) + clamp((time - before) / (sampleAt(base + high).x - before), 0.0, 1.0);
+    if (period == 0.0 && here + 1 == frames) return float(here);
+    return float(here) + clamp(elapsed / interval, 0.0, 1.0);
 }

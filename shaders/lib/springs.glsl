@@ -4,9 +4,12 @@
 
 uniform float stiffnessFactor;
 uniform float dampingFactor;
-uniform float springTime;   // s, for muscles
+uniform float springTime;   // s since the frame's start, for muscles
 uniform float predictTime;  // s: leapfrog's force uses the velocity v + a h/2; 0 at the start of a frame
 
+#ifdef MUSCLES
+uniform vec4 muscleAngles[MUSCLES];  // rad, when the frame begins, four frequencies each
+#endif
 #ifdef VERLET
 uniform float stepsSquared;  // 1/h^2, 1/s^2: a spring is a distance constraint, see solver/verlet.glsl
 #endif
@@ -41,9 +44,12 @@ vec3 springForces(int vertex, int molecule)
         relative = v - predictedVelocity(other);
 #endif
         float restLength = spring.w * constant.y;
-#ifdef ACTUATION
+#ifdef MUSCLES
         vec4 muscle = table(first + 2 * i + 1);
-        restLength = actuatedLength(restLength, muscle.x, muscle.y * springTime + muscle.z + constant.z);
+        int number = int(muscle.w);
+        restLength = bentLength(restLength, muscle.x,
+                                muscle.y * springTime + (muscle.z + muscleAngles[number / 4][number % 4]) + constant.z,
+                                0.0);
 #endif
         float stiffness = spring.y * stiffnessFactor;
 #ifdef VERLET

@@ -51,6 +51,14 @@ vec3 framesAgain(float seconds, float rate, float start, float count, bool blend
     return vec3(frame, next, blend ? clamp(at - frame, 0.0f, 1.0f) : 0.0f);
 }
 
+// rad, of what turns by `rate` rad/s, after `blocks` times 64 s and `rest` s: less the whole turns of the blocks, whose
+// shares of a turn are counted in 2^-32.
+float turnedBy(float rate, uint blocks, float rest)
+{
+    uint share = uint(min(fract(rate * (64.0f / fullTurn)) * 4294967296.0f, 4294967040.0f));
+    return rate * rest + float(share * blocks) * (fullTurn / 4294967296.0f);
+}
+
 // One of `count` tiles.
 float randomTile(uint seed, float count)
 {

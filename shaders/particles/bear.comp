@@ -128,7 +128,7 @@ void flyOn(float since)
 #ifdef DIRECTIONAL_DRAG
     surfaceNormals();
 #endif
-    sampleSubstep(frameTime + frameDuration - 0.5 * since);
+    sampleSubstep(frameDuration - 0.5 * since);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
             x[i] += flight(v[i], fluid[i], FALL(i), normal[i]);

@@ -21,7 +21,8 @@ uniform mat3 viewToScene;      // columns: right, up, towards the eye
 uniform vec4 eyeAt;            // w 1: xyz the eye, m; w 0: xyz the direction towards it
 uniform vec2 pictureSize;      // pixels
 uniform float pixelsPerMeter;  // at a distance of one metre, or everywhere in the shadow map
-uniform float time;            // s
+uniform uint timeBlocks;       // of 64 s
+uniform float time;            // s, since the last of them
 
 #ifdef POINTS
 uniform float pixels;
@@ -45,6 +46,7 @@ uniform vec3 colorBegins, colorPerAge;
 #ifdef IMAGE
 uniform float tileCount;
 uniform float frameRate;
+uniform float flipTime;  // s, less whole flip-books
 #endif
 
 flat out vec4 color;
@@ -83,12 +85,6 @@ void main()
     uint seed = moleculeSeed(molecule);
     vec2 life = moleculeLife(molecule);
     float age = ageShare(life);
-    // What never dies has no birth to count from.
-#ifdef LIFE
-    float seconds = life.x;
-#else
-    float seconds = time;
-#endif
 
     color = firstColor;
 #ifdef COLORS
@@ -114,16 +110,23 @@ void main()
 #endif
 #ifdef FLIP_AGAIN
 #ifdef LIFE
-    tiles = framesAgain(seconds, frameRate, 0.0, tileCount, fades);
+    tiles = framesAgain(life.x, frameRate, 0.0, tileCount, fades);
 #else
-    tiles = framesAgain(seconds, frameRate, uniformFrom(hashSeed(seed, tileCounter)), tileCount, fades);
+    tiles = framesAgain(flipTime, frameRate, uniformFrom(hashSeed(seed, tileCounter)), tileCount, fades);
 #endif
 #endif
 #endif
 
     float angle = 0.0;
 #ifdef TURNS
-    angle = randomBetween(turnSpan, seed, turnCounter) + randomBetween(spinSpan, seed, spinCounter) * seconds;
+    // what never dies has no birth to count from
+    float spin = randomBetween(spinSpan, seed, spinCounter);
+#ifdef LIFE
+    angle = spin * life.x;
+#else
+    angle = turnedBy(spin, timeBlocks, time);
+#endif
+    angle += randomBetween(turnSpan, seed, turnCounter);
     angle -= fullTurn * floor(angle / fullTurn);
 #endif
     float c = cos(angle), s = sin(angle);

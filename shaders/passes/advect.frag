@@ -15,7 +15,7 @@
 #endif
 
 uniform sampler2D vertexNormals;
-uniform float time;       // s, at the start of the substep
+uniform float time;       // s, at the start of the substep, since the frame's
 uniform float substep;    // h, s
 uniform vec3 gravity;     // m/s^2
 uniform float wind;       // factor on the fields

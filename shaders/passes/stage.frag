@@ -14,7 +14,7 @@ uniform sampler2D startVelocities;
 uniform sampler2D sumVelocities;     // of share v
 uniform sampler2D sumAccelerations;  // of share a
 uniform sampler2D vertexNormals;     // at the stage's positions
-uniform float time;       // s, of the stage
+uniform float time;       // s, of the stage, since the frame's start
 uniform float substep;    // h, s
 uniform float share;      // of this stage in the step
 uniform float ahead;      // s, from the start to the next stage

@@ -1,22 +1,25 @@
 // Fluid velocities u(x, t) of the analytic fields, in m/s. `x` is relative to the field's origin, which the
-// caller subtracted from the molecule's anchor exactly. Formulas and units: src/scene/field.h.
+// caller subtracted from the molecule's anchor exactly. `time` counts from the start of the frame; what a field was up to
+// then comes from the CPU, where time is in double (src/compile/clocks.h). Formulas and units: src/scene/field.h.
 // Read as C++ through GLM by the tests. Needs physics/noise.glsl.
 #include "physics/noise.glsl"
 
-// angularFrequency in rad/s; start: the angle at time 0, rad.
+// angularFrequency in rad/s; start: the angle at the frame's start, rad.
 vec3 oscillatingVelocity(float time, vec3 velocity, float angularFrequency, float start)
 {
     return velocity * sin(angularFrequency * time + start);
 }
 
 // along, across1, across2: an orthonormal frame; size = (length, width); frozen turbulence that travels.
-// n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of about 0.4.
+// n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of about 0.4. The fronts had
+// travelled by `gone` + `cells` of their length when the frame began.
 vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, float strength, float frontSpeed,
-                  vec2 size, uint seed)
+                  vec2 size, float gone, uint cells, uint seed)
 {
     vec3 third = cross(along, across);
-    vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x, dot(x, across) / size.y, dot(x, third) / size.y);
-    float n = 1.2f * (gradientNoise(p, seed) + 0.5f * gradientNoise(2.0f * p + 17.31f, seed + 1u));
+    vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x - gone, dot(x, across) / size.y, dot(x, third) / size.y);
+    float fine = gradientNoise(2.0f * p + 17.31f, 0u - 2u * cells, seed + 1u);
+    float n = 1.2f * (gradientNoise(p, 0u - cells, seed) + 0.5f * fine);
     return along * (speed * (1.0f + strength * n));
 }
 
@@ -45,24 +48,28 @@ vec3 taylorGreenVelocity(vec3 x, float speed, float wavenumber)
     return vec3(cos(p.x) * sin(p.y), -sin(p.x) * cos(p.y), 0.0f) * (speed * cos(p.z));
 }
 
-// Octave i has length and period 2^-i and speed 2^(-i/3) (Kolmogorov's spectrum) of the first.
-vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period, int octaves, uint seed)
+// Octave i has length and period 2^-i and speed 2^(-i/3) (Kolmogorov's spectrum) of the first. `gone` + `cells` periods
+// had passed when the frame began.
+vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period, int octaves, float gone, uint cells,
+                       uint seed)
 {
     vec3 sum = vec3(0.0f);
     float scale = 1.0f;
     float amplitude = speed;
     for (int i = 0; i < octaves; ++i) {
-        sum += amplitude * curlNoise(x * (scale / size), time * (scale / period), seed + uint(i));
+        sum += amplitude *
+               curlNoise(x * (scale / size), scale * (gone + time / period), cells << uint(i), seed + uint(i));
         scale *= 2.0f;
         amplitude *= 0.79370053f;
     }
     return sum;
 }
 
-// One wave train of linear theory; x is relative to a point of the still surface. speed: amplitude times angular
+// One wave train of linear theory; x is relative to a point of the still surface. phase: at that point when the frame
+// begins. speed: amplitude times angular
 // frequency, over 1 - e^(-2 wavenumber depth); top: the sum of all trains' amplitudes. As exponentials,
 // because cosh and sinh of deep water overflow: cosh k(y + d) / sinh kd = (e^ky + e^-k(y + 2d)) / (1 - e^-2kd).
-vec3 waveVelocity(vec3 x, float time, vec2 direction, float wavenumber, float angularFrequency, float speed, float phase,
+vec3 waveVelocity(vec3 x, float time, vec2 direction, float wavenumber, float angularFrequency, float phase, float speed,
                   float depth, float top)
 {
     float y = clamp(x.y, -depth, top);

@@ -39,8 +39,9 @@ vec4 gradientOf(uint word)
            1.0f;
 }
 
-// Gradient noise in three dimensions: mean 0, mostly within [-1, 1].
-float gradientNoise(vec3 p, uint seed)
+// Gradient noise in three dimensions: mean 0, mostly within [-1, 1]. p.x counts from lattice cell `first`, so that it
+// stays small however far the noise has travelled.
+float gradientNoise(vec3 p, uint first, uint seed)
 {
     vec3 corner = floor(p);
     vec3 f = p - corner;
@@ -51,7 +52,7 @@ float gradientNoise(vec3 p, uint seed)
     float sum = 0.0f;
     for (int i = 0; i < 8; ++i) {
         ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z), seed));
+        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x) + first, uint(cell.y + side.y), uint(cell.z + side.z), seed));
         vec4 gradient = gradientOf(hash.x);
         vec3 d = f - vec3(side);
         float weight = (side.x == 1 ? wx : 1.0f - wx) * (side.y == 1 ? wy : 1.0f - wy) *
@@ -62,15 +63,16 @@ float gradientNoise(vec3 p, uint seed)
 }
 
 // Curl of a vector potential psi(p, t) of three 4D gradient noises; component k of psi takes its gradients
-// from word k of pcg4d(cell.x, cell.y, cell.z, cell.w + 0x9e3779b9 seed). Derivatives are exact.
-vec3 curlNoise(vec3 p, float t, uint seed)
+// from word k of pcg4d(cell.x, cell.y, cell.z, cell.w + 0x9e3779b9 seed). Derivatives are exact. t counts from lattice
+// cell `first`.
+vec3 curlNoise(vec3 p, float t, uint first, uint seed)
 {
     vec3 corner = floor(p);
     vec3 f = p - corner;
     ivec3 cell = ivec3(corner);
     float cornerTime = floor(t);
     float ft = t - cornerTime;
-    uint cellTime = uint(int(cornerTime)) + 2654435769u * seed;
+    uint cellTime = uint(int(cornerTime)) + first + 2654435769u * seed;
     vec3 w1 = vec3(fade(f.x), fade(f.y), fade(f.z));
     vec3 s1 = vec3(fadeSlope(f.x), fadeSlope(f.y), fadeSlope(f.z));
     float wt = fade(ft);

@@ -66,9 +66,15 @@ vec3 turnBetween(vec3 from, vec3 to, vec3 otherwise)
     return opposite ? otherwise * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
 }
 
+// A sine of a multiple of 1/256 rad/s, so that after 512 pi s (wanderPeriod of src/simulate/school.cpp) all are where they
+// were. random in [0, 1).
+float wanderSine(float time, float least, float random, float phase)
+{
+    return sin(time * ((least + floor(256.0f * random)) / 256.0f) + 40.0f * phase);
+}
+
 // Here and there, in [-1, 1]: three sines whose periods, 2 to 7 s, and phases hang on the seed.
 float wanderOf(float time, float a, float b, float c)
 {
-    return (sin(time * (0.9f + a) + 40.0f * b) + sin(time * (1.7f + b) + 40.0f * c) + sin(time * (2.6f + c) + 40.0f * a)) /
-           3.0f;
+    return (wanderSine(time, 230.0f, a, b) + wanderSine(time, 435.0f, b, c) + wanderSine(time, 666.0f, c, a)) / 3.0f;
 }

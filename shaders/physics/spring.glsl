@@ -12,8 +12,8 @@ vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, 
     return d * (squared > 1e-24f ? stiffness * stretch - damping * approach : 0.0f);
 }
 
-// A muscle's rest length at a phase (2 pi f t + phi), in radians.
-float actuatedLength(float restLength, float amplitude, float phase)
+// A muscle's rest length at a phase (2 pi f t + phi), in radians, in a body whose bend asks for a share of it.
+float bentLength(float restLength, float amplitude, float phase, float bend)
 {
-    return restLength * (1.0f + amplitude * sin(phase));
+    return restLength * (1.0f + amplitude * sin(phase) + bend);
 }

@@ -26,7 +26,7 @@ float grain(vec3 p, vec3 stretch, float wavelength, float footprint, uint seed)
 {
     float weight = 1.0 - smoothstep(0.25, 0.8, footprint / wavelength);
     if (weight <= 0.0) return 0.0;
-    return weight * gradientNoise(p * stretch / wavelength, seed);
+    return weight * gradientNoise(p * stretch / wavelength, 0u, seed);
 }
 
 // The normal of a surface raised by `height` along n, without texture coordinates

@@ -26,7 +26,7 @@ uniform vec4 depth;      // lowest and highest y from the origin, m; strength, 1
 uniform vec4 homeLow;    // xyz of the box, or the middle of the ball; w strength, 1/s^2
 uniform vec4 homeHigh;   // xyz of the box; w radius of the ball, 0: a box
 uniform vec3 origin;     // m
-uniform float time;      // s
+uniform float time;      // s, less whole periods of what wanders
 uniform float duration;  // s, of the frame
 
 layout(std430, binding = 0) buffer Steering { vec4 steering[]; };

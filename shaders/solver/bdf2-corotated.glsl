@@ -98,7 +98,7 @@ void beginSolver()
 void advance(int step)
 {
     predict(step);
-    float time = frameTime + float(step + 1) * substep;
+    float time = float(step + 1) * substep;
     bool sweeps = fit(step == 0 ? 8 : 3) || (released && SHARED_PINS) || restart;
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];

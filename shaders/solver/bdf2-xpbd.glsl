@@ -10,7 +10,7 @@ void advance(int step)
 {
     predict(step);
 #ifdef SPRINGS
-    float time = frameTime + float(step + 1) * substep;
+    float time = float(step + 1) * substep;
     relaxForward(time, 1.0 / eta);
     relaxBackward(time, 1.0 / eta);
 #endif

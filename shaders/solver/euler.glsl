@@ -8,7 +8,7 @@ void beginSolver()
 // A substep up to contact.
 void advance(int step)
 {
-    float time = frameTime + float(step) * substep;
+    float time = float(step) * substep;
     thrust(true);
     kickWhole(step, time);
     sampleHere(time);

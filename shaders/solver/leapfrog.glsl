@@ -25,7 +25,7 @@ void kickBySprings(int step, float kickTime)
     for (int i = 0; i < VERTICES; ++i) {
         w[i] = v[i] + acceleration[i] * kickTime;
     }
-    springForces(frameTime + float(step) * substep);
+    springForces(float(step) * substep);
 #endif
     letGo(step);
 #ifdef SPRINGS
@@ -51,7 +51,7 @@ void advance(int step)
 #ifdef DIRECTIONAL_DRAG
     surfaceNormals();
 #endif
-    sampleSubstep(frameTime + (float(step) + 0.5) * substep);
+    sampleSubstep((float(step) + 0.5) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
             vec3 before = v[i];

@@ -44,7 +44,7 @@ void advance(int step)
         sumVelocity[i] = vec3(0.0);
         sumAcceleration[i] = vec3(0.0);
     }
-    float start = frameTime + float(step) * substep;
+    float start = float(step) * substep;
     for (int s = 0; s < 4; ++s) {
         bool outer = s == 0 || s == 3;
         float at = s == 0 ? 0.0 : s == 3 ? 1.0 : 0.5;

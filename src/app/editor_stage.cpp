@@ -163,6 +163,7 @@ void EditorStage::rebuild(Plan plan, bool goOn) {
         group.velocityChanges.assign(count, glm::vec3(0));
     };
     fit(*saved);
+    saved->step = 0;  // other forces
     for (SavedState& state : played_)
         fit(state);
     simulation_->load(*saved);

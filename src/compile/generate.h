@@ -9,6 +9,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/clocks.h"
 #include "compile/moving_colliders.h"
 #include "scene/scene.h"
 
@@ -21,9 +22,11 @@ struct Generated {
 
 struct GeneratedFields : Generated {
     std::vector<size_t> weights;  // of each field: the parameter whose w is its weight
+    std::vector<FieldClock> clocks;
 };
 
-// vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor.
+// vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor; time: since the
+// frame's start.
 GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
 // What each grid among them takes of the samples, a line each, for people.
 std::vector<std::string> describeGrids(const std::vector<Field>& fields);

@@ -12,7 +12,8 @@ namespace shoal {
 
 namespace {
 
-// Writes the call of one field: reads `x` (relative to the field's origin), `time`; parameters go to slots.
+// Writes the call of one field: reads `x` (relative to the field's origin), `time` (since the frame's start);
+// parameters go to slots.
 class FieldWriter {
   public:
     explicit FieldWriter(std::vector<glm::vec4>& samples) : samples_(&samples) {}
@@ -23,6 +24,16 @@ class FieldWriter {
     std::string slot(const glm::dvec3& v, double w = 0) {
         result.parameters.push_back(glm::vec4(glm::vec3(v), float(w)));
         return concat("fieldParameters[", result.parameters.size() - 1, "]");
+    }
+    // One that goes with the time.
+    std::string clock(FieldClock clock) {
+        clock.slot = result.parameters.size();
+        result.clocks.push_back(std::move(clock));
+        return slot({});
+    }
+    std::string cells(double rate) {
+        const std::string c = clock({.kind = FieldClock::Kind::cells, .rate = rate});
+        return concat(c, ".x, uint(", c, ".y) + 65536u * uint(", c, ".z)");
     }
     std::string origin(const glm::dvec3& v) { return "(anchor - " + slot(v) + ".xyz) + position"; }
 
@@ -43,8 +54,8 @@ class FieldWriter {
     std::string emit(const UniformField& f) { return slot(f.velocity) + ".xyz"; }
 
     std::string emit(const OscillatingField& f) {
-        const std::string v = slot(f.velocity, 2 * std::numbers::pi * f.frequency);
-        const std::string p = slot({f.phase, 0, 0});
+        const double rate = 2 * std::numbers::pi * f.frequency;
+        const std::string v = slot(f.velocity, rate), p = clock({.rate = rate, .start = f.phase});
         return concat("oscillatingVelocity(time, ", v, ".xyz, ", v, ".w, ", p, ".x)");
     }
 
@@ -56,7 +67,7 @@ class FieldWriter {
                           b = slot(glm::normalize(glm::cross(up, along)), f.strength);
         const std::string c = slot({f.length, f.width, 0}, f.frontSpeed);
         return concat("gustVelocity(anchor + position, time, ", a, ".xyz, ", b, ".xyz, ", a, ".w, ", b,
-                      ".w, ", c, ".w, ", c, ".xy, ", f.seed, "u)");
+                      ".w, ", c, ".w, ", c, ".xy, ", cells(f.frontSpeed / f.length), ", ", f.seed, "u)");
     }
 
     std::string emit(const ShearField& f) {
@@ -87,7 +98,7 @@ class FieldWriter {
     std::string emit(const CurlNoiseField& f) {
         const std::string a = slot({f.speed, f.length, f.period});
         return concat("curlNoiseVelocity(anchor + position, time, ", a, ".x, ", a, ".y, ", a, ".z, ",
-                      f.octaves, ", ", f.seed, "u)");
+                      f.octaves, ", ", cells(1 / f.period), ", ", f.seed, "u)");
     }
 
     std::string emit(const GridField& f) {
@@ -105,22 +116,23 @@ class FieldWriter {
                       f.repeats ? "true" : "false", ")");
     }
 
-    // The time in frames of the sequence.
+    // The time in frames of the sequence: on from the one that was last passed when the frame began.
     std::string place(const GridField& f) {
         const size_t frames = f.times.size();
         const double interval = (f.times.back() - f.times.front()) / double(frames - 1);
         bool even = true;
         for (size_t i = 0; i < frames; ++i)
             even = even && std::abs(f.times[i] - f.times.front() - double(i) * interval) < 1e-6 * interval;
-        const std::string s =
-            slot({f.times.front(), 1 / interval, f.period() - (f.times.back() - f.times.front())});
-        const std::string since = concat("(time - ", s, ".x)");
-        if (even) return concat(since, " * ", s, ".y");
+        const double period = f.repeats ? f.period() : 0;
+        const std::string c = clock({.kind = FieldClock::Kind::frames, .times = f.times, .period = period});
+        const std::string s = slot({1 / interval, period, 0});
+        if (even) return concat(c, ".x + (", c, ".y + time) * ", s, ".x");
         const size_t base = samples_->size();
-        for (const double time : f.times)
-            samples_->emplace_back(float(time - f.times.front()), 0.0f, 0.0f, 0.0f);
-        return concat("placeAmong(", since, ", ", base, ", ", frames, ", ", f.repeats ? s + ".z" : "0.0",
-                      ")");
+        for (size_t i = 0; i < frames; ++i) {
+            const double next = i + 1 < frames ? f.times[i + 1] : f.times.front() + f.period();
+            samples_->emplace_back(float(next - f.times[i]), 0.0f, 0.0f, 0.0f);
+        }
+        return concat("placeAmong(", c, ".x, ", c, ".y + time, ", base, ", ", frames, ", ", s, ".y)");
     }
 
     std::string emit(const WavesField& f) {
@@ -137,10 +149,10 @@ class FieldWriter {
             const double frequency = std::sqrt(f.gravity * k * std::tanh(k * depth));
             const glm::dvec2 along = glm::normalize(glm::dvec2(train.direction.x, train.direction.z));
             const std::string a = slot({along, k}, frequency),
-                              b = slot({train.amplitude * frequency / -std::expm1(-2 * k * depth),
-                                        train.phase, 0});
+                              b = slot({train.amplitude * frequency / -std::expm1(-2 * k * depth), 0, 0}),
+                              phase = clock({.rate = -frequency, .start = train.phase});
             sum += concat(sum.empty() ? "(" : " + ", "waveVelocity(", o, ", time, ", a, ".xy, ", a, ".z, ", a,
-                          ".w, ", b, ".x, ", b, ".y, ", water, ".x, ", water, ".y)");
+                          ".w, ", phase, ".x, ", b, ".x, ", water, ".x, ", water, ".y)");
         }
         return sum + ")";
     }
@@ -162,6 +174,7 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
     for (const Field& field : fields)
         writer.field(field);
     GeneratedFields out = std::move(writer.result);
+    setClocks(out.parameters, out.clocks, 0);
     out.source =
         concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
                parameterArray("fieldParameters", out.parameters.size()),

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "compile/clocks.h"
 #include "compile/corotated.h"
+#include "compile/generate.h"
 #include "compile/glsl_text.h"
 #include "compile/muscle_waves.h"
 #include "compile/school_plan.h"
@@ -39,6 +41,8 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
             if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
         out += "    return pull;\n}\n";
     }
+    if (countsMuscles(needs))
+        out += parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
@@ -74,10 +78,10 @@ SpringText liveText(const Molecule& molecule, size_t index, const Needs& needs) 
     out.stiffness = "s.x * stiffnessFactor";
     out.damping = "s.y * dampingFactor";
     out.restLength =
-        concat("actuatedLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * ",
-               needs.steers ? "swimClock(time)" : "time", " + m.z", needs.phase ? " + phase)" : ")");
-    if (const double bend = bendOf(molecule, molecule.springs[index]); needs.steers && bend != 0)
-        out.restLength += concat(" * (1.0 + ", glslLiteral(bend), " * curvature)");
+        concat("bentLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * ",
+               needs.steers ? "swimClock(time) + m.z" : "time + (m.z + m.w)", needs.phase ? " + phase" : "");
+    const double bend = needs.steers ? bendOf(molecule, molecule.springs[index]) : 0;
+    out.restLength += bend != 0 ? concat(", ", glslLiteral(bend), " * curvature)") : ", 0.0)";
     return out;
 }
 
@@ -87,9 +91,11 @@ std::string restLength(const Molecule& molecule, const Spring& spring, const Nee
     if (needs.steers) return MuscleWaves(molecule, needs).lengthOf(length, spring);
     if (!spring.actuation || spring.actuation->amplitude == 0) return length;
     const Actuation& muscle = *spring.actuation;
-    return concat("actuatedLength(", length, ", ", glslLiteral(muscle.amplitude), ", ",
-                  glslLiteral(2 * std::numbers::pi * muscle.frequency), " * time + ",
-                  glslLiteral(muscle.phase), needs.phase ? " + phase)" : ")");
+    const size_t number = muscleNumber(muscleFrequencies(molecule), spring);
+    return concat("bentLength(", length, ", ", glslLiteral(muscle.amplitude), ", ",
+                  glslLiteral(2 * std::numbers::pi * muscle.frequency), " * time + (",
+                  glslLiteral(muscle.phase), " + muscleAngles[", number / 4, "].", "xyzw"[number % 4],
+                  needs.phase ? ") + phase, 0.0)" : "), 0.0)");
 }
 
 SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs) {
@@ -288,6 +294,17 @@ std::vector<glm::vec4> springNumbers(const Molecule& molecule) {
         out.emplace_back(muscle.amplitude, 2 * std::numbers::pi * muscle.frequency, muscle.phase, 0);
     }
     return out;
+}
+
+std::vector<double> springFrequencies(const Molecule& molecule) {
+    std::vector<double> out;
+    for (const Spring& spring : molecule.springs)
+        out.push_back(spring.actuation.value_or(Actuation{}).frequency);
+    return out;
+}
+
+bool countsMuscles(const Needs& needs) {
+    return needs.actuation && !needs.steers;
 }
 
 std::vector<size_t> sweepOrder(const Molecule& molecule) {

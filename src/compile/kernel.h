@@ -24,8 +24,12 @@ struct KernelText {
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
 
 // What the kernel reads of each spring where its numbers are live, two a spring:
-//   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase
+//   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's start
+// That angle is 0 here, and renewed every frame from the springs' frequencies, Hz.
 std::vector<glm::vec4> springNumbers(const Molecule& molecule);
+std::vector<double> springFrequencies(const Molecule& molecule);
+// Whether how far its muscles' waves are is a uniform, muscleAngles (compile/clocks.h).
+bool countsMuscles(const Needs& needs);
 
 // The order of a sweep over the springs: in rounds whose springs share no vertex, so that a processor works
 // on several at once (a greedy colouring of the edges).

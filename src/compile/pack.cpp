@@ -98,12 +98,12 @@ void packStart(const Scene& scene, GroupPlan& group) {
     group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 
-int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& topology) {
+int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology) {
     const size_t base = topology.size(), count = molecule.vertices.size();
     topology.resize(base + 2 * count);
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
-        const bool pinned = held && vertex.pinned;
+        const bool pinned = group.needs.pins && vertex.pinned;
         topology[base + count + v] = glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, 0);
 
         const size_t firstSpring = topology.size();
@@ -113,8 +113,9 @@ int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& to
             const Actuation actuation = spring.actuation.value_or(Actuation{});
             topology.emplace_back(spring.a == int(v) ? spring.b : spring.a, spring.stiffness, spring.damping,
                                   molecule.restLength(spring));
-            topology.emplace_back(actuation.amplitude, 2 * std::numbers::pi * actuation.frequency,
-                                  actuation.phase, bendOf(molecule, spring));
+            topology.emplace_back(
+                actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase,
+                group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring)));
             ++springs;
         }
         const size_t firstTriangle = topology.size();

@@ -18,6 +18,6 @@ std::vector<glm::vec4> unsteered(size_t molecules);
 // Fills the group's start state and constants: every molecule where it is placed.
 void packStart(const Scene& scene, GroupPlan& group);
 // Appends the molecule's tables and returns their base index.
-int packTopology(const Molecule& molecule, bool held, std::vector<glm::vec4>& topology);
+int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology);
 
 }  // namespace shoal

@@ -93,12 +93,13 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     if (!limits.compute)
         throw Error(concat("the fused path needs OpenGL 4.3; this context has ", limits.version));
     // beside the two arrays a kernel has about 40 numbers of its own
-    size_t forces = 0;
+    size_t own = 0;
     for (const GroupPlan& group : plan.groups)
-        forces = std::max(forces, group.forces.parameterCount);
-    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameterCount + forces) + 64;
+        own = std::max(own, group.forces.parameterCount +
+                                (countsMuscles(group.needs) ? muscleAngles(group.muscles, 0).size() : 0));
+    const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameterCount + own) + 64;
     if (uniforms > size_t(limits.maxUniformComponents))
-        throw Error(concat("fields, forces and colliders take ", uniforms,
+        throw Error(concat("fields, forces, colliders and muscles take ", uniforms,
                            " numbers of uniforms; a compute shader holds ", limits.maxUniformComponents,
                            " on this device"));
     for (const GroupPlan& group : plan.groups) {

@@ -54,16 +54,6 @@ std::string uniqueName(const Group& group, size_t index, const Plan& plan) {
     return taken ? concat(name, " ", index + 1) : name;
 }
 
-double musclePeriod(const Molecule& molecule) {
-    double frequency = 0;
-    for (const Spring& spring : molecule.springs) {
-        if (!spring.actuation || spring.actuation->amplitude == 0) continue;
-        if (frequency != 0 && spring.actuation->frequency != frequency) return 0;
-        frequency = spring.actuation->frequency;
-    }
-    return frequency > 0 ? 1 / frequency : 0;
-}
-
 int placesOf(const Group& group) {
     return group.life ? group.life->capacity : group.count;
 }
@@ -89,7 +79,12 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
         out.pinned.push_back(out.needs.pins && vertex.pinned);
     if (group.release) out.release = *group.release;
     out.phaseSpread = group.phaseSpread;
-    out.musclePeriod = musclePeriod(group.molecule);
+    out.muscles = muscleFrequencies(group.molecule);
+    if (countsMuscles(out.needs) && out.muscles.size() > mostMuscleFrequencies)
+        throw Error(group.location,
+                    concat("the muscles of \"", group.molecule.name, "\" beat at ", out.muscles.size(),
+                           " different frequencies; at most ", mostMuscleFrequencies, " are possible"));
+    out.musclePeriod = commonPeriod(out.muscles);
     out.stiffness = group.stiffness;
     out.damping = group.damping;
     out.size = group.molecule.size();
@@ -326,10 +321,13 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         chooseSolver(scene, scene.groups[i], group, plan.warnings);
         warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
-        group.topologyBase = packTopology(scene.groups[i].molecule, group.needs.pins, plan.topology);
+        group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
-        if (group.needs.liveSprings) group.springNumbers = springNumbers(scene.groups[i].molecule);
+        if (group.needs.liveSprings) {
+            group.springNumbers = springNumbers(scene.groups[i].molecule);
+            group.springFrequencies = springFrequencies(scene.groups[i].molecule);
+        }
         if (group.factored()) group.shape = scene.groups[i].molecule;
         checkMuscles(scene, scene.groups[i], plan.warnings);
         listPasses(group, i, plan);
@@ -375,6 +373,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldSource = std::move(fields.source);
     plan.fieldParameters = std::move(fields.parameters);
     plan.fieldWeights = std::move(fields.weights);
+    plan.fieldClocks = std::move(fields.clocks);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)

@@ -10,7 +10,8 @@
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
 //   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), unused
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
-//                                  amplitude, 2 pi frequency, phase, bend (compile/school_plan.h)
+//                                  amplitude, 2 pi frequency, phase; of what steers the bend
+//                                  (compile/school_plan.h), else the number of its frequency
 //   triangle entries, one texel    the other two corners, anticlockwise after v
 #pragma once
 
@@ -21,6 +22,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/clocks.h"
 #include "compile/contact_plan.h"
 #include "compile/generate_forces.h"
 #include "compile/group_state.h"
@@ -56,7 +58,8 @@ struct GroupPlan {
     Release release;
     double stiffness = 1, damping = 1;
     double phaseSpread = 0;              // rad
-    double musclePeriod = 0;             // s, of all its muscles; 0: they differ, or there are none
+    std::vector<double> muscles;         // Hz, their different frequencies (compile/clocks.h)
+    double musclePeriod = 0;             // s, of all its muscles; 0: there are none
     double size = 1;                     // m, of the molecule
     double highestFrequency = 0;         // rad/s, of the molecule as held, with the group's stiffness
     double stableStep = 0;               // s, largest substep of the solver; infinite without springs
@@ -71,7 +74,8 @@ struct GroupPlan {
     GroupForces forces;
     KernelText kernel;                     // of the fused path
     std::vector<glm::vec4> springNumbers;  // needs.liveSprings: see compile/kernel.h
-    Molecule shape;                        // bdf2-corotated only: of its matrix (compile/corotated.h)
+    std::vector<double> springFrequencies;
+    Molecule shape;  // bdf2-corotated only: of its matrix (compile/corotated.h)
 
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
@@ -110,6 +114,7 @@ struct Plan {
     std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters;
     std::vector<size_t> fieldWeights;             // of each field: the parameter whose w is its weight
+    std::vector<FieldClock> fieldClocks;          // their parameters are renewed every frame
     size_t colliderParameterCount = 0;            // of each group that collides
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses

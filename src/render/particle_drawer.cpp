@@ -1,6 +1,7 @@
 #include "render/particle_drawer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "render/particle_image.h"
@@ -175,15 +176,25 @@ void ParticleDrawer::setType(const gpu::Program& program) const {
     program.set("frameRate", float(type_.image->frameRate));
 }
 
+// In parts that a float holds, however long it has been.
+void ParticleDrawer::setTime(const gpu::Program& program, double time) const {
+    constexpr double block = 64;  // s
+    const double blocks = std::floor(time / block);
+    program.set("timeBlocks", uint32_t(int64_t(std::fmod(blocks, 4294967296.0))));
+    program.set("time", float(time - blocks * block));
+    if (type_.image && type_.image->frameRate > 0)
+        program.set("flipTime", float(std::fmod(time, image_.layers() / type_.image->frameRate)));
+}
+
 const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double time) {
     const gpu::Program& program = beginDepth(state, shadow);
     program.set("viewToScene", shadow.toScene());
     program.set("eyeAt", glm::vec4(shadow.toScene()[2], 0));
     program.set("pictureSize", glm::vec2(float(shadow.depth().width())));
     program.set("pixelsPerMeter", shadow.pixelsPerMeter());
-    program.set("time", float(time));
     program.set("leastCover", 0.5f);
     setType(program);
+    setTime(program, time);
     return program;
 }
 
@@ -194,8 +205,8 @@ const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInp
     program.set("eyeAt", glm::vec4(0, 0, 0, 1));
     program.set("pictureSize", eye.size);
     program.set("pixelsPerMeter", eye.pixelsPerMeter);
-    program.set("time", eye.time);
     setType(program);
+    setTime(program, eye.time);
     if (type_.blend == Blend::none) program.set("leastCover", inputs.multisampled ? 0.02f : 0.5f);
     if (!readsDepth()) return program;
     program.texture("sceneDepth", unit::sceneDepth, *inputs.sceneDepth);

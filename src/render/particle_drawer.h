@@ -33,6 +33,7 @@ class ParticleDrawer : public GroupDrawer {
     void chooseShaders(const Lighting& lighting);
     std::vector<std::string> defines() const;
     void setType(const gpu::Program& program) const;
+    void setTime(const gpu::Program& program, double time) const;
     void setColors(const gpu::Program& program) const;
 
     ParticleType type_;

@@ -65,7 +65,7 @@ Eye::Eye(const View& view, int width, int height) : origin(view.eye) {
     pixelsPerMeter = float(height / (2 * tangent));
     size = glm::vec2(width, height);
     nearest = float(near);
-    time = float(view.time);
+    time = view.time;
 }
 
 }  // namespace shoal

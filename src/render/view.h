@@ -41,7 +41,7 @@ struct Eye {
     float pixelsPerMeter = 1;  // at a distance of one metre
     glm::vec2 size{1};         // pixels
     float nearest = 0;         // m: of the depth buffer, which holds 1 - nearest / depth
-    float time = 0;            // s
+    double time = 0;           // s
 
     Eye(const View& view, int width, int height);
 };

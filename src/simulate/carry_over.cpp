@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "simulate/checkpoint_head.h"
+
 namespace shoal {
 
 namespace {
@@ -63,6 +65,12 @@ GroupState carried(const GroupState& saved, double time, const GroupPlan& from, 
     return out;
 }
 
+// s, of the last substep, from which a solver with history goes on; 0: it does not, because forces jump.
+double stepBefore(const SavedState& saved, const Plan& from, const Plan& to) {
+    using checkpoint::forcesAt;
+    return forcesAt(from, saved.time) == forcesAt(to, saved.time) ? saved.step : 0;
+}
+
 const GroupPlan* sameGroup(const Plan& among, const GroupPlan& group) {
     for (const GroupPlan& other : among.groups)
         if (group.name.empty() ? other.index == group.index && other.name.empty() : other.name == group.name)
@@ -75,6 +83,7 @@ const GroupPlan* sameGroup(const Plan& among, const GroupPlan& group) {
 std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to) {
     if (from.groups.size() != to.groups.size() || saved.groups.size() != to.groups.size()) return {};
     SavedState out = saved;
+    out.step = stepBefore(saved, from, to);
     for (size_t g = 0; g < to.groups.size(); ++g) {
         if (!sameKind(from.groups[g], to.groups[g])) return {};
         out.groups[g] = carried(saved.groups[g], saved.time, from.groups[g], to.groups[g]);
@@ -83,7 +92,7 @@ std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, c
 }
 
 GoneOn goOn(const SavedState& saved, const Plan& from, const Plan& to) {
-    GoneOn out{{saved.time, saved.frames, {}, saved.step}, {}};
+    GoneOn out{{saved.time, saved.frames, {}, stepBefore(saved, from, to)}, {}};
     for (const GroupPlan& group : to.groups) {
         const GroupPlan* before = sameGroup(from, group);
         if (before && before->vertexCount == group.vertexCount &&

@@ -205,12 +205,23 @@ Parameters parametersNow(const Head& head, const Plan& plan) {
     return out;
 }
 
+// Whether a slider is no longer where it stood.
+bool changed(const Head& head, Parameters now) {
+    now.forces = head.parameters.forces;  // not in the file
+    return jumps(head.parameters, now);
+}
+
 }  // namespace
 
 void writeCheckpoint(const std::filesystem::path& path, const Plan& plan, const Checkpoint& saved) {
     const SavedState& state = saved.state;
-    Head content{state.time,       state.step,         state.frames,
-                 saved.parameters, parametersOf(plan), checkpoint::groupsOf(plan)};
+    Head content{state.time,
+                 state.step,
+                 checkpoint::forcesAt(plan, state.time),
+                 state.frames,
+                 saved.parameters,
+                 parametersOf(plan),
+                 checkpoint::groupsOf(plan)};
     for (size_t g = 0; g < state.groups.size(); ++g)
         content.groups[g].keeps = (state.groups[g].displacements.empty() ? 0 : checkpoint::keepsHistory) |
                                   (state.groups[g].steering.empty() ? 0 : checkpoint::keepsSteering);
@@ -250,7 +261,10 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, const Plan& plan) {
     out.parameters = parametersNow(head, plan);
     out.state.time = head.time;
     out.state.frames = head.frames;
-    out.state.step = head.step;
+    // those that this scene has instead of the saved one's begin with a jump
+    const bool goesOn =
+        head.forces == checkpoint::forcesAt(plan, head.time) && !changed(head, out.parameters);
+    out.state.step = goesOn ? head.step : 0;
     out.state.groups = readBody(file, head, plan);
     for (size_t g = 0; g < plan.groups.size(); ++g)
         checkState(out.state.groups[g], plan.groups[g], location);

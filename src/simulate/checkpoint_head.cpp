@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "simulate/force_parameters.h"
+
 namespace shoal::checkpoint {
 
 namespace {
@@ -42,6 +44,33 @@ std::vector<GroupHead> groupsOf(const Plan& plan) {
         out.push_back({group.name, group.count, group.vertexCount, group.springCount, shapeOf(plan, group),
                        instancesOf(group)});
     return out;
+}
+
+uint64_t forcesAt(const Plan& plan, double time) {
+    Frame frame;
+    frame.time = time;
+    frame.parameters = parametersOf(plan);
+    frame.h = frame.parameters.frameTime / frame.parameters.substeps;
+    Checksum sum;
+    const auto add = [&](const auto& values) { sum.add(values.data(), values.size() * sizeof values[0]); };
+    sum.add(plan.gravity.x);
+    sum.add(plan.gravity.y);
+    sum.add(plan.gravity.z);
+    add(plan.topology);
+    add(plan.samples);
+    add(plan.fieldSource);
+    add(plan.collideSource);
+    add(fieldParameters(plan, frame));
+    for (const GroupPlan& group : plan.groups) {
+        for (const double value :
+             {group.drag.normal, group.drag.tangent, group.stiffness, group.damping, group.phaseSpread})
+            sum.add(value);
+        add(group.muscles);
+        add(group.forces.source);
+        add(forceParameters(plan, group, frame));
+        if (!group.colliderParameters.empty()) add(colliderParameters(plan, group, frame));
+    }
+    return sum.sum();
 }
 
 std::string difference(const std::vector<GroupHead>& saved, const std::vector<GroupHead>& here) {
@@ -130,6 +159,7 @@ std::string pack(const Head& head) {
     Packer out;
     out.add(head.time);
     out.add(head.step);
+    out.add(head.forces);
     out.add(head.frames);
     out.add(uint32_t(head.groups.size()));
     out.add(head.parameters);
@@ -152,6 +182,7 @@ Head unpack(const std::string& bytes, const Location& location) {
     uint32_t groups = 0;
     in.take(head.time);
     in.take(head.step);
+    in.take(head.forces);
     in.take(head.frames);
     in.take(groups);
     in.take(head.parameters);

@@ -51,12 +51,16 @@ struct GroupHead {
 
 struct Head {
     double time = 0, step = 0;  // s; 0: there is no last substep
+    uint64_t forces = 0;        // forcesAt
     int32_t frames = 0;
     Parameters parameters, own;  // as they stood; as the scene had them
     std::vector<GroupHead> groups;
 };
 
 std::vector<GroupHead> groupsOf(const Plan& plan);
+// A fingerprint of all that acts on molecules at a time, beside the sliders: a solver with history goes on
+// only under the same.
+uint64_t forcesAt(const Plan& plan, double time);
 // For people, how the scene differs from the one that was saved; empty: not.
 std::string difference(const std::vector<GroupHead>& saved, const std::vector<GroupHead>& here);
 

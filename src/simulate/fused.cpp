@@ -143,8 +143,15 @@ void Fused::updateFactors(size_t index, const Frame& frame) {
     if (kernel.factors) kernel.step->uniformBlock("Factors", 0, kernel.factors);
 }
 
-void Fused::changeSprings(size_t group, const std::vector<glm::vec4>& numbers) {
-    kernels_[group].springs.update(gpu::Traffic::Kind::parameters, 0, numbers.data(),
+// Live springs, with their muscles where they are at the start of the frame.
+void Fused::updateSprings(size_t index, const Frame& frame) {
+    const GroupPlan& group = plan_->groups[index];
+    if (!group.needs.liveSprings || kernels_[index].options.lanes != Lanes::molecule) return;
+    std::vector<glm::vec4> numbers = group.springNumbers;
+    const std::vector<glm::vec4> angles = muscleAngles(group.springFrequencies, frame.time);
+    for (size_t i = 0; i < group.springFrequencies.size(); ++i)
+        numbers[2 * i + 1].w = angles[i / 4][glm::length_t(i % 4)];
+    kernels_[index].springs.update(gpu::Traffic::Kind::parameters, 0, numbers.data(),
                                    numbers.size() * sizeof(glm::vec4));
 }
 
@@ -207,10 +214,11 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         {gpu::Barrier::textureFetch, gpu::Barrier::storage});  // a picture may still read what is written
     for (size_t g = 0; g < state.size(); ++g) {
         updateFactors(g, frame);
+        updateSprings(g, frame);
         const Program& program = *kernels_[g].step;
         program.use();
         setStepUniforms(program, *plan_, plan_->groups[g], frame);
-        if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_));
+        if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
         if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);

@@ -41,8 +41,6 @@ class Fused {
     void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
 
     std::vector<GroupBuffers> state;  // per group
-    // Where they are live: plan.springNumbers as they are now, of the group's molecules.
-    void changeSprings(size_t group, const std::vector<glm::vec4>& numbers);
     Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
     const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
     Births* births() const { return births_.get(); }                   // null: none is born and none dies
@@ -64,6 +62,7 @@ class Fused {
     void makeStep(size_t index);
     void makeFactors(size_t index);
     void updateFactors(size_t index, const Frame& frame);
+    void updateSprings(size_t index, const Frame& frame);
     void run(const Frame& frame, gpu::PassTimers& timers);
     void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
     void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;

@@ -178,7 +178,6 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
     program.set("givenFrame", frame.number);
     program.set("givenSubsteps", parameters.substeps);
     program.set("givenSubstep", float(frame.h));
-    program.set("givenFrameTime", float(frame.time));
     program.set("givenFrameDuration", float(parameters.frameTime));
     program.set("givenGravity", glm::vec3(parameters.gravity));
     program.set("givenWind", float(parameters.wind));
@@ -200,6 +199,8 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
     program.set("givenRestarts", int(frame.restarts));
     if (group.needs.fields)
         program.set("givenFieldParameters", std::span<const glm::vec4>(fieldParameters(plan, frame)));
+    if (countsMuscles(group.needs))
+        program.set("givenMuscleAngles", std::span<const glm::vec4>(muscleAngles(group.muscles, frame.time)));
     if (group.forces.any())
         program.set("givenForceParameters", std::span<const glm::vec4>(forceParameters(plan, group, frame)));
     if (group.needs.collide && !plan.movingColliders.empty())

@@ -29,5 +29,7 @@ struct Parameters {
 
 // As the scene has them: no slider moved.
 Parameters parametersOf(const Plan& plan);
+// Whether forces jump from one to the other. What a hand moves goes on, if with corners.
+bool jumps(const Parameters& from, const Parameters& to);
 
 }  // namespace shoal

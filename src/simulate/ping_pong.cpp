@@ -32,7 +32,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(needs.directionalDrag && group.solver == SolverKind::leapfrog, "AHEAD");
     define(needs.springs, "SPRINGS");
     define(needs.springDamping, "SPRING_DAMPING");
-    define(needs.actuation, "ACTUATION");
+    if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.pins, "PINS");
     define(needs.release, "RELEASE");
     define(needs.records, "RECORDS");
@@ -229,7 +229,9 @@ void PingPong::setSprings(const Program& program, const GroupPlan& group, const 
                           double predictTime) {
     program.set("stiffnessFactor", float(group.stiffness * step.frame.parameters.stiffness));
     program.set("dampingFactor", float(group.damping * step.frame.parameters.damping));
-    program.set("springTime", float(time));
+    program.set("springTime", float(time - step.frame.time));
+    if (group.needs.actuation)
+        program.set("muscleAngles", std::span<const glm::vec4>(muscleAngles(group.muscles, step.frame.time)));
     program.set("predictTime", float(predictTime));
     if (group.solver == SolverKind::verlet) program.set("stepsSquared", float(1 / (step.h * step.h)));
 }
@@ -304,7 +306,7 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::advect, group, index);
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     setForces(program, PassKind::advect, group, step);
-    program.set("time", float(step.time));
+    program.set("time", float(step.time - step.frame.time));
     program.set("substep", float(step.h));
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     program.set("wind", float(step.frame.parameters.wind));
@@ -339,7 +341,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     program.texture("startVelocities", 9, state.velocity.read(index));
     program.texture("sumVelocities", 10, state.sumVelocity[read]);
     program.texture("sumAccelerations", 11, state.sumAcceleration[read]);
-    program.set("time", float(time));
+    program.set("time", float(time - step.frame.time));
     program.set("substep", float(step.h));
     program.set("share", float(shares[s]));
     program.set("ahead", float(s < 3 ? at[s + 1] * step.h : 0));

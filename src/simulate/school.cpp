@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gpu/barrier.h"
 
@@ -38,7 +39,9 @@ void checkLimits(const gpu::ContextInfo& info, const SchoolPlan& school, const L
                 concat("a school of ", wanted, " molecules is more than this context holds: at most ", most));
 }
 
-// s: after which all muscles are where they were; where they have several frequencies, a long time.
+constexpr double wanderPeriod = 512 * std::numbers::pi;  // s, of shaders/physics/school.glsl
+
+// s: after which all muscles are where they were; without any, a long time.
 double clockPeriodOf(const GroupPlan& group) {
     return group.musclePeriod > 0 ? group.musclePeriod : 1e5;
 }
@@ -232,7 +235,7 @@ void Schooling::setRules(size_t index, const Frame& frame) {
     }
     program.set("homeLow", glm::vec4(low, school.home ? school.home->strength : 0));
     program.set("homeHigh", glm::vec4(high, radius));
-    program.set("time", float(frame.time));
+    program.set("time", float(std::fmod(frame.time, wanderPeriod)));
     program.set("duration", float(frame.parameters.frameTime));
     program.set("firstBody", school_->bodiesOf(member.group).first);
     if (!group.needs.avoids) return;

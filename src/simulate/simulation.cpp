@@ -1,5 +1,8 @@
 #include "simulate/simulation.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/contract.h"
 
 namespace shoal {
@@ -62,6 +65,7 @@ void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         writeGroup(g, plan_.groups[g].start, 0);
     time_ = lastStep_ = 0;
+    lastParameters_.reset();
     frames_ = 0;
     disarm();
     computeNormals();
@@ -74,13 +78,39 @@ void Simulation::computeNormals() {
     if (auto* fused = std::get_if<Fused>(&path_)) fused->computeNormals(timers_);
 }
 
+// Whether a force that comes back to the start of its path, which ends elsewhere, does so between two times.
+static bool comesBack(const Force& force, double from, double to) {
+    if (!force.path || !force.path->repeats) return false;
+    const auto& frames = force.path->keyframes;
+    const auto &first = frames.front(), &last = frames.back();
+    if (first.offset == last.offset && first.factor == last.factor) return false;
+    const auto round = [&](double time) {
+        return std::max(0.0, std::floor((time - first.time) / (last.time - first.time)));
+    };
+    return round(from) != round(to);
+}
+
+// Whether what acts on molecules is not what went on in the last frame.
+bool Simulation::forcesJump() const {
+    if (!lastParameters_) return false;
+    // forces hold what they are in the middle of a frame (simulate/force_parameters.h)
+    const auto middle = [](const Parameters& p) { return (0.5 + 0.5 / p.substeps) * p.frameTime; };
+    return jumps(*lastParameters_, parameters) ||
+           std::any_of(plan_.forces.begin(), plan_.forces.end(), [&](const Force& force) {
+               return comesBack(force, time_ - lastParameters_->frameTime + middle(*lastParameters_),
+                                time_ + middle(parameters));
+           });
+}
+
 void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
     check();
+    if (forcesJump()) lastStep_ = 0;
     before_ = Moment{time_, lastStep_, frames_};
     const double step = parameters.frameTime / parameters.substeps;
     const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};
     lastStep_ = step;
+    lastParameters_ = parameters;
     timers_.beginFrame();
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
     if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
@@ -133,13 +163,16 @@ bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
     if (!fused || !plan.needs.liveSprings || fused->lanes(group) != Lanes::molecule) return false;
     if (molecule.springs.size() != size_t(plan.springCount)) return false;
     plan.springNumbers = springNumbers(molecule);
-    fused->changeSprings(group, plan.springNumbers);
+    plan.springFrequencies = springFrequencies(molecule);
+    lastStep_ = 0;
     return true;
 }
 
 bool Simulation::changeSchool(size_t group, const School& school) {
     auto* fused = std::get_if<Fused>(&path_);
-    return fused && fused->school() && fused->school()->change(group, school);
+    if (!fused || !fused->school() || !fused->school()->change(group, school)) return false;
+    lastStep_ = 0;
+    return true;
 }
 
 StateView Simulation::state() const {

@@ -31,7 +31,7 @@ void Simulation::writeGroup(size_t index, const GroupState& state, double time) 
 }
 
 SavedState Simulation::save() const {
-    SavedState out{time_, frames_, {}, lastStep_};
+    SavedState out{time_, frames_, {}, forcesJump() ? 0 : lastStep_};
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         out.groups.push_back(readGroup(g));
     return out;
@@ -75,6 +75,7 @@ void Simulation::load(const SavedState& saved) {
     frames_ = saved.frames;
     disarm();
     lastStep_ = saved.step;
+    lastParameters_.reset();
     computeNormals();
 }
 

@@ -57,6 +57,7 @@ std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame) {
     const std::vector<double>& factors = frame.parameters.fields;
     for (size_t i = 0; i < std::min(factors.size(), plan.fieldWeights.size()); ++i)
         out[plan.fieldWeights[i]].w *= float(factors[i]);
+    setClocks(out, plan.fieldClocks, frame.time);
     return out;
 }
 

@@ -14,7 +14,7 @@ struct Frame {
     double h = 0;     // s, a substep
     int number = 0;   // from 0
     Parameters parameters;
-    bool restarts = false;  // the substep differs from the last one's: solvers with history start anew
+    bool restarts = false;  // the substep or the forces are not the last one's: solvers with history start anew
 };
 
 // Contact step i of a frame that contact between molecules cuts into `steps`.
@@ -50,7 +50,7 @@ struct ReleaseLimits {
 };
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);
 
-// With the weights as the frame has them.
+// With the weights and the times as the frame has them.
 std::vector<glm::vec4> fieldParameters(const Plan& plan, const Frame& frame);
 
 // A group's, with the colliders where they are in this frame.

@@ -36,8 +36,9 @@ dvec3 towards(const dvec3& d, double radius) {
 }
 
 double wander(double t, double a, double b, double c) {
-    return (std::sin(t * (0.9 + a) + 40 * b) + std::sin(t * (1.7 + b) + 40 * c) +
-            std::sin(t * (2.6 + c) + 40 * a)) /
+    const auto rate = [](double least, double random) { return (least + std::floor(256 * random)) / 256; };
+    return (std::sin(t * rate(230, a) + 40 * b) + std::sin(t * rate(435, b) + 40 * c) +
+            std::sin(t * rate(666, c) + 40 * a)) /
            3;
 }
 

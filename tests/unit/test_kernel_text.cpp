@@ -105,9 +105,10 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
     needs.springs = needs.springDamping = needs.actuation = needs.scale = needs.phase = true;
     const Molecule molecule = awkward();
     const KernelText text = kernelText(molecule, needs, solver(SolverKind::leapfrog));
-    const std::string number = "([-+.e0-9]+)", muscle = R"(actuatedLength\()" + number + R"( \* scale, )" +
-                                                        number + ", " + number + R"( \* time \+ )" + number +
-                                                        R"( \+ phase\))";
+    const std::string number = "([-+.e0-9]+)", muscle = R"(bentLength\()" + number + R"( \* scale, )" +
+                                                        number + ", " + number + R"( \* time \+ \()" +
+                                                        number +
+                                                        R"( \+ muscleAngles\[0\]\.x\) \+ phase, 0\.0\))";
     const auto springs = matches(
         text.forces,
         std::regex(R"(f = springForce\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" + number +

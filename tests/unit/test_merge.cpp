@@ -153,6 +153,8 @@ TEST_CASE("groups of a changed file go on, those of another shape begin anew", "
     CHECK(gone.restarted == std::vector<std::string>{"a", "c"});
     CHECK(gone.state.time == 2.5);
     CHECK(gone.state.frames == 150);
+    CHECK(gone.state.step == 0);  // other masses
+    CHECK(goOn(saved, from, from).state.step == 0.01);
     REQUIRE(gone.state.groups.size() == 3);
     CHECK(gone.state.groups[0].velocities ==
           std::vector<glm::vec3>{glm::vec3(7), glm::vec3(7), glm::vec3(0)});

@@ -109,3 +109,17 @@ TEST_CASE("ages: shares of a life", "[particle]") {
     CHECK(ageShare(vec2(100, 1e30f)) < 1e-20f);
     CHECK(ageShare(vec2(0, 0)) == 0);
 }
+
+TEST_CASE("what turns for ever turns on evenly after a day", "[particle]") {
+    const double turn = 2 * std::acos(-1.0);
+    const auto at = [](float rate, double time) {
+        const double blocks = std::floor(time / 64);
+        return double(turnedBy(rate, uint32_t(blocks), float(time - 64 * blocks)));
+    };
+    for (const float rate : {0.3f, 5.0f, -7.3f})
+        for (int frame = -3; frame < 3; ++frame) {  // 1600 blocks are 102,400 s
+            const double time = 1600 * 64 + frame / 60.0;
+            const double turned = at(rate, time + 1 / 60.0) - at(rate, time);
+            CHECK(std::abs(std::remainder(turned - double(rate) / 60, turn)) < 1e-4);
+        }
+}

@@ -54,8 +54,8 @@ TEST_CASE("shader noise agrees with the reference on both sides of 0", "[physics
     for (int i = 0; i < 2000; ++i) {
         const vec3 p = sample(i);
         // weights add up to 1 and ramps are below 3: a few rounding steps
-        REQUIRE(std::abs(shader::gradientNoise(p, 11u) - reference::gradientNoise(dvec3(p), 11)) < 1e-6);
-        const vec3 curl = shader::curlNoise(p, timeOf(i) - 2, 5u);
+        REQUIRE(std::abs(shader::gradientNoise(p, 0u, 11u) - reference::gradientNoise(dvec3(p), 11)) < 1e-6);
+        const vec3 curl = shader::curlNoise(p, timeOf(i) - 2, 0u, 5u);
         REQUIRE(glm::length(dvec3(curl) - reference::curlNoise(dvec3(p), double(timeOf(i)) - 2, 5)) < 1e-5);
     }
 }
@@ -92,12 +92,12 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
     const vec3 along(gust.direction), across(reference::gustAcross(gust.direction));
     // 5 m/s of noise whose argument, up to 20 at the second octave, has lost 2e-6
     CHECK(worst(gust, [&](vec3 x, float time) {
-              return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 3u);
+              return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 0, 0u, 3u);
           }) < 3e-5);
 
     CurlNoiseField curl{.speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77};
     CHECK(worst(curl, [&](vec3 x, float time) {
-              return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 77u);
+              return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 0, 0u, 77u);
           }) < 3e-5);
 }
 
@@ -115,7 +115,7 @@ TEST_CASE("shader waves agree with the reference, in deep water and shallow", "[
         // up to 1 m/s (3 m/s where it is shallow) with an argument, up to 35, that has lost 4e-6
         CHECK(worst(waves, [&](vec3 x, float time) {
                   return shader::waveVelocity(x - vec3(waves.origin), time, along, float(k), float(omega),
-                                              float(speed), 0.5f, float(h), 0.2f);
+                                              0.5f, float(speed), float(h), 0.2f);
               }) < 2e-5);
     }
 }
@@ -149,7 +149,7 @@ TEST_CASE("shader springs agree with the reference", "[physics]") {
     CHECK(shader::springForce(vec3(0), vec3(1), 300, 2, 1) == vec3(0));
     CHECK(shader::springForce(vec3(1e-13f, 0, 0), vec3(1), 300, 2, 1) == vec3(0));
     CHECK(shader::springForce(vec3(1, 0, 0), vec3(0), 300, 2, 1) == vec3(0));
-    CHECK(shader::actuatedLength(2, 0.25f, std::numbers::pi_v<float> / 2) == Approx(2.5));
+    CHECK(shader::bentLength(2, 0.25f, std::numbers::pi_v<float> / 2, -0.5f) == Approx(1.5));
 }
 
 TEST_CASE("shader drag agrees with the reference's step", "[physics]") {

@@ -88,6 +88,19 @@ TEST_CASE("What a school cannot be is refused where it stands", "[school]") {
     CHECK_THAT(error(R"("flees": [)" + nine + "]"), Contains("at most 8"));
 }
 
+TEST_CASE("Muscles of several frequencies share a period that their clock counts round", "[school]") {
+    CHECK(commonPeriod({}) == 0);
+    CHECK(commonPeriod({0}) == 0);
+    CHECK(commonPeriod({4}) == 0.25);
+    CHECK(commonPeriod({0.5, 0, 0.75}) == Approx(4));
+    CHECK(commonPeriod({1.1, 1.3}) == Approx(10));
+    CHECK(commonPeriod({0.001}) == 1000);
+    const double odd = commonPeriod({1, std::sqrt(2.0), std::sqrt(3.0)});
+    CHECK(odd <= 256);
+    CHECK(std::abs(std::remainder(odd * std::sqrt(2.0), 1.0)) < 0.05);
+    CHECK(std::abs(std::remainder(odd * std::sqrt(3.0), 1.0)) < 0.05);
+}
+
 TEST_CASE("Every one that is looked for has a grid; keys and entries of grids do not overlap", "[school]") {
     const Plan plan = compile(shoalOf(R"("flees": [{"group": "hunter"}])", hunter));
     const SchoolPlan& school = plan.school;

@@ -251,7 +251,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     }
     for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
         validator.addBoth("passes/collide.frag", pins);
-        for (Defines set : combinations({"LEAPFROG", "ACTUATION"})) {
+        for (Defines set : combinations({"LEAPFROG", "MUSCLES 2"})) {
             set.insert(set.end(), pins.begin(), pins.end());
             set.emplace_back("SPRINGS");
             validator.addBoth("passes/restore.frag", set);
