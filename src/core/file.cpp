@@ -16,6 +16,9 @@ FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}
     const fs::file_status status = fs::status(path, code);
     if (status.type() == fs::file_type::not_found) throw Error(location_, "no such file");
     if (status.type() == fs::file_type::directory) throw Error(location_, "is a folder, expected a file");
+    // A device has no end, and a pipe would wait for ever.
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        throw Error(location_, "is a device, a pipe or a socket, expected a file");
     file_.reset(std::fopen(path.c_str(), "rb"));
     if (!file_) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
 }

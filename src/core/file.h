@@ -14,7 +14,7 @@
 
 namespace shoal {
 
-// The file's bytes. Error: no such file, a folder, unreadable, or above maxBytes.
+// The file's bytes. Error: no such file, a folder, a device, unreadable, or above maxBytes.
 std::string readFile(const std::filesystem::path& path, size_t maxBytes = size_t{1} << 31);
 
 // ".png" of "a/b.PNG"; empty without an extension.
@@ -33,7 +33,7 @@ using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 // The same piece by piece, for files that need not lie in memory as a whole.
 class FileReader {
   public:
-    // Error: no such file, a folder, unreadable.
+    // Error: no such file, a folder, a device or pipe, unreadable.
     explicit FileReader(const std::filesystem::path& path);
     // The bytes that were there: fewer than asked for only at the end. Error: cannot be read.
     size_t read(void* data, size_t bytes);

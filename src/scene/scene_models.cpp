@@ -37,7 +37,11 @@ Model readModel(JsonReader& r) {
     r.get("roughness", model.roughness, Range::between(0, 1));
     r.get("grain", model.grain, Range::between(0, 1));
     r.finish();
-    model.mesh = loadMesh(model.file);
+    try {
+        model.mesh = loadMesh(model.file);
+    } catch (const Error& error) {
+        throw Error(r.at("file"), error.what());
+    }
     placeMesh(model.mesh, model);
     for (const glm::dvec3& corner : {model.mesh.low, model.mesh.high})
         for (int i = 0; i < 3; ++i)
