@@ -17,6 +17,7 @@
 #include "core/error.h"
 #include "molecule/bind_skin.h"
 #include "scene/closed_surface.h"
+#include "scene/load_model.h"
 
 namespace shoal {
 
@@ -39,9 +40,36 @@ glm::dvec3 rounded(const glm::dvec3& value, double size) {
     return shift >= 0 ? glm::round(value * power) / power : glm::round(value / power) * power;
 }
 
+// Vertices that no triangle has would stretch the box, and be taken for a part of the shape.
+Mesh withoutStrays(Mesh mesh) {
+    std::vector<int> number(mesh.positions.size(), -1);
+    for (const glm::ivec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i)
+            number[size_t(t[i])] = 0;
+    if (std::find(number.begin(), number.end(), -1) == number.end()) return mesh;
+    size_t count = 0;
+    for (size_t v = 0; v < number.size(); ++v) {
+        if (number[v] < 0) continue;
+        mesh.positions[count] = mesh.positions[v];
+        mesh.normals[count] = mesh.normals[v];
+        if (!mesh.colors.empty()) mesh.colors[count] = mesh.colors[v];
+        if (!mesh.uvs.empty()) mesh.uvs[count] = mesh.uvs[v];
+        number[v] = int(count++);
+    }
+    mesh.positions.resize(count);
+    mesh.normals.resize(count);
+    mesh.colors.resize(std::min(mesh.colors.size(), count));
+    mesh.uvs.resize(std::min(mesh.uvs.size(), count));
+    for (glm::ivec3& t : mesh.triangles)
+        for (int i = 0; i < 3; ++i)
+            t[i] = number[size_t(t[i])];
+    completeMesh(mesh);
+    return mesh;
+}
+
 // In metres, where it is wanted.
 Mesh placed(const Mesh& source, const FromMesh& options) {
-    Mesh mesh = source;
+    Mesh mesh = withoutStrays(source);
     const glm::dvec3 extent = mesh.high - mesh.low;
     const double longest = std::max({extent.x, extent.y, extent.z});
     if (!(longest > 0)) throw Error("all vertices of the mesh lie in one place");
@@ -143,6 +171,7 @@ void fold(CoarseMesh& coarse, double height) {
         for (int i = 0; i < 3; ++i)
             edges.emplace_back(t[i], t[(i + 1) % 3]);
     }
+    if (!(glm::length(normal) > 0)) return;  // all in one line: there is no side to fold to
     normal = glm::normalize(normal);
     // as many edges as can be from up to down: greedily, one vertex after another
     std::vector<int> side(coarse.positions.size(), 0);
@@ -188,12 +217,17 @@ class Maker {
             throw Error(
                 concat("a lattice of tetrahedra fills a volume, and this mesh has none: ", whyOpen(report)));
         if (made_.solid) inside_ = std::make_unique<Inside>(mesh_);
-        if (inside_ && inside_->samples().empty()) {
+        constexpr size_t leastSamples = 100;  // fewer tell nothing of how a mass is spread
+        if (inside_ && inside_->samples().size() < leastSamples) {
             inside_.reset();
             made_.solid = false;
+            made_.volume = 0;
             if (options_.springs == FromMesh::Springs::lattice)
                 throw Error("a lattice of tetrahedra fills a volume, and this mesh is too thin for any");
+            made_.notes.push_back("the mesh is so thin for its size that it is taken for a sheet");
         }
+        // Parts that face inwards and outwards cancel out in the sum over triangles, never in the samples.
+        if (inside_ && made_.volume < 0.1 * inside_->volume()) made_.volume = inside_->volume();
         if (!made_.solid && !report.closed())
             made_.notes.push_back("the mesh is a sheet, not a body: " + whyOpen(report));
         const double longest = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
@@ -220,7 +254,7 @@ class Maker {
         if (made_.solid) return;
         // Without it every bend of a flat sheet would be free.
         constexpr double leastFlatness = 0.05, height = 0.12;
-        if (flatness(coarse_.positions) >= leastFlatness) return;
+        if (coarse_.positions.size() < 4 || flatness(coarse_.positions) >= leastFlatness) return;
         const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
         fold(coarse_, height * size);
         made_.notes.push_back(concat("the sheet is flat: its vertices were folded up and down by ", height,
@@ -236,7 +270,8 @@ class Maker {
         length_ = extentAlong(spread.axis);
         // of a plate: E / (1 - nu^2), and a section as thick as the sheet; what is bent bends as a whole
         const double plate = material_->thickness / std::sqrt(12 * (1 - 0.09));
-        gyration_ = inside_ || bulky() ? spread.gyration : plate;
+        // What is bulky as a whole may have its mass in one plane.
+        gyration_ = inside_ || bulky() ? std::max(spread.gyration, plate) : plate;
         const std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
         const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
         for (size_t i = 0; i < coarse_.positions.size(); ++i) {
@@ -336,9 +371,21 @@ class Maker {
     void addSkin() {
         const SkinMesh mesh = skinMeshOf(mesh_, options_.skinTriangles);
         molecule().skin = bindSkin(molecule(), mesh);
-        for (size_t i = 0; i < mesh.positions.size(); ++i)
-            made_.skinError = std::max(
-                made_.skinError, glm::distance(mesh.positions[i], molecule().skin.vertices[i].position));
+        double lever = 0;  // how far a skin vertex moves by how far the simulated ones do
+        for (size_t i = 0; i < mesh.positions.size(); ++i) {
+            const SkinVertex& vertex = molecule().skin.vertices[i];
+            made_.skinError = std::max(made_.skinError, glm::distance(mesh.positions[i], vertex.position));
+            for (const SkinWeight& weight : vertex.weights)
+                lever = std::max(lever, std::abs(weight.weight));
+        }
+        constexpr double mostError = 1e-3, mostLever = 10;
+        const double off = made_.skinError / molecule().size();
+        if (off > mostError || lever > mostLever)
+            throw Error(concat("the skin would tear: with ", molecule().vertices.size(),
+                               " simulated vertices it ",
+                               off > mostError ? concat("would hang ", off, " of the size off the mesh")
+                                               : concat("would move ", lever, " times as far as one of them"),
+                               ". Ask for more vertices, for rings, or for no skin"));
     }
 
     const FromMesh& options_;

@@ -17,6 +17,7 @@ class Inside {
     bool at(const glm::dvec3& point) const;
     // The share of points of the segment that lie inside.
     double share(const glm::dvec3& a, const glm::dvec3& b) const;
+    double volume() const { return double(samples_.size()) * grid_.cell * grid_.cell * grid_.cell; }
     const std::vector<glm::dvec3>& samples() const { return samples_; }  // the middle of every cell inside
 
   private:

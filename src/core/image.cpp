@@ -109,6 +109,9 @@ void checkSize(const Decoder& decoder) {
     if (width > maxImageSide || height > maxImageSide)
         throw Error(decoder.location, concat("expected a picture of at most ", maxImageSide, " x ",
                                              maxImageSide, ", found ", width, " x ", height));
+    if (width * height > maxImageTexels)
+        throw Error(decoder.location, concat("expected a picture of at most ", maxImageTexels,
+                                             " texels (8192 x 8192), found ", width, " x ", height));
     // Deflate packs at most 1032 to 1: a short file that claims more is cut off, and need not be allocated.
     if (png_get_rowbytes(decoder.png, decoder.info) * height / 1032 > decoder.bytes.size())
         throw Error(decoder.location, "is a damaged PNG picture: the file ends too early");

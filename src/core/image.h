@@ -10,6 +10,8 @@
 namespace shoal {
 
 constexpr int maxImageSide = 16384;  // texels; what current OpenGL implementations take as a texture
+// 256 MiB as RGBA: deflate packs a thousand to one, so that a short file may hold any number of them.
+constexpr size_t maxImageTexels = size_t{8192} * 8192;
 
 // width * height * channels bytes: 1 grey, 2 grey and alpha, 3 RGB, 4 RGBA.
 struct Image {
@@ -24,7 +26,7 @@ struct HeightImage {
 };
 
 // Any PNG as RGBA, eight bits a channel, as stored (no gamma conversion).
-// Error: no such file, not a PNG, damaged or cut off, or above maxImageSide a side.
+// Error: no such file, not a PNG, damaged or cut off, above maxImageSide a side or maxImageTexels in all.
 Image readPng(const std::filesystem::path& path);
 Image decodePng(const std::string& bytes, const std::string& file);
 // A grey PNG of up to 16 bits at its full depth, as stored. Error: as above, or a picture in colour.

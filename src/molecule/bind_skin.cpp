@@ -18,6 +18,8 @@ using Eigen::VectorXd;
 constexpr double mostWeight = 3;  // above, a direction that the vertices hardly span is left to the offset
 constexpr double thin = 0.05;     // such a direction: its extent by the largest
 constexpr double exact = 1e-7;    // of the molecule's size
+constexpr double leastNormal = 0.1;
+constexpr double mostLift = 0.1;  // of the size: further off, a normal that turns swings the skin about
 
 Vector3d toEigen(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
@@ -38,11 +40,17 @@ double kernelAt(double distance, double reach) {
     return std::max(s * s, 1e-8);
 }
 
-Neighbours nearest(const Molecule& molecule, const glm::dvec3& point) {
-    std::vector<std::pair<double, int>> all;
+using Ranking = std::vector<std::pair<double, int>>;  // distance from a point, vertex
+
+Ranking ranked(const Molecule& molecule, const glm::dvec3& point) {
+    Ranking all;
     for (size_t i = 0; i < molecule.vertices.size(); ++i)
         all.emplace_back(glm::distance(molecule.vertices[i].position, point), int(i));
     std::sort(all.begin(), all.end());
+    return all;
+}
+
+Neighbours nearest(const Ranking& all) {
     const size_t count = std::min(all.size(), size_t(Skin::mostWeights));
     // with nothing left out there is no one to make place for
     const double reach = all.size() > count ? all[count].first : 2 * all[count - 1].first;
@@ -50,6 +58,41 @@ Neighbours nearest(const Molecule& molecule, const glm::dvec3& point) {
     for (size_t i = 0; i < count; ++i) {
         out.vertices.push_back(all[i].second);
         out.kernel.push_back(reach > 0 ? kernelAt(all[i].first, reach) : 1);
+    }
+    return out;
+}
+
+// Where the nearest lie in a plane, on a line, or close together: the nearest, those that are needed to span
+// space as far as the point lies from them, and then again the nearest.
+Neighbours spanning(const Molecule& molecule, Ranking all) {
+    const auto place = [&](size_t i) { return molecule.vertices[size_t(all[i].second)].position; };
+    const glm::dvec3 first = place(0);
+    std::vector<glm::dvec3> axes;
+    for (size_t chosen = 1; chosen < std::min<size_t>(4, all.size()); ++chosen) {
+        size_t best = chosen;
+        double most = -1;
+        for (size_t i = chosen; i < all.size(); ++i) {
+            const glm::dvec3 way = place(i) - first;
+            glm::dvec3 across = way;
+            for (const glm::dvec3& axis : axes)
+                across -= glm::dot(across, axis) * axis;
+            const double height = glm::length(across);
+            if (height > most) most = height, best = i;
+            if (height > 0.3 * glm::length(way) && height > 0.5 * all[0].first) break;
+        }
+        glm::dvec3 axis = place(best) - first;
+        for (const glm::dvec3& other : axes)
+            axis -= glm::dot(axis, other) * other;
+        axes.push_back(unit(axis));
+        std::rotate(all.begin() + std::ptrdiff_t(chosen), all.begin() + std::ptrdiff_t(best),
+                    all.begin() + std::ptrdiff_t(best) + 1);
+    }
+    all.resize(std::min(all.size(), size_t(Skin::mostWeights)));
+    const double reach = 2 * std::max_element(all.begin(), all.end())->first;
+    Neighbours out;
+    for (const auto& [distance, vertex] : all) {
+        out.vertices.push_back(vertex);
+        out.kernel.push_back(reach > 0 ? kernelAt(distance, reach) : 1);
     }
     return out;
 }
@@ -123,24 +166,49 @@ void store(const Neighbours& near, const VectorXd& weights, SkinVertex& out) {
     out.weights[largest].weight = rounded(out.weights[largest].weight + rest, digits);
 }
 
-SkinVertex bind(const Molecule& molecule, const Rest& rest, const glm::dvec3& point) {
-    const Neighbours near = nearest(molecule, point);
-    const Vector3d at = toEigen(point);
-    VectorXd weights = weightsFor(molecule, near, at, 1, Vector3d::Zero(), 1e-9);
-    const bool reaches = glm::distance(sum(near, weights, rest.positions), point) <= exact * rest.size;
+// One way to hang a point on vertices.
+struct Hanging {
+    Neighbours near;
+    VectorXd weights;
     double offset = 0;
-    if (!reaches || weights.cwiseAbs().maxCoeff() > mostWeight) {
-        const VectorXd few = weightsFor(molecule, near, at, 1, Vector3d::Zero(), thin);
-        const glm::dvec3 left = point - sum(near, few, rest.positions);
-        const glm::dvec3 normal = unit(sum(near, few, rest.normals));
-        const double height = glm::dot(left, normal);
-        if (!reaches || glm::length(left - height * normal) <= exact * rest.size)
-            weights = few, offset = height;
+    double left = 0;  // m, how far off the point it is at rest
+
+    Hanging(const Molecule& molecule, const Rest& rest, Neighbours on, const glm::dvec3& point, bool lifted)
+        : near(std::move(on)),
+          weights(weightsFor(molecule, near, toEigen(point), 1, Vector3d::Zero(), lifted ? thin : 1e-9)) {
+        glm::dvec3 missing = point - sum(near, weights, rest.positions);
+        if (lifted) {
+            const glm::dvec3 normal = sum(near, weights, rest.normals);
+            // where normals cancel out, the rounding of weights turns what is left of them
+            offset = glm::length(normal) > leastNormal ? glm::dot(missing, unit(normal)) : 0;
+            missing -= offset * unit(normal);
+        }
+        left = glm::length(missing);
     }
+    bool reaches(const Rest& rest) const { return left <= exact * rest.size; }
+    double most() const { return weights.cwiseAbs().maxCoeff(); }
+};
+
+Hanging hang(const Molecule& molecule, const Rest& rest, const glm::dvec3& point) {
+    const Ranking all = ranked(molecule, point);
+    Hanging plain(molecule, rest, nearest(all), point, false);
+    const bool reaches = plain.reaches(rest);
+    if (reaches && plain.most() <= mostWeight) return plain;
+    Hanging lifted(molecule, rest, nearest(all), point, true);
+    const bool lifts = lifted.reaches(rest);
+    if (lifts && lifted.most() <= mostWeight && std::abs(lifted.offset) <= mostLift * rest.size)
+        return lifted;
+    Hanging wide(molecule, rest, spanning(molecule, all), point, false);
+    if (wide.reaches(rest) && !(reaches && plain.most() < wide.most())) return wide;
+    return reaches && !lifts ? plain : lifted;
+}
+
+SkinVertex bind(const Molecule& molecule, const Rest& rest, const glm::dvec3& point) {
+    const Hanging hanging = hang(molecule, rest, point);
     SkinVertex out;
-    store(near, weights, out);
+    store(hanging.near, hanging.weights, out);
     // shorter than rounding leaves it
-    if (std::abs(offset) > exact * rest.size) out.offset = offset;
+    if (std::abs(hanging.offset) > exact * rest.size) out.offset = hanging.offset;
     return out;
 }
 

@@ -7,14 +7,14 @@
 
 namespace shoal {
 
-static std::vector<size_t> neighbours(const Image& image, size_t pixel) {
+// Calls visit(index) for the up to four pixels beside one.
+template <typename Visit>
+static void neighbours(const Image& image, size_t pixel, Visit&& visit) {
     const size_t width = size_t(image.width), x = pixel % width, y = pixel / width;
-    std::vector<size_t> out;
-    if (x > 0) out.push_back(pixel - 1);
-    if (x + 1 < width) out.push_back(pixel + 1);
-    if (y > 0) out.push_back(pixel - width);
-    if (y + 1 < size_t(image.height)) out.push_back(pixel + width);
-    return out;
+    if (x > 0) visit(pixel - 1);
+    if (x + 1 < width) visit(pixel + 1);
+    if (y > 0) visit(pixel - width);
+    if (y + 1 < size_t(image.height)) visit(pixel + width);
 }
 
 Image bledImage(const Image& image, int inside) {
@@ -24,23 +24,25 @@ Image bledImage(const Image& image, int inside) {
         std::copy_n(image.pixels.begin() + std::ptrdiff_t(size_t(y) * row), row,
                     out.pixels.begin() + std::ptrdiff_t(size_t(image.height - 1 - y) * row));
     }
-    // Breadth first from everything that is inside, each pixel taking the colour that reached it.
+    // Breadth first from the rim of what is inside, each pixel taking the colour that reached it.
     std::vector<bool> known(out.pixels.size() / 4);
-    std::vector<size_t> front;
-    for (size_t i = 0; i < known.size(); ++i) {
+    for (size_t i = 0; i < known.size(); ++i)
         known[i] = out.pixels[4 * i + 3] >= inside;
-        if (known[i]) front.push_back(i);
+    std::vector<uint32_t> front, next;  // pixels: at most maxImageTexels
+    for (size_t i = 0; i < known.size(); ++i) {
+        bool rim = false;
+        neighbours(out, i, [&](size_t to) { rim = rim || !known[to]; });
+        if (known[i] && rim) front.push_back(uint32_t(i));
     }
-    for (size_t next = 0; next < front.size(); ++next) {
-        const size_t from = front[next];
-        for (const size_t to : neighbours(out, from)) {
-            if (known[to]) continue;
-            known[to] = true;
-            std::copy_n(out.pixels.begin() + std::ptrdiff_t(4 * from), 3,
-                        out.pixels.begin() + std::ptrdiff_t(4 * to));
-            front.push_back(to);
-        }
-    }
+    for (; !front.empty(); front.swap(next), next.clear())
+        for (const size_t from : front)
+            neighbours(out, from, [&](size_t to) {
+                if (known[to]) return;
+                known[to] = true;
+                std::copy_n(out.pixels.begin() + std::ptrdiff_t(4 * from), 3,
+                            out.pixels.begin() + std::ptrdiff_t(4 * to));
+                next.push_back(uint32_t(to));
+            });
     return out;
 }
 

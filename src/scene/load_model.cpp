@@ -1,19 +1,29 @@
 #include "scene/load_model.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <functional>
+#include <new>
+#include <set>
 
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "scene/model_files.h"
+#include "core/sandbox.h"
+#include "scene/confined.h"
 
 namespace shoal {
 
 namespace {
+
+constexpr size_t mostElements = size_t{1} << 28;  // vertices, and triangles
+constexpr double farthest = 1e30;                 // m; beyond, volumes and their squares would overflow
 
 glm::dmat4 matrix(const aiMatrix4x4& m) {
     return glm::dmat4(m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4,
@@ -81,8 +91,10 @@ class Collector {
 
     void append(const aiMesh& part, const glm::dmat4& transform) {
         if (!(part.mPrimitiveTypes & (aiPrimitiveType_TRIANGLE | aiPrimitiveType_POLYGON))) return;
-        if (mesh.positions.size() + part.mNumVertices > size_t{1} << 28)
+        if (mesh.positions.size() + part.mNumVertices > mostElements)
             throw fail("has more than 2^28 vertices, the most that is read");
+        if (mesh.triangles.size() + part.mNumFaces > mostElements)
+            throw fail("has more than 2^28 triangles, the most that is read");
         const size_t first = mesh.positions.size();
         appendVertices(part, transform);
 
@@ -115,6 +127,9 @@ class Collector {
             if (!finite(position))
                 throw fail(concat("vertex ", i, " of mesh \"", part.mName.C_Str(),
                                   "\" is not finite, expected three finite numbers"));
+            if (!(std::max({std::abs(position.x), std::abs(position.y), std::abs(position.z)}) <= farthest))
+                throw fail(concat("vertex ", i, " of mesh \"", part.mName.C_Str(), "\" lies beyond ",
+                                  farthest, ", the farthest that is read"));
             mesh.positions.push_back(position);
 
             glm::dvec3 normal(0);
@@ -141,22 +156,53 @@ class Collector {
     bool srgb_;
 };
 
-}  // namespace
+// The files that a model consists of. A device has no end, and a pipe would wait for ever.
+class ModelFiles : public Assimp::DefaultIOSystem {
+  public:
+    explicit ModelFiles(std::function<void(uint64_t)> opened) : opened_(std::move(opened)) {}
 
-Mesh loadMesh(const std::string& file) {
-    refuseOutside(file);
+    bool Exists(const char* file) const override {  // Assimp's own opens it to see
+        std::error_code code;
+        return mayOpen(file) && std::filesystem::is_regular_file(file, code);
+    }
+
+    Assimp::IOStream* Open(const char* file, const char* mode) override {
+        std::error_code code;
+        if (!Exists(file)) return nullptr;
+        const uint64_t bytes = std::filesystem::file_size(file, code);
+        if (!code && seen_.insert(file).second) opened_(bytes);
+        return DefaultIOSystem::Open(file, mode);
+    }
+
+  private:
+    std::function<void(uint64_t)> opened_;
+    std::set<std::string> seen_;
+};
+
+// Assimp's messages quote the file, whatever it holds.
+std::string oneLine(std::string text) {
+    for (char& c : text)
+        if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
+    constexpr size_t longest = 300;
+    return text.size() > longest ? text.substr(0, longest) + "..." : text;
+}
+
+// Assimp catches what its containers throw for want of memory, and tells their words.
+bool tellsOfMemory(const std::string& message) {
+    for (const char* word :
+         {"std::bad_alloc", "std::bad_array_new_length", "vector::", "larger than max_size"})
+        if (message.find(word) != std::string::npos) return true;
+    return false;
+}
+
+Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
     const Location location{file, 0, 0, {}};
-    std::error_code code;
-    const auto status = std::filesystem::status(file, code);
-    if (status.type() == std::filesystem::file_type::not_found) throw Error(location, "no such file");
-    if (status.type() == std::filesystem::file_type::directory)
-        throw Error(location, "is a folder, expected a model file");
-
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles);  // which it deletes
+    importer.SetIOHandler(new ModelFiles(std::move(opened)));  // which the importer deletes
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
+    if (!scene && tellsOfMemory(importer.GetErrorString())) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)
-        throw Error(location, concat("cannot be read as a model: ", importer.GetErrorString()));
+        throw Error(location, concat("cannot be read as a model: ", oneLine(importer.GetErrorString())));
 
     Collector collector(*scene, file);
     collector.visit(*scene->mRootNode, glm::dmat4(1));
@@ -164,6 +210,102 @@ Mesh loadMesh(const std::string& file) {
     if (mesh.triangles.empty()) throw Error(location, "has no triangles, expected a mesh with at least one");
     if (!collector.anyColors) mesh.colors.clear();
     if (!collector.anyUvs) mesh.uvs.clear();
+    return mesh;
+}
+
+// Names end in a zero byte; the numbers are the first triangles and their counts, in the same order.
+struct Names {
+    std::vector<char> text;
+    std::vector<int> numbers;
+    size_t at = 0;  // in the text, of the next name
+
+    void add(const std::string& name) {
+        text.insert(text.end(), name.c_str(), name.c_str() + name.size() + 1);
+    }
+    std::string next() {
+        const auto end = std::find(text.begin() + std::ptrdiff_t(at), text.end(), '\0');
+        std::string out(text.begin() + std::ptrdiff_t(at), end);
+        at = std::min(at + out.size() + 1, text.size());
+        return out;
+    }
+};
+
+void put(ToParent& parent, const Mesh& mesh) {
+    parent.put(mesh.positions);
+    parent.put(mesh.normals);
+    parent.put(mesh.colors);
+    parent.put(mesh.uvs);
+    parent.put(mesh.triangles);
+    Names objects, parts;
+    for (const Mesh::Object& object : mesh.objects) {
+        objects.add(object.name);
+        objects.numbers.insert(objects.numbers.end(), {object.firstTriangle, object.triangleCount});
+    }
+    for (const Mesh::Part& part : mesh.parts) {
+        parts.add(part.mesh);
+        parts.add(part.material);
+        parts.numbers.insert(parts.numbers.end(), {part.firstTriangle, part.triangleCount});
+    }
+    for (const Names& names : {objects, parts}) {
+        parent.put(names.text);
+        parent.put(names.numbers);
+    }
+}
+
+// The child's memory may be another's by now: nothing that it says is taken for granted.
+void checkWhole(const Mesh& mesh, const Location& location) {
+    const size_t count = mesh.positions.size();
+    const auto fits = [&](int first, int triangles) {
+        return first >= 0 && triangles >= 0 && size_t(first) + size_t(triangles) <= mesh.triangles.size();
+    };
+    bool whole = count <= mostElements && mesh.triangles.size() <= mostElements && !mesh.triangles.empty() &&
+                 mesh.normals.size() == count && (mesh.colors.empty() || mesh.colors.size() == count) &&
+                 (mesh.uvs.empty() || mesh.uvs.size() == count);
+    for (const glm::ivec3& t : mesh.triangles)
+        whole = whole && std::min({t.x, t.y, t.z}) >= 0 && size_t(std::max({t.x, t.y, t.z})) < count;
+    for (const auto* vectors : {&mesh.positions, &mesh.normals, &mesh.colors})
+        for (const glm::dvec3& v : *vectors)
+            whole = whole && finite(v);
+    for (const Mesh::Object& object : mesh.objects)
+        whole = whole && fits(object.firstTriangle, object.triangleCount);
+    for (const Mesh::Part& part : mesh.parts)
+        whole = whole && fits(part.firstTriangle, part.triangleCount);
+    if (!whole) throw Error(location, "cannot be read: its reader went astray");
+}
+
+Mesh readConfined(const std::string& file) {
+    const Location location{file, 0, 0, {}};
+    Confined child(location, ConfinedLimits{}, [&](ToParent& parent) {
+        put(parent, readModel(file, [&](uint64_t bytes) { parent.opened(bytes); }));
+    });
+    Mesh mesh;
+    mesh.positions = child.get<glm::dvec3>();
+    mesh.normals = child.get<glm::dvec3>();
+    mesh.colors = child.get<glm::dvec3>();
+    mesh.uvs = child.get<glm::dvec2>();
+    mesh.triangles = child.get<glm::ivec3>();
+    Names objects{child.get<char>(), child.get<int>()};
+    for (size_t i = 0; i + 1 < objects.numbers.size(); i += 2)
+        mesh.objects.push_back({objects.next(), objects.numbers[i], objects.numbers[i + 1]});
+    Names parts{child.get<char>(), child.get<int>()};
+    for (size_t i = 0; i + 1 < parts.numbers.size(); i += 2) {
+        std::string name = parts.next(), material = parts.next();
+        mesh.parts.push_back({std::move(name), std::move(material), parts.numbers[i], parts.numbers[i + 1]});
+    }
+    checkWhole(mesh, location);
+    return mesh;
+}
+
+bool trusted() {
+    const char* value = std::getenv("SHOAL_TRUST_MODELS");
+    return value != nullptr && *value != '\0';
+}
+
+}  // namespace
+
+Mesh loadMesh(const std::string& file) {
+    FileReader{file};  // says what is no file, or cannot be opened
+    Mesh mesh = trusted() ? readModel(file, [](uint64_t) {}) : readConfined(file);
     completeMesh(mesh);
     return mesh;
 }

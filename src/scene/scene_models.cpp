@@ -50,7 +50,11 @@ Model readModel(JsonReader& r) {
     r.get("name", model.name);
     members(ReadScene(r), model);
     r.finish();
-    model.mesh = loadMesh(model.file);
+    try {
+        model.mesh = loadMesh(model.file);
+    } catch (const Error& error) {
+        throw Error(r.at("file"), error.what());
+    }
     placeMesh(model.mesh, model);
     checkReach(model.mesh, r);
     return model;

@@ -373,6 +373,97 @@ TEST_CASE("separate parts and meshes of few vertices hold together", "[from-mesh
     CHECK(analyse(quad.molecule, false).zeroModes == 0);
 }
 
+TEST_CASE("a few triangles become a molecule of numbers, or are refused", "[from-mesh]") {
+    struct Case {
+        const char* name;
+        std::vector<glm::dvec3> positions;
+        std::vector<glm::ivec3> triangles;
+        bool made;
+    };
+    const double far = 40;
+    std::vector<Case> cases = {
+        {"two triangles", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {{0, 1, 2}, {1, 3, 2}}, true},
+        {"two triangles beside vertices of none",
+         {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {0, 3, 2}, {5, 0, 1}},
+         {{0, 1, 2}, {1, 3, 2}},
+         true},
+        {"one triangle beside triangles without area",
+         {{0, 1, 0}, {0, 2, 0}, {0, 2, 1}, {2, 1, 0}, {2, 2, 0}},
+         {{3, 2, 1}, {4, 0, 4}, {1, 3, 3}},
+         true},
+        {"two hinged triangles", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 2}, {0, 1, 3}}, true},
+        {"two hinged quads",
+         {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, 0, 1}, {0, 0, 1}},
+         {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {0, 4, 5}},
+         true},
+        {"a triangle and its back", {{0, 0, 0}, {1, 0, 0}, {0, 1, 0.5}}, {{0, 1, 2}, {0, 2, 1}}, true},
+        {"triangles on one line",
+         {{0, 0, 0}, {1, 1, 1}, {2, 2, 2}, {3, 3, 3}},
+         {{0, 1, 2}, {1, 2, 3}},
+         false},
+    };
+    // Small tetrahedra far apart: hardly any volume, and what samples there are may lie in one plane.
+    Case scattered{"scattered tetrahedra", {}, {}, true};
+    for (const glm::dvec3& at :
+         {glm::dvec3(0), {far, 0, 0}, {0, far, 0}, {far, far, 0}, {0, 0, far}, {far, 0, far}}) {
+        const int first = int(scattered.positions.size());
+        for (const glm::dvec3& corner : {glm::dvec3(0), {0.5, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}})
+            scattered.positions.push_back(at + corner);
+        for (const glm::ivec3& t : {glm::ivec3(0, 2, 1), {0, 1, 3}, {0, 3, 2}, {1, 2, 3}})
+            scattered.triangles.push_back(t + first);
+    }
+    cases.push_back(scattered);
+    for (const Case& one : cases) {
+        Mesh mesh;
+        mesh.positions = one.positions;
+        mesh.triangles = one.triangles;
+        completeMesh(mesh);
+        for (const double size : {0.0, 0.2}) {
+            INFO(one.name << ", " << size);
+            FromMesh options;
+            if (size > 0) options.size = size;
+            const std::string message = messageOf([&] {
+                const MadeMolecule out = made(mesh, options);
+                CHECK(out.lowestFrequency > 1e-3);
+                CHECK(out.lowestFrequency < 1e3);
+                CHECK(out.skinError < 1e-6 * out.molecule.size());
+                CHECK(analyse(out.molecule, false).totalMass > 0);
+                parseMolecule(writeMolecule(out.molecule), "again.json");  // where NaN would be null
+            });
+            INFO(message);
+            CHECK(message.empty() == one.made);
+        }
+    }
+}
+
+TEST_CASE("parts that face inwards and outwards weigh what they hold", "[from-mesh]") {
+    Mesh mesh;
+    addTube(mesh, "out", {0, 0, 0}, 0.1, 1, 12, 6);
+    const size_t triangles = mesh.triangles.size();
+    addTube(mesh, "in", {0.5, 0, 0}, 0.095, 1, 12, 6);
+    for (size_t t = triangles; t < mesh.triangles.size(); ++t)
+        std::swap(mesh.triangles[t].y, mesh.triangles[t].z);
+    completeMesh(mesh);
+    const MadeMolecule out = made(mesh);
+    CHECK(out.solid);
+    CHECK(out.volume == Approx(3 * (0.1 * 0.1 + 0.095 * 0.095)).epsilon(0.1));  // prisms of twelve sides
+}
+
+TEST_CASE("a skin that would tear is refused", "[from-mesh]") {
+    Mesh prism;  // the four vertices that are kept lie in one plane
+    addTube(prism, "prism", {0, 0, 0}, 0.5, 1, 6, 1);
+    completeMesh(prism);
+    FromMesh options;
+    options.vertices = 4;
+    CHECK(
+        refused(prism, options).starts_with("the skin would tear: with 4 simulated vertices it would hang "));
+    options.vertices = 8;
+    CHECK(refused(prism, options).empty());
+    options.vertices = 4;
+    options.skin = false;
+    CHECK(refused(prism, options).empty());
+}
+
 // Assimp's own models are not ours to ship: Debian has them in the package assimp-testmodels.
 TEST_CASE("meshes that others made become molecules or are refused with a reason", "[from-mesh][models]") {
     const std::string folder = "/usr/share/assimp/models/";
@@ -390,7 +481,8 @@ TEST_CASE("meshes that others made become molecules or are refused with a reason
           Model{"OBJ/concave_polygon.obj", true}, Model{"OBJ/cube_with_vertexcolors.obj", true},
           Model{"PLY/Wuson.ply", true}, Model{"STL/Spider_ascii.stl", true}, Model{"OFF/Wuson.off", true},
           Model{"3DS/fels.3ds", true}, Model{"Collada/duck.dae", true}, Model{"OBJ/point_cloud.obj", false},
-          Model{"OBJ/testline.obj", false}}) {
+          Model{"OBJ/testline.obj", false}, Model{"AMF/test9.amf", true}, Model{"X/anim_test.x", true},
+          Model{"LWO/LWO2/box_2vc_1unused.lwo", true}}) {
         INFO(model.file);
         if (!std::filesystem::exists(folder + model.file)) continue;
         ++seen;

@@ -127,5 +127,7 @@ TEST_CASE("a picture that claims to be huge is refused before it is allocated", 
     CHECK(messageOf([&] { decodePng(claim(20000, 0xe3704639), "f"); }) ==
           "f: expected a picture of at most 16384 x 16384, found 20000 x 20000");
     CHECK(messageOf([&] { decodePng(claim(16384, 0xa9c81084), "f"); }) ==
+          "f: expected a picture of at most 67108864 texels (8192 x 8192), found 16384 x 16384");
+    CHECK(messageOf([&] { decodePng(claim(8192, 0x72aaca59), "f"); }) ==
           "f: is a damaged PNG picture: the file ends too early");
 }

@@ -180,6 +180,42 @@ TEST_CASE("where vertices lie in a plane, a skin keeps its distance along the no
     }
 }
 
+TEST_CASE("a skin hangs on far vertices where the near ones lie in a plane or close together", "[skin]") {
+    const auto boundAt = [](const Molecule& molecule, const glm::dvec3& point) {
+        SkinMesh mesh;
+        mesh.positions = {point, point + glm::dvec3(0.01, 0, 0), point + glm::dvec3(0, 0.01, 0)};
+        mesh.uvs.assign(3, glm::dvec2(0));
+        mesh.triangles = {{0, 1, 2}};
+        Molecule out = molecule;
+        out.skin = bindSkin(molecule, mesh);
+        CHECK(glm::distance(out.skin.vertices[0].position, point) < 1e-6 * molecule.size());
+        for (const SkinWeight& weight : out.skin.vertices[0].weights)
+            CHECK(std::abs(weight.weight) < 3.5);
+        return out;
+    };
+    Molecule rod;  // nine vertices in its foot, four in its head, and normals that lean outwards
+    for (const double y : {-1.0, 0.0, 1.0})
+        for (const double x : {-1.0, 0.0, 1.0})
+            rod.vertices.push_back({.position = {x, y, 0}, .mass = 1});
+    for (const double y : {-1.0, 1.0})
+        for (const double x : {-1.0, 1.0})
+            rod.vertices.push_back({.position = {x, y, 9}, .mass = 1});
+    rod.triangles = {{0, 2, 9}, {2, 8, 10}, {8, 6, 11}, {6, 0, 12}, {9, 10, 12}, {9, 12, 11}, {0, 1, 3}};
+    for (const double z : {0.5, 2.0, 4.0})
+        CHECK(boundAt(rod, {1, 0.3, z}).skin.vertices[0].offset == 0);
+
+    Molecule parts;  // a small cluster, and three vertices that lie far from it
+    Random random(3);
+    for (int i = 0; i < 12; ++i)
+        parts.vertices.push_back({.position = 0.1 * glm::dvec3(random.uniform(-1, 1), random.uniform(-1, 1),
+                                                               random.uniform(-1, 1)),
+                                  .mass = 1});
+    for (const glm::dvec3& far : {glm::dvec3(9, 0, 0), {9, 4, 0}, {9, 0, 4}})
+        parts.vertices.push_back({.position = far, .mass = 1});
+    boundAt(parts, {3, 0.5, 0.5});
+    boundAt(parts, {1, 0, 0.2});
+}
+
 TEST_CASE("vertices of a skin in one place share a normal unless they form an edge", "[skin]") {
     Skin skin;
     const auto add = [&](const glm::dvec3& p) {
