@@ -368,8 +368,11 @@ EditorAction drawTransport(Editor& editor, EditorStage& stage) {
         ImGui::SameLine();
         drawSolver(editor.stage, stage);
     }
-    if (!editor.message.empty()) ImGui::TextColored(editor.failed ? red : calm, "%s", editor.message.c_str());
+    if (!editor.message.empty()) ImGui::TextColored(calm, "%s", editor.message.c_str());
     ImGui::End();
+    const PanelArea panels = panelArea();
+    if (showNotices({}, editor.troubles.text(), panels.left + points(12), panels.right + points(12)))
+        editor.troubles.clear();
     return action;
 }
 
@@ -437,7 +440,7 @@ bool drawQuestions(Editor& editor) {
             const int answer = ask(
                 "Recover", concat("An editor of ", name, " ended without saving. Its work is still there."),
                 {"Take it", "Drop it"});
-            if (answer == 0) editor.document.takeRecovered(), editor.say("recovered; not saved yet");
+            if (answer == 0) editor.document.takeRecovered(), editor.message = "recovered; not saved yet";
             if (answer == 1) editor.document.dropRecovered();
             return false;
         }
@@ -450,7 +453,7 @@ bool drawQuestions(Editor& editor) {
         if (answer == 1) editor.document.closeInOrder();
         return answer != 2;
     } catch (const Error& error) {
-        editor.say(concat("Not saved: ", error.what()), true);
+        editor.troubles.begin("saving", concat("Not saved: ", error.what()));
         return false;
     }
 }

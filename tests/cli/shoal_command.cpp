@@ -105,8 +105,8 @@ bool collect(Pipe& out, Pipe& err, Outcome& outcome, double seconds) {
 
 }  // namespace
 
-Outcome runShoal(const Words& arguments, const Surroundings& surroundings) {
-    Words words{SHOAL_COMMAND}, variables = environmentOf(surroundings);
+Outcome runProgram(const std::string& program, const Words& arguments, const Surroundings& surroundings) {
+    Words words{program}, variables = environmentOf(surroundings);
     words.insert(words.end(), arguments.begin(), arguments.end());
     const std::vector<char*> argv = pointers(words), envp = pointers(variables);
     Pipe out, err;

@@ -27,12 +27,15 @@ struct Surroundings {
         {};                                  // nothing: the variable is taken away
     std::optional<size_t> largestFile = {};  // bytes, as on a disk with that much left
     std::string standardOutput = {};         // a file instead of Outcome::out
-    double seconds = 60;
+    double seconds = 600;                    // then it hangs, also on a slow machine
 };
 
 using Words = std::vector<std::string>;
 
-Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {});
+Outcome runProgram(const std::string& program, const Words& arguments, const Surroundings& surroundings = {});
+inline Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {}) {
+    return runProgram(SHOAL_COMMAND, arguments, surroundings);
+}
 
 // Whether this machine has the context ("egl", "osmesa", "window"); asked once.
 bool hasContext(const std::string& name);

@@ -50,16 +50,15 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     scratch.write("still-002.png", "mine");  // is not written over
     // a click beside it picks nothing; the pictures: plain, with springs, with arrows as well, without both,
     // from the side
-    User user("Shoal - still",
-              "press 420 80; press 450 250\n"
-              "key Escape; key p; key x; key p; key f; key p; key x; key f; key p; key 2; key p\n"
-              "key v; sleep 1; key v; key Escape\n");
-    const Outcome outcome = runShoal({"run", scene, "--context", "window", "--size", "900x500"},
-                                     {.folder = scratch.path(""), .seconds = 90});
+    const Outcome outcome =
+        inWindow({"run", scene, "--context", "window", "--size", "900x500"},
+                 "press 420 80; press 450 250\n"
+                 "key Escape; key p; key x; key p; key f; key p; key x; key f; key p; key 2; key p\n"
+                 "key v; key v; key Escape\n",
+                 {.folder = scratch.path("")});
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.messages().empty());
-    CHECK(user.finish() == 0);
     const size_t at = outcome.out.find("picked: sail 0");
     REQUIRE(at != std::string::npos);
     CHECK(outcome.out.find("picked", at + 1) == std::string::npos);
