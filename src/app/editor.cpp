@@ -106,7 +106,8 @@ class EditorWindow {
         interface_.end();
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
+        const bool closing = last || (!options_.frames && glfwWindowShouldClose(window_));
+        if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         watch();
         return !last;

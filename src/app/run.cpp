@@ -16,6 +16,7 @@
 #include "app/progress.h"
 #include "app/report.h"
 #include "core/cache_folder.h"
+#include "core/many.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -153,9 +154,9 @@ class HeadlessRun {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
         }
-        std::cout << frames_ << " frames, " << simulation_.time() << " s simulated in " << report_.seconds
-                  << " s on the " << name(simulation_.path().path) << " path, " << context_.info().renderer
-                  << " (" << gpu::name(context_.info().kind) << ")\n";
+        std::cout << many(frames_, "frame", "frames") << ", " << simulation_.time() << " s simulated in "
+                  << report_.seconds << " s on the " << name(simulation_.path().path) << " path, "
+                  << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
         for (const GroupLives& lives : report_.lives)
             std::cout << text(lives) << "\n";

@@ -26,6 +26,7 @@
 #include "app/screenshot.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
+#include "core/many.h"
 #include "gpu/gl.h"
 #include "scene/scene_files.h"
 
@@ -112,7 +113,8 @@ class WindowRun {
 
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
+        const bool closing = last || (!options_.frames && glfwWindowShouldClose(window_));
+        if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         obey();
         return !last;
@@ -320,7 +322,7 @@ class WindowRun {
         attempt("recording", [&] {
             if (!recorder_.records()) return recorder_.start(stem(), open_->running.scene.frameRate);
             recorder_.stop();
-            tell(concat("recorded: ", recorder_.target(), ", ", recorder_.frames(), " frames"));
+            tell(concat("recorded: ", recorder_.target(), ", ", many(recorder_.frames(), "frame", "frames")));
         });
     }
 
@@ -425,8 +427,8 @@ class WindowRun {
 
     void drawNotices() {
         HotReload& reload = open_->reload;
-        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ", recorder_.frames(),
-                                                  " frames; V stops")
+        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ",
+                                                  many(recorder_.frames(), "frame", "frames"), "; V stops")
                                          : std::string());
         const bool closed = showNotices(reload.problem(), troubles_.text(), points(hidden_ ? 12 : 328),
                                         points(hidden_ ? 12 : 392));
