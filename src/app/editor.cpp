@@ -106,7 +106,7 @@ class EditorWindow {
         interface_.end();
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        const bool closing = last || (!options_.frames && glfwWindowShouldClose(window_));
+        const bool closing = last || glfwWindowShouldClose(window_);
         if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         watch();
@@ -643,7 +643,7 @@ class EditorWindow {
             return tell("file", "the file was changed by another program; what you changed is not in it");
         fileChanged_ = false;
         if (document.changedOnDisk()) return reload();
-        editor_.troubles.end("file");
+        if (editor_.troubles.end("file")) std::cout << "as before: " << document.file() << std::endl;
     }
 
     std::string fileName() const {

@@ -15,7 +15,7 @@ class Troubles {
   public:
     // False: it was said already.
     bool begin(const std::string& cause, const std::string& words);
-    void end(const std::string& cause) { words_.erase(cause); }
+    bool end(const std::string& cause) { return words_.erase(cause) > 0; }  // true: it was shown
     void clear() { words_.clear(); }
     std::string text() const;  // empty: nothing is wrong
 

@@ -113,7 +113,7 @@ class WindowRun {
 
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        const bool closing = last || (!options_.frames && glfwWindowShouldClose(window_));
+        const bool closing = last || glfwWindowShouldClose(window_);
         if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         obey();

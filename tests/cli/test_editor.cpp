@@ -71,6 +71,20 @@ TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor"
     CHECK(session.text() == replaced(square, "[1, 1, 0]", number));
 }
 
+TEST_CASE("what is done in the editor within one frame is taken in its order", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("slow");
+    const Outcome out = session.edit(
+        "inOneFrame 'drag 565 159 611; control s; key Escape; press 335 389; key p; control z; key p; "
+        "control s'\n"
+        "close\n");
+    CHECK(out.code == 0);
+    const Molecule m = session.molecule();
+    CHECK(m.vertices[2].position.x == Approx(1.2).margin(0.02));
+    CHECK(m.vertices[0].pinned);
+    CHECK_FALSE(m.vertices[2].pinned);
+}
+
 TEST_CASE("springs and vertices are added, removed and pinned in the editor", "[.window]") {
     if (!hasXdotool()) return;
     Session session("changed");

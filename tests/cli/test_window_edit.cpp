@@ -57,7 +57,7 @@ const JsonValue& emittersIn(const JsonValue& root) {
 // In the right panel, with one group and one emitter, whose rate is the first slider.
 constexpr const char* places =
     "rate() { drag 700 159 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
-    "addEmitter() { press 580 437; }\nabandon() { press 390 329; }\n";
+    "addEmitter() { press 580 455; }\nabandon() { press 390 329; }\n";
 
 }  // namespace
 
@@ -104,6 +104,15 @@ TEST_CASE("a file that changes on disk keeps what was dragged in the window, or 
     CHECK(rate(between) > 200);
     CHECK(rate(after) != 33);
     CHECK(rate(after) < rate(between));
+}
+
+TEST_CASE("a question goes when the file agrees again, and the window listens", "[.window]") {
+    if (!hasXdotool()) return;
+    const Edited edited = edit("agreed", std::string(places) +
+                                             "keep; rate 850; sed -i 's/\"rate\": 100/\"rate\": 33/' $file\n"
+                                             "says 'not reloaded yet:'; settle; cp $file.kept $file\n"
+                                             "says '^reloaded:'; settle; save; key Escape\n");
+    CHECK(member(emittersIn(parseJson(edited.after, "after")).items[0], "rate").number > 200);
 }
 
 TEST_CASE("what is reverted or abandoned in the window is not saved", "[.window]") {

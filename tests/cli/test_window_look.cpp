@@ -77,3 +77,24 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     CHECK(differing(plain, side) > 5000);
     CHECK(readFile(scratch.path("still-002.png")) == "mine");
 }
+
+// Clicks beside the molecule pick nothing, and a drag turns the camera: four times picked, twice let go.
+TEST_CASE("what is done within one frame is taken in its order", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string scene = scratch.write("still.scene.json", still);
+    scratch.write("sail.json", sail);
+    const Outcome outcome =
+        inWindow({"run", scene, "--context", "window", "--size", "900x500"},
+                 "inOneFrame 'press 450 250; press 420 80; press 450 250; key Escape; press 440 260'\n"
+                 "key Escape; inOneFrame 'key 2; press 440 260; key 1; press 450 250; key Escape; key p'\n"
+                 "key Escape\n",
+                 {.folder = scratch.path("")});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    size_t picked = 0;
+    for (size_t at = 0; (at = outcome.out.find("picked: sail 0", at)) != std::string::npos; ++at)
+        ++picked;
+    CHECK(picked == 4);
+    CHECK_THAT(outcome.out, Catch::Contains("picture: still-001.png"));
+}
