@@ -140,6 +140,9 @@ class WindowRun {
         } catch (const Error& error) {  // a program is made when it is needed first
             complain("picture", error.what());
         }
+        // and its files are watched from then on
+        const size_t files = context_.shaderFiles().size();
+        if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
         renderer.present(width_, height_);
         lastFrame_ = context_.traffic() - before;
         if (recorder_.records() && steps) attempt("recording", [&] { recorder_.add(renderer.capture()); });
@@ -546,6 +549,7 @@ class WindowRun {
     Wish wish_;
     std::optional<Wish> asked_;  // to close or open, while something is not saved
     bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
+    size_t shaderFiles_ = 0;
     gpu::Traffic lastFrame_;
     Recorder recorder_;
     Troubles troubles_;

@@ -77,7 +77,7 @@ TEST_CASE("the editor's error of a file goes when the file is as it was", "[.win
     const std::string file = scratch.write("blade.json", smallMolecule), picture = scratch.path("end.png");
     const auto edit = [&](const std::string& steps) {
         const Outcome out =
-            inWindow({"edit", file, "--size", "900x640", "--screenshot", picture},
+            inWindow({"edit", file, "--size", "900x640", "--frames", "1000000", "--screenshot", picture},
                      "cd " + scratch.path("") +
                          "\ncp blade.json whole; echo '{' > blade.json; says blade.json:2:1:\n" + steps +
                          "settle; key Escape\n",
