@@ -82,11 +82,14 @@ bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span) {
     return true;
 }
 
-bool drag(const Row& row, const Limit& limit, glm::dvec3& value) {
-    beginRow(row);
+// Beside its label there is no room for several numbers with all their digits.
+bool drag(const Row& row, const Limit& limit, double* values, int count, double speed) {
+    ImGui::TextUnformatted(row.label);
+    tipHere(row);
+    ImGui::SetNextItemWidth(-1);
     const bool changed =
-        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, &value.x, 3, 0.01f, &limit.least,
-                           &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
+        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count, float(speed),
+                           &limit.least, &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
     tipHere(row);
     return changed;
 }

@@ -1,6 +1,6 @@
 // Rows of the editor: a label with a tip at the left, what is edited at the right, all in one column however
-// deep they are. Each says whether the user changed it in this frame. Numbers stay within their limit, also
-// when they are typed (Ctrl and a click).
+// deep they are; several numbers to drag are below their label. Each says whether the user changed it in this
+// frame. Numbers stay within their limit, also when they are typed (Ctrl and a click).
 #pragma once
 
 #include <initializer_list>
@@ -24,7 +24,7 @@ struct Row {
 bool slide(const Row& row, const Limit& limit, double& value);
 bool slide(const Row& row, const Limit& limit, int& value);
 bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
-bool drag(const Row& row, const Limit& limit, glm::dvec3& value);
+bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
 bool pick(const Row& row, std::initializer_list<const char*> words, int& index);
 

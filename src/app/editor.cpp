@@ -12,11 +12,11 @@
 #include "app/commands.h"
 #include "app/editor_panels.h"
 #include "app/interface.h"
-#include "app/keys.h"
 #include "app/orbit_camera.h"
 #include "app/screenshot.h"
 #include "author/edit.h"
 #include "core/cache_folder.h"
+#include "core/file_watch.h"
 #include "gpu/context.h"
 #include "molecule/molecule_file.h"
 
@@ -50,12 +50,12 @@ class EditorWindow {
           context_(context),
           window_(context.window()),
           interface_(window_, options.scale),
-          keys_(window_),
           cache_(context, cacheFolder()),
           stage_(context, cache_),
           editor_(options.files.front()),
           camera_(viewOf(editor_.document.molecule(), {0.8, 0.45, 1})) {
         glfwSwapInterval(1);
+        file_.watch({editor_.document.file()});
         if (editor_.document.molecule().size() > 0)
             editor_.grid = niceStep(editor_.document.molecule().size());
         if (!editor_.document.molecule().hasPins()) editor_.stage.around = StageSettings::Around::drop;
@@ -93,8 +93,7 @@ class EditorWindow {
             return true;
         }
         follow();
-        const std::string wrong = stage_.advance();
-        if (!wrong.empty()) tell(wrong);
+        advance();
         wobble();
         followPlay();
         interface_.begin();
@@ -107,10 +106,18 @@ class EditorWindow {
         interface_.end();
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
+        const bool closing = last || glfwWindowShouldClose(window_);
+        if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         watch();
         return !last;
+    }
+
+    void advance() {
+        if (!stage_.ready() || !stage_.playing) return;
+        const std::string wrong = stage_.advance();
+        editor_.troubles.end("run");
+        if (!wrong.empty()) tell("run", wrong);
     }
 
     // What hangs on the molecule, when it has changed; and how it is played.
@@ -118,6 +125,8 @@ class EditorWindow {
         Document& document = editor_.document;
         if (document.version() != editor_.version) {
             editor_.version = document.version();
+            editor_.troubles.end("edit");
+            if (!document.unsaved()) editor_.troubles.end("saving");
             dropStaleSelection();
             glfwSetWindowTitle(window_,
                                concat("Shoal - ", fileName(), document.unsaved() ? " *" : "").c_str());
@@ -147,9 +156,11 @@ class EditorWindow {
         try {
             stage_.show(document.molecule(), editor_.stage);
             shownStage_ = editor_.stage;
+            for (const char* cause : {"stage", "run"})  // another molecule, or played in another way
+                editor_.troubles.end(cause);
         } catch (const Error& error) {
             stage_.playing = false;
-            tell(error.what());
+            tell("stage", error.what());
             editor_.stage = shownStage_;
         }
     }
@@ -415,7 +426,7 @@ class EditorWindow {
         glm::dvec3 shift = projector.onPlane(mouse, from) - projector.onPlane(start_, from);
         constexpr int axisKeys[] = {GLFW_KEY_X, GLFW_KEY_Y, GLFW_KEY_Z};
         for (int axis = 0; axis < 3; ++axis)
-            if (glfwGetKey(window_, axisKeys[axis]) == GLFW_PRESS)
+            if (keys_.held(axisKeys[axis]))
                 for (int i = 0; i < 3; ++i)
                     if (i != axis) shift[i] = 0;
         for (int i = 0; i < 3; ++i)
@@ -529,7 +540,7 @@ class EditorWindow {
         const ElementSet which = editor_.overlay.selection;
         if (which.empty() || playing()) return;
         if (which.vertices.size() >= editor_.document.molecule().vertices.size())
-            return tell("a molecule needs at least one vertex");
+            return tell("edit", "a molecule needs at least one vertex");
         editor_.overlay.selection = {};
         editor_.document.edit("remove",
                               [&](Draft& draft) { removeSelected(draft, which, editor_.mirrorAxis); });
@@ -543,10 +554,10 @@ class EditorWindow {
         case EditorAction::save:
             return save();
         case EditorAction::undo:
-            if (document.undo()) editor_.say("");
+            if (document.undo()) editor_.message.clear();
             return;
         case EditorAction::redo:
-            if (document.redo()) editor_.say("");
+            if (document.redo()) editor_.message.clear();
             return;
         case EditorAction::measure:
             return measure();
@@ -562,14 +573,21 @@ class EditorWindow {
         if (action == EditorAction::step || action == EditorAction::back) stage_.playing = false;
         if (action == EditorAction::step) stepOnce();
         if (action == EditorAction::back) stage_.seek(stage_.frame() - 1);
-        if (action == EditorAction::rewind) stage_.playing = false, stage_.rewind();
+        if (action == EditorAction::rewind) rewind();
+    }
+
+    void rewind() {
+        stage_.playing = false;
+        stage_.rewind();
+        editor_.troubles.end("run");
     }
 
     void stepOnce() {
+        editor_.troubles.end("run");
         try {
             stage_.step();
         } catch (const Runaway& runaway) {
-            tell(runaway.what());
+            tell("run", runaway.what());
         }
     }
 
@@ -577,20 +595,21 @@ class EditorWindow {
         if (!editor_.document.unsaved()) return;
         try {
             editor_.document.save();
-            editor_.say("saved");
+            editor_.message = "saved";
         } catch (const Error& error) {
-            tell(concat("Not saved: ", error.what()));
+            editor_.troubles.end("saving");  // each attempt is told
+            tell("saving", concat("Not saved: ", error.what()));
         }
     }
 
     void reload() {
         try {
             editor_.document.reload();
-            editor_.say("the file was changed by another program: reloaded");
-            reported_.clear();
+            editor_.message = "the file was changed by another program: reloaded";
+            editor_.troubles.end("file");
+            std::cout << "reloaded: " << editor_.document.file() << std::endl;
         } catch (const Error& error) {
-            if (reported_ != error.what()) tell(error.what());
-            reported_ = error.what();
+            tell("file", error.what());
         }
     }
 
@@ -598,14 +617,15 @@ class EditorWindow {
         try {
             editor_.cost = measureCost(context_, cache_, editor_.document.molecule(), editor_.stage);
             editor_.costVersion = editor_.version;
+            editor_.troubles.end("cost");
         } catch (const Error& error) {
-            tell(error.what());
+            tell("cost", error.what());
         }
     }
 
-    void tell(const std::string& words) {
-        editor_.say(words, true);
-        std::cerr << "shoal: warning: " << words << "\n";
+    void tell(const std::string& cause, const std::string& words) {
+        editor_.message.clear();
+        if (editor_.troubles.begin(cause, words)) std::cerr << "shoal: warning: " << words << std::endl;
     }
 
     // A few times a second: what is not saved is kept, and the file is looked at.
@@ -613,13 +633,17 @@ class EditorWindow {
         const auto now = std::chrono::steady_clock::now();
         if (now - watched_ < std::chrono::milliseconds(500)) return;
         watched_ = now;
+        Document& document = editor_.document;
         if (grip_ == Grip::none)
-            if (const std::optional<std::string> failed = editor_.document.keep()) tell(*failed);
-        if (editor_.document.recovered() || !editor_.document.changedOnDisk()) return;
-        if (!editor_.document.unsaved()) return reload();
-        const std::string words = "the file was changed by another program; what you changed is not in it";
-        if (reported_ != words) tell(words);
-        reported_ = words;
+            if (const std::optional<std::string> failed = document.keep()) tell("keeping", *failed);
+        if (!document.unsaved()) editor_.troubles.end("keeping");
+        fileChanged_ |= !file_.changed(glfwGetTime()).empty();
+        if (document.recovered() || !fileChanged_) return;
+        if (document.changedOnDisk() && document.unsaved())
+            return tell("file", "the file was changed by another program; what you changed is not in it");
+        fileChanged_ = false;
+        if (document.changedOnDisk()) return reload();
+        if (editor_.troubles.end("file")) std::cout << "as before: " << document.file() << std::endl;
     }
 
     std::string fileName() const {
@@ -632,7 +656,7 @@ class EditorWindow {
     gpu::Context& context_;
     GLFWwindow* window_;
     Interface interface_;
-    Keys keys_;
+    Input& keys_{interface_.input()};
     gpu::ProgramCache cache_;
     EditorStage stage_;
     Editor editor_;
@@ -647,7 +671,8 @@ class EditorWindow {
     float moved_ = 0;            // by the pointer, since it went down
     bool dragging_ = false, stale_ = true, closedInOrder_ = false;
     int gesture_ = 0, width_ = 0, height_ = 0, shown_ = 0;
-    std::string reported_;  // what is wrong with the file on disk
+    FileWatch file_;
+    bool fileChanged_ = true;  // since it was read, perhaps
     std::chrono::steady_clock::time_point watched_{};
 };
 

@@ -8,6 +8,7 @@
 
 #include "app/editor_selection.h"
 #include "app/interface.h"
+#include "core/many.h"
 #include "scene/solver.h"
 
 namespace shoal::app {
@@ -180,9 +181,10 @@ void drawStep(Editor& editor) {
     const int needed = substepsFor(a.stableStepLeapfrog);
     ImGui::TextColored(refused ? red : warm, "!");
     ImGui::SameLine();
-    ImGui::TextWrapped("Too stiff for leapfrog in %d substeps: it takes %d%s", editor.stage.substeps, needed,
+    ImGui::TextWrapped("Too stiff for leapfrog in %s: it takes %d%s",
+                       many(editor.stage.substeps, "substep", "substeps").c_str(), needed,
                        refused ? "." : "; an implicit solver was chosen, which damps.");
-    const std::string more = concat("Use ", needed, " substeps");
+    const std::string more = concat("Use ", many(needed, "substep", "substeps"));
     if (needed <= 200 && ImGui::SmallButton(more.c_str())) editor.stage.substeps = needed;
     if (refused && ImGui::SmallButton("Use bdf2-xpbd")) editor.stage.solver = SolverKind::bdf2Xpbd;
     const double factor = std::pow(0.95 * a.stableStepLeapfrog / step, 2);
@@ -220,7 +222,10 @@ void drawModes(Editor& editor) {
 void drawFacts(const Editor& editor) {
     heading("Numbers");
     const Analysis& a = editor.analysis;
-    ImGui::Text("%d vertices, %d springs, %d triangles", a.vertices, a.springs, a.triangles);
+    ImGui::TextUnformatted(concat(many(a.vertices, "vertex", "vertices"), ", ",
+                                  many(a.springs, "spring", "springs"), ", ",
+                                  many(a.triangles, "triangle", "triangles"))
+                               .c_str());
     ImGui::Text("mass %s kg, size %s m", plain(a.totalMass).c_str(),
                 plain(editor.document.molecule().size()).c_str());
     if (a.springs == 0) return;
@@ -249,10 +254,11 @@ EditorAction drawCost(Editor& editor) {
                            plain(time * 1e3).c_str());
         const int vertices = std::max(1, int(a.vertices * room)), springs = int(a.springs * room);
         const std::string words =
-            room < 1
-                ? concat("60 Hz would hold ", int64_t(budget / cost.secondsPerMolecule),
-                         " of them, or as many with about ", vertices, " vertices and ", springs, " springs")
-                : concat("60 Hz would hold about ", vertices, " vertices and ", springs, " springs each");
+            room < 1 ? concat("60 Hz would hold ", int64_t(budget / cost.secondsPerMolecule),
+                              " of them, or as many with about ", many(vertices, "vertex", "vertices"),
+                              " and ", many(springs, "spring", "springs"))
+                     : concat("60 Hz would hold about ", many(vertices, "vertex", "vertices"), " and ",
+                              many(springs, "spring", "springs"), " each");
         ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
         ImGui::TextWrapped("%s", words.c_str());
         ImGui::PopStyleColor();
@@ -326,7 +332,8 @@ void drawSurroundings(StageSettings& s) {
     ImGui::Checkbox("pins hold", &s.pinsHold);
     ImGui::SameLine();
     ImGui::SetNextItemWidth(points(110));
-    ImGui::SliderInt("##substeps", &s.substeps, 1, 200, "%d substeps", ImGuiSliderFlags_Logarithmic);
+    ImGui::SliderInt("##substeps", &s.substeps, 1, 200, s.substeps == 1 ? "%d substep" : "%d substeps",
+                     ImGuiSliderFlags_Logarithmic);
 }
 
 void drawSolver(StageSettings& s, const EditorStage& stage) {
@@ -368,8 +375,11 @@ EditorAction drawTransport(Editor& editor, EditorStage& stage) {
         ImGui::SameLine();
         drawSolver(editor.stage, stage);
     }
-    if (!editor.message.empty()) ImGui::TextColored(editor.failed ? red : calm, "%s", editor.message.c_str());
+    if (!editor.message.empty()) ImGui::TextColored(calm, "%s", editor.message.c_str());
     ImGui::End();
+    const PanelArea panels = panelArea();
+    if (showNotices({}, editor.troubles.text(), panels.left + points(12), panels.right + points(12)))
+        editor.troubles.clear();
     return action;
 }
 
@@ -437,7 +447,7 @@ bool drawQuestions(Editor& editor) {
             const int answer = ask(
                 "Recover", concat("An editor of ", name, " ended without saving. Its work is still there."),
                 {"Take it", "Drop it"});
-            if (answer == 0) editor.document.takeRecovered(), editor.say("recovered; not saved yet");
+            if (answer == 0) editor.document.takeRecovered(), editor.message = "recovered; not saved yet";
             if (answer == 1) editor.document.dropRecovered();
             return false;
         }
@@ -450,7 +460,7 @@ bool drawQuestions(Editor& editor) {
         if (answer == 1) editor.document.closeInOrder();
         return answer != 2;
     } catch (const Error& error) {
-        editor.say(concat("Not saved: ", error.what()), true);
+        editor.troubles.begin("saving", concat("Not saved: ", error.what()));
         return false;
     }
 }

@@ -9,6 +9,7 @@
 #include "app/editor_cost.h"
 #include "app/editor_stage.h"
 #include "app/editor_view.h"
+#include "app/notices.h"
 #include "author/document.h"
 #include "molecule/analysis.h"
 #include "molecule/findings.h"
@@ -27,8 +28,8 @@ struct Editor {
     int mirrorAxis = -1;
     bool snaps = false;   // new and moved vertices to a grid
     double grid = 0.01;   // m
-    std::string message;  // what failed, or was done
-    bool failed = false;
+    std::string message;  // what was done
+    Troubles troubles;
     bool help = false, asksToClose = false;
 
     // Of the molecule as it is, made anew when it changes.
@@ -42,10 +43,6 @@ struct Editor {
     int gesture = 0;  // of a widget that is held
 
     explicit Editor(const std::string& file) : document(file) {}
-    void say(std::string words, bool wrong = false) {
-        message = std::move(words);
-        failed = wrong;
-    }
 };
 
 enum class EditorAction { none, save, undo, redo, play, step, back, rewind, measure };

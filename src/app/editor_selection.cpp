@@ -69,10 +69,9 @@ void drawPosition(Editor& editor, const std::set<int>& vertices) {
     for (const int v : vertices)
         middle += m.vertices[size_t(v)].position / double(vertices.size());
     glm::dvec3 wanted = middle;
-    beginRow({vertices.size() == 1 ? "position" : "middle", "m; Ctrl and a click to type"});
-    const float speed = float(0.002 * m.size());
-    const bool changed = ImGui::DragScalarN("##position", ImGuiDataType_Double, &wanted.x, 3, speed,
-                                            &place.least, &place.most, "%.5g", ImGuiSliderFlags_AlwaysClamp);
+    const char* label = vertices.size() == 1 ? "position" : "middle";
+    const bool changed =
+        drag({label, "m; Ctrl and a click to type", "%.5g"}, place, &wanted.x, 3, 0.002 * m.size());
     hold(editor);
     if (!changed) return;
     const Draft before = editor.document.draft();
@@ -104,10 +103,8 @@ void drawVertices(Editor& editor) {
     }
     glm::dvec2 uv = editor.document.molecule().vertices[first].uv;
     if (selected.size() == 1) {
-        beginRow({"uv", "texture coordinates, 0 0 at the lower left"});
-        const double least = -100, most = 100;
-        const bool changed = ImGui::DragScalarN("##uv", ImGuiDataType_Double, &uv.x, 2, 0.005f, &least, &most,
-                                                "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        const bool changed =
+            drag({"uv", "texture coordinates, 0 0 at the lower left", "%.5g"}, {-100, 100}, &uv.x, 2, 0.005);
         hold(editor);
         if (changed) editVertices(editor, "uv", selected, [uv](Vertex& v) { v.uv = uv; });
     }

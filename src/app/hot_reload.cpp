@@ -39,7 +39,10 @@ bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
             const RunningScene::Reloaded reloaded = running.reload(prefer);
             built = reloaded.conflicts.empty() || prefer;
             conflicts_ = prefer ? std::vector<std::string>() : reloaded.conflicts;
-            if (built) tell(reloaded);
+            if (built)
+                tell(reloaded);
+            else if (!prefer)
+                tellConflicts(running);
         } else {
             running.remakePrograms();
             built = true;
@@ -65,6 +68,14 @@ void HotReload::tell(const RunningScene::Reloaded& reloaded) {
     for (const std::string& group : reloaded.restarted)
         std::cout << " " << group;
     std::cout << std::endl;
+}
+
+void HotReload::tellConflicts(const RunningScene& running) const {
+    std::cerr << "shoal: warning: not reloaded yet: " << running.original().file
+              << " and the window both changed";
+    for (const std::string& conflict : conflicts_)
+        std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << conflict;
+    std::cerr << std::endl;
 }
 
 void HotReload::fail(const Error& error) {

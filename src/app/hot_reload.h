@@ -33,6 +33,7 @@ class HotReload {
   private:
     bool reload(RunningScene& running, std::optional<Prefer> prefer);
     void tell(const RunningScene::Reloaded& reloaded);
+    void tellConflicts(const RunningScene& running) const;
     void fail(const Error& error);
 
     FileWatch watch_;

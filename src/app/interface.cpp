@@ -49,12 +49,14 @@ static void style(float unitsPerPoint) {
 Interface::Interface(GLFWwindow* window, std::optional<double> scale) : window_(window), scale_(scale) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
-    ImGui_ImplGlfw_InitForOpenGL(window, true);
+    ImGui_ImplGlfw_InitForOpenGL(window, false);
+    input_ = std::make_unique<Input>(window);
     ImGui_ImplOpenGL3_Init("#version 330");
     makeFont(density());
 }
 
 Interface::~Interface() {
+    input_.reset();
     ImGui_ImplOpenGL3_Shutdown();
     ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
@@ -94,8 +96,10 @@ float points(float count) {
 void Interface::begin() {
     const Density now = density();
     if (!(now == made_)) makeFont(now);
+    input_->next();
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    input_->settle();
     ImGui::NewFrame();
 }
 

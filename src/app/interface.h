@@ -4,9 +4,10 @@
 // point is more pixels, and the font is made anew at that size, so that letters stay sharp.
 #pragma once
 
+#include <memory>
 #include <optional>
 
-struct GLFWwindow;
+#include "app/input.h"
 
 namespace shoal::app {
 
@@ -18,8 +19,9 @@ class Interface {
     Interface(const Interface&) = delete;
     Interface& operator=(const Interface&) = delete;
 
-    void begin();  // of a frame
+    void begin();  // of a frame; what the user does in it is in input()
     void end();    // draws the panels over what is there
+    Input& input() { return *input_; }
     double pixelsPerPoint() const { return double(made_.unitsPerPoint * made_.pixelsPerUnit); }
 
   private:
@@ -32,6 +34,7 @@ class Interface {
     void makeFont(const Density& density);
 
     GLFWwindow* window_;
+    std::unique_ptr<Input> input_;
     std::optional<double> scale_;
     Density made_;  // what font and style are made for
 };

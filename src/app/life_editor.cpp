@@ -166,21 +166,26 @@ bool LifeEditor::drawPlace(const Scene& scene, Emitter& emitter) const {
     const Limit& far = limits_.position;
     switch (emitter.from) {
     case From::point:
-        return drag({"position", "Where it is, in metres.", "%.2f"}, far, emitter.position);
+        return drag({"position", "Where it is, in metres.", "%.5g"}, far, &emitter.position.x, 3, 0.01);
     case From::line:
-        changed = drag({"start", "One end of the line, in metres.", "%.2f"}, far, emitter.lineFrom);
-        return drag({"end", "The other end of the line, in metres.", "%.2f"}, far, emitter.lineTo) || changed;
+        changed =
+            drag({"start", "One end of the line, in metres.", "%.5g"}, far, &emitter.lineFrom.x, 3, 0.01);
+        return drag({"end", "The other end of the line, in metres.", "%.5g"}, far, &emitter.lineTo.x, 3,
+                    0.01) ||
+               changed;
     case From::disc:
     case From::sphere:
-        changed = drag({"position", "Its middle, in metres.", "%.2f"}, far, emitter.position);
+        changed = drag({"position", "Its middle, in metres.", "%.5g"}, far, &emitter.position.x, 3, 0.01);
         changed |= slide({"radius", "How large it is.", "%.3f m", true}, limits_.radius, emitter.radius);
         return slide({"hollow", "The share of the radius that is left out.", "%.0f %%", false, 100},
                      limits_.hollow, emitter.hollow) ||
                changed;
     case From::box: {
-        changed = drag({"low", "The box's lowest corner, in metres.", "%.2f"}, far, emitter.box.low);
+        changed =
+            drag({"low", "The box's lowest corner, in metres.", "%.5g"}, far, &emitter.box.low.x, 3, 0.01);
         if (changed) emitter.box.high = glm::max(emitter.box.high, emitter.box.low);
-        if (!drag({"high", "The box's highest corner, in metres.", "%.2f"}, far, emitter.box.high))
+        if (!drag({"high", "The box's highest corner, in metres.", "%.5g"}, far, &emitter.box.high.x, 3,
+                  0.01))
             return changed;
         emitter.box.low = glm::min(emitter.box.low, emitter.box.high);
         return true;
@@ -304,10 +309,10 @@ bool LifeEditor::drawEnds(Lifecycle& life) const {
     bool changed = tick({"dies outside", "Whether what leaves a box dies."}, outside);
     if (changed) life.within = outside ? std::optional(within_) : std::nullopt;
     if (life.within) {
-        changed |= drag({"  low", "The box's lowest corner, in metres.", "%.2f"}, limits_.position,
-                        life.within->low);
-        changed |= drag({"  high", "The box's highest corner, in metres.", "%.2f"}, limits_.position,
-                        life.within->high);
+        changed |= drag({"  low", "The box's lowest corner, in metres.", "%.5g"}, limits_.position,
+                        &life.within->low.x, 3, 0.01);
+        changed |= drag({"  high", "The box's highest corner, in metres.", "%.5g"}, limits_.position,
+                        &life.within->high.x, 3, 0.01);
     }
     if (tick({"dies touching", "Whether what touches a collider has only so long to live."}, contact)) {
         life.afterContact = contact ? std::optional(afterContact_) : std::nullopt;

@@ -1,4 +1,5 @@
 #include "app/measure_report.h"
+#include "core/many.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -41,9 +42,10 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         << report.context.version << "; " << name(a.path) << " path\n"
         << "\"" << a.scene << "\": " << a.duration << " s at " << a.frameRate << " frames a second\n";
     for (const AccuracyGroup& group : a.groups)
-        out << "  " << group.name << ": " << group.vertices << " vertices, " << group.springs
-            << " springs, up to " << number("%.3g", group.highestFrequency) << " rad/s; error of "
-            << group.measured << ", time of " << grouped(group.timed) << "\n";
+        out << "  " << group.name << ": " << many(group.vertices, "vertex", "vertices") << ", "
+            << many(group.springs, "spring", "springs") << ", up to "
+            << number("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured << ", time of "
+            << grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
         out << "too stiff, so that no errors are given: " << a.tooStiff << "\n";
     else if (!a.chaotic.empty())

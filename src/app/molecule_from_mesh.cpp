@@ -8,6 +8,7 @@
 #include "core/file.h"
 #include "core/image.h"
 #include "core/json.h"
+#include "core/many.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "scene/load_model.h"
@@ -71,10 +72,6 @@ double round3(double value) {
     return std::round(value * power) / power;
 }
 
-std::string many(size_t count, const char* one, const char* more) {
-    return concat(count, " ", count == 1 ? one : more);
-}
-
 constexpr double pi = 3.14159265358979323846;
 constexpr double frame = 1.0 / 60;  // s
 
@@ -105,9 +102,9 @@ std::string asText(const Report& r) {
     out += concat("\n  frequencies ", round3(made.lowestFrequency), " to ", round3(highest),
                   " Hz, damping ratio ", round3(made.dampingRatio), " to ",
                   round3(made.dampingRatio * highest / made.lowestFrequency), ", ",
-                  many(size_t(r.analysis.zeroModes), "zero-stiffness mode", "zero-stiffness modes"));
+                  many(int64_t(r.analysis.zeroModes), "zero-stiffness mode", "zero-stiffness modes"));
     out += concat("\n  stable step ", round3(r.analysis.stableStepLeapfrog),
-                  " s (leapfrog): ", many(size_t(substeps(r)), "substep", "substeps"), " at 60 Hz");
+                  " s (leapfrog): ", many(int64_t(substeps(r)), "substep", "substeps"), " at 60 Hz");
     if (!molecule.skin.empty())
         out += concat("\n  skin: ", many(molecule.skin.vertices.size(), "vertex", "vertices"), ", ",
                       many(molecule.skin.triangles.size(), "triangle", "triangles"), ", at rest within ",

@@ -10,6 +10,7 @@
 #include "app/editor_stage.h"
 #include "app/editor_view.h"
 #include "core/cache_folder.h"
+#include "core/many.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
 
@@ -130,12 +131,14 @@ class Sheet {
                                            [](const Vertex& v) { return v.pinned; }));
         canvas.text({14, 12}, molecule_.name, pale, 2);
         std::vector<std::string> lines = {
-            concat(analysis.vertices, " vertices, ", analysis.springs, " springs, ", analysis.triangles,
-                   " triangles"),
+            concat(many(analysis.vertices, "vertex", "vertices"), ", ",
+                   many(analysis.springs, "spring", "springs"), ", ",
+                   many(analysis.triangles, "triangle", "triangles")),
             concat(plain(analysis.totalMass), " kg, ", plain(molecule_.size()), " m")};
         if (pins > 0) lines.push_back(concat(pins, " pinned (squares)"));
         if (!molecule_.skin.empty())
-            lines.push_back(concat("skin of ", molecule_.skin.triangles.size(), " triangles"));
+            lines.push_back(
+                concat("skin of ", many(int64_t(molecule_.skin.triangles.size()), "triangle", "triangles")));
         for (size_t i = 0; i < lines.size(); ++i)
             canvas.text({14, 44 + 18 * int(i)}, lines[i], pale);
     }

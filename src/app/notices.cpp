@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "app/interface.h"
 #include "core/error.h"
@@ -39,6 +40,18 @@ bool beginQuestion(const char* title) {
 }
 
 }  // namespace
+
+bool Troubles::begin(const std::string& cause, const std::string& words) {
+    std::string& said = words_[cause];
+    return std::exchange(said, words) != words;
+}
+
+std::string Troubles::text() const {
+    std::string out;
+    for (const auto& [cause, words] : words_)
+        out += (out.empty() ? "" : "\n") + words;
+    return out;
+}
 
 bool showNotices(const std::string& problem, const std::string& message, float left, float right) {
     if (problem.empty() && message.empty()) return false;
@@ -110,6 +123,7 @@ Answer askBeforeLeaving(const std::string& file, const char* what) {
 
 std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts) {
     std::optional<Prefer> answer;
+    if (conflicts.empty() && !ImGui::IsPopupOpen("Conflict")) return answer;
     if (!beginQuestion("Conflict")) return answer;
     ImGui::TextWrapped("The file has changed what you changed here, too, and not in the same way:");
     for (const std::string& conflict : conflicts)
@@ -118,7 +132,7 @@ std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts) {
     if (ImGui::Button("Keep mine")) answer = Prefer::mine;
     ImGui::SameLine();
     if (ImGui::Button("Take the file's")) answer = Prefer::theirs;
-    if (answer) ImGui::CloseCurrentPopup();
+    if (answer || conflicts.empty()) ImGui::CloseCurrentPopup();
     ImGui::EndPopup();
     return answer;
 }

@@ -18,6 +18,7 @@
 #include "app/report.h"
 #include "app/signals.h"
 #include "core/cache_folder.h"
+#include "core/many.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -157,7 +158,7 @@ class HeadlessRun {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
         }
-        std::cout << simulation_.frames() - first_ << " frames, " << simulation_.time() << " s simulated in "
+        std::cout << many(simulation_.frames() - first_, "frame", "frames") << ", " << simulation_.time() << " s simulated in "
                   << report_.seconds << " s on the " << name(simulation_.path().path) << " path, "
                   << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
         if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";

@@ -16,7 +16,6 @@
 #include "app/data_paths.h"
 #include "app/help.h"
 #include "app/interface.h"
-#include "app/keys.h"
 #include "app/method_error.h"
 #include "app/molecule_window.h"
 #include "app/notices.h"
@@ -28,7 +27,9 @@
 #include "app/signals.h"
 #include "core/cache_folder.h"
 #include "core/image.h"
+#include "core/many.h"
 #include "gpu/gl.h"
+#include "scene/scene_files.h"
 
 namespace shoal::app {
 
@@ -49,7 +50,6 @@ class WindowRun {
           context_(context),
           window_(context.window()),
           interface_(window_, options.scale),
-          keys_(window_),
           cache_(context, cacheFolder()) {
         glfwSwapInterval(1);
         glfwGetFramebufferSize(window_, &width_, &height_);
@@ -101,13 +101,14 @@ class WindowRun {
             return true;
         }
         if (open_) {
-            if (open_->reload.update(open_->running, glfwGetTime())) open_->follow();
+            if (open_->reload.update(open_->running, glfwGetTime())) takeReloaded();
             drawScene();
         } else {
             gpu::Framebuffer::bindDefault(width_, height_);
             glClearColor(0.1f, 0.13f, 0.12f, 1);
             glClear(GL_COLOR_BUFFER_BIT);
         }
+        if (!refused_.changed(glfwGetTime()).empty() && chooser_.open) listScenes();
         interface_.begin();
         wish_ = Wish();
         drawInterface();
@@ -115,7 +116,8 @@ class WindowRun {
 
         ++shown_;
         const bool last = options_.frames && shown_ >= *options_.frames;
-        if (last && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
+        const bool closing = last || glfwWindowShouldClose(window_);
+        if (closing && !options_.screenshot.empty()) saveScreenshot(options_.screenshot, width_, height_);
         glfwSwapBuffers(window_);
         obey();
         return !last;
@@ -137,12 +139,16 @@ class WindowRun {
         open.readPicked();
         try {
             open.drawPicture(1.5 * interface_.pixelsPerPoint());
+            troubles_.end("picture");
         } catch (const Error& error) {  // a program is made when it is needed first
-            message_ = error.what();
+            complain("picture", error.what());
         }
+        // and its files are watched from then on
+        const size_t files = context_.shaderFiles().size();
+        if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
         renderer.present(width_, height_);
         lastFrame_ = context_.traffic() - before;
-        if (recorder_.records() && steps) attempt([&] { recorder_.add(renderer.capture()); });
+        if (recorder_.records() && steps) attempt("recording", [&] { recorder_.add(renderer.capture()); });
     }
 
     void drawInterface() {
@@ -150,8 +156,9 @@ class WindowRun {
         if (!opening_.empty()) {
             drawOpening(opening_);
         } else if (chooser_.open) {
-            wish_.open = chooser_.draw(!open_, open_ ? std::string() : message_);
+            wish_.open = chooser_.draw(!open_, open_ ? std::string() : troubles_.text());
         }
+        if (!chooser_.open) troubles_.end("opening");
         if (helps_) helps_ = showHelp("Keys", windowHelp);
         pressKeys();
     }
@@ -186,6 +193,7 @@ class WindowRun {
     void advance() {
         try {
             open_->simulation().frame();
+            troubles_.end("run");
         } catch (const Runaway& runaway) {
             pauseWith(concat(runaway.what(), ". ",
                              saveForInspection(open_->options, open_->simulation(), runaway)));
@@ -199,8 +207,11 @@ class WindowRun {
 
     void pauseWith(const std::string& message) {
         open_->controls.paused = true;
-        message_ = message;
-        std::cerr << "shoal: warning: " << message_ << "\n";
+        complain("run", message);
+    }
+
+    void complain(const std::string& cause, const std::string& words) {
+        if (troubles_.begin(cause, words)) std::cerr << "shoal: warning: " << words << std::endl;
     }
 
     // --save-frames as the run passes them, else once at the end.
@@ -222,19 +233,26 @@ class WindowRun {
     // What needs another simulation or may fail; what cannot be had is said, and what ran runs on.
     template <typename Work>
     void change(const Work& work) {
-        message_.clear();
-        attempt(work);
+        attempt("change", work);
         open_->follow();
     }
 
     template <typename Work>
-    void attempt(const Work& work) {
+    void attempt(const std::string& cause, const Work& work) {
         try {
             work();
+            troubles_.end(cause);
         } catch (const Error& error) {
-            message_ = error.what();
-            std::cerr << "shoal: warning: " << message_ << std::endl;
+            troubles_.end(cause);  // each attempt is told
+            complain(cause, error.what());
         }
+    }
+
+    // What could not be had before was of the files as they were.
+    void takeReloaded() {
+        open_->follow();
+        for (const char* cause : {"change", "run"})
+            troubles_.end(cause);
     }
 
     void obey() {
@@ -253,6 +271,7 @@ class WindowRun {
             break;
         case Panel::Action::restart:
             running.simulation().restart();
+            troubles_.end("run");
             break;
         case Panel::Action::resetCamera:
             open_->follows = false;
@@ -300,7 +319,7 @@ class WindowRun {
     }
 
     void takePicture() {
-        attempt([&] {
+        attempt("capture", [&] {
             const std::string file = freeName(stem(), ".png");
             writePng(file, open_->running.renderer().capture());
             tell("picture: " + file);
@@ -308,10 +327,10 @@ class WindowRun {
     }
 
     void toggleRecording() {
-        attempt([&] {
+        attempt("recording", [&] {
             if (!recorder_.records()) return recorder_.start(stem(), open_->running.scene.frameRate);
             recorder_.stop();
-            tell(concat("recorded: ", recorder_.target(), ", ", recorder_.frames(), " frames"));
+            tell(concat("recorded: ", recorder_.target(), ", ", many(recorder_.frames(), "frame", "frames")));
         });
     }
 
@@ -323,6 +342,7 @@ class WindowRun {
                               : modelFolder();
         chooser_.scenes = scenesBelow(chooser_.folder);
         chooser_.open = true;
+        troubles_.end("opening");
     }
 
     void askToOpen(const std::string& file) {
@@ -338,20 +358,23 @@ class WindowRun {
     void openNow() {
         if (std::exchange(saidOpening_, !saidOpening_) == false) return;
         if (recorder_.records()) toggleRecording();
-        Options options = optionsOf(std::exchange(opening_, {}));
+        const std::string file = std::exchange(opening_, {});
+        Options options = optionsOf(file);
         try {
             Loaded loaded = load(options);
             auto next = std::make_unique<OpenScene>(std::move(options), context_, cache_, std::move(loaded),
                                                     width_, height_);
             open_ = std::move(next);
-            message_.clear();
+            troubles_.clear();
             chooser_.open = discards_ = shownUnsaved_ = false;
             std::cout << "opened: " << open_->running.scene.file << std::endl;
             glfwSetWindowTitle(window_, title().c_str());
         } catch (const Error& error) {
-            message_ = error.what();
-            std::cerr << "shoal: warning: not opened: " << message_ << std::endl;
+            troubles_.begin("opening", error.what());
+            std::cerr << "shoal: warning: not opened: " << error.what() << std::endl;
             chooser_.open = true;
+            refused_.watch({});
+            refused_.watch(filesOf(file));
         }
     }
 
@@ -374,6 +397,7 @@ class WindowRun {
     void drawScenePanel() {
         OpenScene& open = *open_;
         const bool changed = open.running.unsaved();
+        if (!changed) troubles_.end("saving");
         if (!hidden_) {
             wish_.scene = open.scenePanel.draw(open.running, changed);
             if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
@@ -399,27 +423,27 @@ class WindowRun {
         try {
             open_->running.save();
         } catch (const Error& error) {
-            message_ = concat("Not saved: ", error.what());
+            troubles_.begin("saving", concat("Not saved: ", error.what()));
             std::cerr << "shoal: warning: not saved: " << error.what() << "\n";
             return false;
         }
         open_->reload.accept(open_->running.scene.file);
-        message_.clear();
+        troubles_.end("saving");
         open_->scenePanel.say(", saved");
         return true;
     }
 
     void drawNotices() {
         HotReload& reload = open_->reload;
-        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ", recorder_.frames(),
-                                                  " frames; V stops")
+        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ",
+                                                  many(recorder_.frames(), "frame", "frames"), "; V stops")
                                          : std::string());
-        const bool closed =
-            showNotices(reload.problem(), message_, points(hidden_ ? 12 : 328), points(hidden_ ? 12 : 392));
-        if (closed) message_.clear();
-        if (reload.conflicts().empty() || asked_) return;
+        const bool closed = showNotices(reload.problem(), troubles_.text(), points(hidden_ ? 12 : 328),
+                                        points(hidden_ ? 12 : 392));
+        if (closed) troubles_.clear();
+        if (asked_) return;
         const std::optional<Prefer> answer = askWhoWins(reload.conflicts());
-        if (answer && reload.settle(open_->running, *answer)) open_->follow();
+        if (answer && reload.settle(open_->running, *answer)) takeReloaded();
     }
 
     // ---- The mouse and the keys
@@ -522,7 +546,7 @@ class WindowRun {
     gpu::Context& context_;
     GLFWwindow* window_;
     Interface interface_;
-    Keys keys_;
+    Input& keys_{interface_.input()};
     gpu::ProgramCache cache_;
     SceneChooser chooser_;
     std::unique_ptr<OpenScene> open_;  // null: nothing was chosen yet
@@ -530,9 +554,11 @@ class WindowRun {
     Wish wish_;
     std::optional<Wish> asked_;  // to close or open, while something is not saved
     bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
+    size_t shaderFiles_ = 0;
     gpu::Traffic lastFrame_;
     Recorder recorder_;
-    std::string message_;  // until it is closed
+    Troubles troubles_;
+    FileWatch refused_;  // the scene that was not opened
     StatusLine status_;
     std::optional<ImVec2> pressedAt_;      // where the left button went down on the picture
     bool helps_ = false, hidden_ = false;  // the keys are shown; the panels are not

@@ -3,6 +3,7 @@
 
 #include "compile/path.h"
 #include "core/json.h"
+#include "core/many.h"
 
 namespace shoal {
 
@@ -143,7 +144,7 @@ static void tellSchool(std::ostringstream& out, const Plan& plan, size_t g) {
 std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
     if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
-    out << "frame    1/" << plan.frameRate << " s in " << plan.substeps << " substeps of "
+    out << "frame    1/" << plan.frameRate << " s in " << many(plan.substeps, "substep", "substeps") << " of "
         << 1 / plan.frameRate / plan.substeps << " s\n";
     out << "path     " << name(choice.path) << ": " << choice.why << "\n";
     if (plan.fieldSampling != FieldSampling::vertexSubstep)

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "core/many.h"
 
 namespace shoal {
 
@@ -45,10 +46,6 @@ void examineEdges(const Mesh& mesh, std::vector<Side>& sides, SurfaceReport& rep
             2.0;
     }
     if (first >= 0) report.object = objectOf(mesh, first);
-}
-
-std::string many(size_t count, const char* one, const char* several) {
-    return concat(count, " ", count == 1 ? one : several);
 }
 
 }  // namespace

@@ -109,9 +109,10 @@ double secondsNow() {
 
 }  // namespace
 
-StartedShoal::StartedShoal(const Words& arguments, const Surroundings& surroundings)
+StartedShoal::StartedShoal(const Words& arguments, const Surroundings& surroundings,
+                           const std::string& program)
     : seconds_(surroundings.seconds) {
-    Words words{SHOAL_COMMAND}, variables = environmentOf(surroundings);
+    Words words{program}, variables = environmentOf(surroundings);
     words.insert(words.end(), arguments.begin(), arguments.end());
     const std::vector<char*> argv = pointers(words), envp = pointers(variables);
     Pipe out, err;
@@ -173,8 +174,8 @@ Outcome StartedShoal::finish() {
     return outcome_;
 }
 
-Outcome runShoal(const Words& arguments, const Surroundings& surroundings) {
-    return StartedShoal(arguments, surroundings).finish();
+Outcome runProgram(const std::string& program, const Words& arguments, const Surroundings& surroundings) {
+    return StartedShoal(arguments, surroundings, program).finish();
 }
 
 std::vector<std::string> Outcome::messages() const {

@@ -28,17 +28,21 @@ struct Surroundings {
         {};                                  // nothing: the variable is taken away
     std::optional<size_t> largestFile = {};  // bytes, as on a disk with that much left
     std::string standardOutput = {};         // a file instead of Outcome::out
-    double seconds = 60;
+    double seconds = 600;                    // then it hangs, also on a slow machine
 };
 
 using Words = std::vector<std::string>;
 
-Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {});
+Outcome runProgram(const std::string& program, const Words& arguments, const Surroundings& surroundings = {});
+inline Outcome runShoal(const Words& arguments, const Surroundings& surroundings = {}) {
+    return runProgram(SHOAL_COMMAND, arguments, surroundings);
+}
 
 // The same while it runs, in a group of processes of its own.
 class StartedShoal {
   public:
-    explicit StartedShoal(const Words& arguments, const Surroundings& surroundings = {});
+    explicit StartedShoal(const Words& arguments, const Surroundings& surroundings = {},
+                          const std::string& program = SHOAL_COMMAND);
     ~StartedShoal();  // ends it, if it still runs
     StartedShoal(const StartedShoal&) = delete;
     StartedShoal& operator=(const StartedShoal&) = delete;

@@ -34,18 +34,11 @@ struct Session {
 
     explicit Session(const std::string& name) : file(scratch.write(name + ".json", square)) {
         surroundings.environment["XDG_STATE_HOME"] = scratch.path("state");
-        surroundings.seconds = 60;
     }
+    // From in front.
     Outcome edit(const std::string& steps) {
-        const std::string stem = file.substr(file.rfind('/') + 1);
-        User user("Shoal - " + stem, "file=" + file +
-                                         "\ncontrol() { xdotool keydown ctrl; key $1; xdotool keyup ctrl; }\n"
-                                         "key 1\n" +
-                                         steps);
-        Outcome out = runShoal({"edit", file, "--size", "900x640"}, surroundings);
-        INFO(out.err);
-        CHECK(user.finish() == 0);
-        return out;
+        return inWindow({"edit", file, "--size", "900x640"}, "file=" + file + "\nkey 1\n" + steps,
+                        surroundings);
     }
     std::string text() const { return readFile(file); }
     Molecule molecule() const { return readMolecule(file); }
@@ -78,12 +71,26 @@ TEST_CASE("a vertex is dragged, saved, taken back and saved again in the editor"
     CHECK(session.text() == replaced(square, "[1, 1, 0]", number));
 }
 
+TEST_CASE("what is done in the editor within one frame is taken in its order", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("slow");
+    const Outcome out = session.edit(
+        "inOneFrame 'drag 565 159 611; control s; key Escape; press 335 389; key p; control z; key p; "
+        "control s'\n"
+        "close\n");
+    CHECK(out.code == 0);
+    const Molecule m = session.molecule();
+    CHECK(m.vertices[2].position.x == Approx(1.2).margin(0.02));
+    CHECK(m.vertices[0].pinned);
+    CHECK_FALSE(m.vertices[2].pinned);
+}
+
 TEST_CASE("springs and vertices are added, removed and pinned in the editor", "[.window]") {
     if (!hasXdotool()) return;
     Session session("changed");
     const Outcome out = session.edit(
-        "key s; at 565 389; xdotool mousedown 1; sleep 0.3; at 450 274; at 335 159; xdotool mouseup 1; sleep "
-        "0.3\n"
+        "key s; xdotool mousemove --window $w 565 389 mousedown 1 mousemove --window $w 335 159 mouseup 1; "
+        "settle\n"
         "key v; press 335 389; key p; control s; cp $file $file.braced\n"
         "press 565 159; key Delete; control s; close\n");
     CHECK(out.code == 0);
@@ -103,9 +110,9 @@ TEST_CASE("a file that another program breaks and mends is said and taken up in 
     if (!hasXdotool()) return;
     Session session("broken");
     const Outcome out = session.edit(
-        "cp $file $file.whole; key space; sleep 0.5\n"
-        "printf \"{\\\"format\\\": 3\" > $file; sleep 1.5\n"
-        "sed \"s/0.10/0.30/\" $file.whole > $file; sleep 1.5\n"
+        "cp $file $file.whole; key space\n"
+        "printf '{\"format\": 3' > $file; says broken.json:1:\n"
+        "sed s/0.10/0.30/ $file.whole > $file; says '^reloaded:'\n"
         "key space; key Home; drag 565 159 611; control s; close\n");
     CHECK(out.code == 0);
     const std::vector<std::string> messages = out.messages();
@@ -118,11 +125,13 @@ TEST_CASE("a file that another program breaks and mends is said and taken up in 
 TEST_CASE("what is not saved outlives the editor, and is offered again", "[.window]") {
     if (!hasXdotool()) return;
     Session session("killed");
-    const Outcome killed = session.edit("drag 565 159 611; sleep 1.5; kill -9 $(xdotool getwindowpid $w)\n");
+    const Outcome killed = session.edit(
+        "drag 565 159 611; await 'ls $XDG_STATE_HOME/shoal/unsaved/*.json > /dev/null 2>&1'\n"
+        "kill -9 $(cat $dir/pid)\n");
     CHECK(killed.code == -1);
     CHECK(session.text() == square);
     // "Take it", then save
-    const Outcome out = session.edit("press 229 330; sleep 0.3; control s; close\n");
+    const Outcome out = session.edit("press 229 330; control s; close\n");
     CHECK(out.code == 0);
     CHECK(session.molecule().vertices[2].position.x > 1.1);
     CHECK(session.text().find("a corner") != std::string::npos);
@@ -132,7 +141,7 @@ TEST_CASE("what is not saved outlives the editor, and is offered again", "[.wind
 TEST_CASE("closing the editor asks, and saves nothing without being told to", "[.window]") {
     if (!hasXdotool()) return;
     Session session("closed");
-    const Outcome out = session.edit("drag 565 159 611; key Escape; key Escape; sleep 0.7; press 460 329\n");
+    const Outcome out = session.edit("drag 565 159 611; key Escape; key Escape; press 460 329\n");
     CHECK(out.code == 0);
     CHECK(session.text() == square);
     CHECK(filesIn(session.scratch.path("state")).empty());

@@ -35,14 +35,13 @@ struct Edited {
 Edited edit(const std::string& name, const std::string& steps) {
     const Scratch scratch;
     const std::string file = scratch.write(name + ".scene.json", fountain);
-    User user("Shoal - " + name, "keep() { sleep 0.3; cp " + file + " " + file + ".kept; }\n" + "file=" +
-                                     file + "\n" + "hide() { mv " + file + " " + file + ".hidden; }\n" +
-                                     "show() { mv " + file + ".hidden " + file + "; }\n" + steps);
+    const std::string words = "file=" + file +
+                              "\nkeep() { cp $file $file.kept; }\n"
+                              "hide() { mv $file $file.hidden; }\nshow() { mv $file.hidden $file; }\n";
     Edited out;
-    out.outcome = runShoal({"run", file, "--context", "window", "--size", "900x640"}, {.seconds = 90});
+    out.outcome = inWindow({"run", file, "--context", "window", "--size", "900x640"}, words + steps);
     INFO(out.outcome.err);
     REQUIRE(out.outcome.code == 0);
-    CHECK(user.finish() == 0);
     out.after = readFile(file);
     out.between = readFile(file + ".kept");
     const Outcome checked = runShoal({"check", file});
@@ -58,16 +57,15 @@ const JsonValue& emittersIn(const JsonValue& root) {
 // In the right panel, with one group and one emitter, whose rate is the first slider.
 constexpr const char* places =
     "rate() { drag 700 159 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
-    "addEmitter() { press 580 437; }\nabandon() { press 390 329; }\n";
+    "addEmitter() { press 580 455; }\nabandon() { press 390 329; }\n";
 
 }  // namespace
 
 TEST_CASE("what is dragged and added in the window is saved, and no other byte changes", "[.window]") {
     if (!hasXdotool()) return;
-    const Edited edited =
-        edit("dragged", std::string(places) +
-                            "rate 850; xdotool keydown ctrl; key s; xdotool keyup ctrl; keep\n"
-                            "addEmitter; sleep 0.7; save; sleep 0.3; key Escape\n");
+    const Edited edited = edit("dragged", std::string(places) +
+                                              "rate 850; control s; keep\n"
+                                              "addEmitter; save; key Escape\n");
     CHECK(edited.outcome.err.empty());
     const JsonValue between = parseJson(edited.between, "between"), after = parseJson(edited.after, "after");
     const double rate = member(emittersIn(between).items[0], "rate").number;
@@ -91,13 +89,15 @@ TEST_CASE("a file that changes on disk keeps what was dragged in the window, or 
           "[.window]") {
     if (!hasXdotool()) return;
     // sed writes another file and renames it; the second change is of what was dragged
-    const Edited edited = edit("merged", std::string(places) +
-                                             "rate 850; change() { sed -i \"$1\" $file; sleep 1.2; }\n"
-                                             "change 's/-9.810/-1.62/'; save; keep\n"
-                                             "rate 750; change 's/\"rate\": [0-9.]*/\"rate\": 33/'\n"
-                                             "press 264 355; sleep 0.5; save; sleep 0.3; key Escape\n");
+    const Edited edited =
+        edit("merged",
+             std::string(places) +
+                 "rate 850; sed -i 's/-9.810/-1.62/' $file; says '^reloaded:'; save; keep\n"
+                 "rate 750; sed -i 's/\"rate\": [0-9.]*/\"rate\": 33/' $file\n"
+                 "says 'not reloaded yet:'; settle; press 264 355; says '^reloaded:' 2; save; key Escape\n");
     INFO(edited.outcome.out << edited.between << edited.after);
-    CHECK(edited.outcome.err.empty());
+    REQUIRE(edited.outcome.messages().size() == 1);
+    CHECK_THAT(edited.outcome.messages()[0], Catch::Contains("both changed") && Catch::Contains("rate"));
     const JsonValue between = parseJson(edited.between, "between"), after = parseJson(edited.after, "after");
     const auto rate = [](const JsonValue& root) { return member(emittersIn(root).items[0], "rate").number; };
     CHECK(member(between, "gravity").items[1].number == -1.62);
@@ -106,13 +106,21 @@ TEST_CASE("a file that changes on disk keeps what was dragged in the window, or 
     CHECK(rate(after) < rate(between));
 }
 
+TEST_CASE("a question goes when the file agrees again, and the window listens", "[.window]") {
+    if (!hasXdotool()) return;
+    const Edited edited = edit("agreed", std::string(places) +
+                                             "keep; rate 850; sed -i 's/\"rate\": 100/\"rate\": 33/' $file\n"
+                                             "says 'not reloaded yet:'; settle; cp $file.kept $file\n"
+                                             "says '^reloaded:'; settle; save; key Escape\n");
+    CHECK(member(emittersIn(parseJson(edited.after, "after")).items[0], "rate").number > 200);
+}
+
 TEST_CASE("what is reverted or abandoned in the window is not saved", "[.window]") {
     if (!hasXdotool()) return;
     // between, the file cannot be saved: it is gone for a while
-    const Edited edited =
-        edit("abandoned", std::string(places) +
-                              "rate 850; revert; sleep 0.5; save; keep; rate 680\n"
-                              "hide; save; sleep 0.3; show; key Escape; sleep 0.5; abandon\n");
+    const Edited edited = edit("abandoned", std::string(places) +
+                                                "rate 850; revert; save; keep; rate 680\n"
+                                                "hide; save; says not.saved:; show; key Escape; abandon\n");
     CHECK(edited.between == fountain);
     CHECK(edited.after == fountain);
     const std::vector<std::string> messages = edited.outcome.messages();

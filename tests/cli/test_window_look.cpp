@@ -50,16 +50,15 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     scratch.write("still-002.png", "mine");  // is not written over
     // a click beside it picks nothing; the pictures: plain, with springs, with arrows as well, without both,
     // from the side
-    User user("Shoal - still",
-              "press 420 80; press 450 250\n"
-              "key Escape; key p; key x; key p; key f; key p; key x; key f; key p; key 2; key p\n"
-              "key v; sleep 1; key v; key Escape\n");
-    const Outcome outcome = runShoal({"run", scene, "--context", "window", "--size", "900x500"},
-                                     {.folder = scratch.path(""), .seconds = 90});
+    const Outcome outcome =
+        inWindow({"run", scene, "--context", "window", "--size", "900x500"},
+                 "press 420 80; press 450 250\n"
+                 "key Escape; key p; key x; key p; key f; key p; key x; key f; key p; key 2; key p\n"
+                 "key v; key v; key Escape\n",
+                 {.folder = scratch.path("")});
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK(outcome.messages().empty());
-    CHECK(user.finish() == 0);
     const size_t at = outcome.out.find("picked: sail 0");
     REQUIRE(at != std::string::npos);
     CHECK(outcome.out.find("picked", at + 1) == std::string::npos);
@@ -77,4 +76,25 @@ TEST_CASE("a molecule is picked by a click, and pictures show what is switched o
     CHECK(differing(plain, again) == 0);
     CHECK(differing(plain, side) > 5000);
     CHECK(readFile(scratch.path("still-002.png")) == "mine");
+}
+
+// Clicks beside the molecule pick nothing, and a drag turns the camera: four times picked, twice let go.
+TEST_CASE("what is done within one frame is taken in its order", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string scene = scratch.write("still.scene.json", still);
+    scratch.write("sail.json", sail);
+    const Outcome outcome =
+        inWindow({"run", scene, "--context", "window", "--size", "900x500"},
+                 "inOneFrame 'press 450 250; press 420 80; press 450 250; key Escape; press 440 260'\n"
+                 "key Escape; inOneFrame 'key 2; press 440 260; key 1; press 450 250; key Escape; key p'\n"
+                 "key Escape\n",
+                 {.folder = scratch.path("")});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.code == 0);
+    size_t picked = 0;
+    for (size_t at = 0; (at = outcome.out.find("picked: sail 0", at)) != std::string::npos; ++at)
+        ++picked;
+    CHECK(picked == 4);
+    CHECK_THAT(outcome.out, Catch::Contains("picture: still-001.png"));
 }

@@ -51,18 +51,15 @@ TEST_CASE("changed files are taken while the scene runs, broken ones are not", "
     scratch.write("stiffer", stiffer);
     scratch.write("larger",
                   replaced(stiffer, "[-0.1, 0.2, 0.05]}", "[-0.1, 0.2, 0.05]}, {\"position\": [0, 0.4, 0]}"));
-    // saved by renaming, as editors do; the last is written half, then whole
-    User user("Shoal - blades", "cd " + scratch.path("") +
-                                    "\nsave() { cp $1 $2.new; mv $2.new $2; sleep 1.2; }\n"
-                                    "save broken blade.json; save stiffer blade.json\n"
-                                    "head -c 60 larger > weed.json; sleep 0.1; save larger weed.json\n"
-                                    "key Escape\n");
-    const Outcome outcome = runShoal(
+    // saved by renaming, as editors do
+    const Outcome outcome = inWindow(
         {"run", scene, "--context", "window", "--size", "480x360", "--save", scratch.path("end.shoal")},
-        {.seconds = 90});
+        "cd " + scratch.path("") +
+            "\nsave() { cp $1 $2.new; mv $2.new $2; }\n"
+            "save broken blade.json; says not.reloaded:; save stiffer blade.json; says '^reloaded:'\n"
+            "save larger weed.json; says '^reloaded:' 2; key Escape\n");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(user.finish() == 0);
     const std::vector<std::string> messages = outcome.messages();
     REQUIRE(messages.size() == 1);
     CHECK_THAT(messages[0], Catch::Contains("not reloaded: " + blade + ":10:"));
@@ -85,14 +82,13 @@ TEST_CASE("a shader that the driver refuses leaves the old programs running", "[
     const std::string shader = scratch.path("shaders/render/tone.glsl");
     scratch.write("whole", readFile(shader));
     scratch.write("broken", replaced(readFile(shader), "radiance * 0.5", "radiance * half_"));
-    User user("Shoal - dust", "cd " + scratch.path("") +
-                                  "\nsave() { cp $1 shaders/render/tone.glsl; sleep 1.5; }\n"
-                                  "save broken; save whole; key Escape\n");
-    const Outcome outcome = runShoal({"run", scene, "--context", "window", "--size", "480x360"},
-                                     {.environment = {{"SHOAL_DATA", scratch.path("")}}, .seconds = 90});
+    const Outcome outcome = inWindow({"run", scene, "--context", "window", "--size", "480x360"},
+                                     "cd " + scratch.path("") +
+                                         "\ncp broken shaders/render/tone.glsl; says not.reloaded:\n"
+                                         "cp whole shaders/render/tone.glsl; says '^reloaded:'; key Escape\n",
+                                     {.environment = {{"SHOAL_DATA", scratch.path("")}}});
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(user.finish() == 0);
     REQUIRE(outcome.messages().size() == 1);
     CHECK_THAT(outcome.messages()[0], Catch::Contains("not reloaded: " + shader + ":"));
     CHECK_THAT(outcome.out, Catch::Contains("reloaded: " + shader));
@@ -108,14 +104,12 @@ TEST_CASE("without a scene the window lists those to choose from, and others ope
     scratch.write("weed.json", smallMolecule);
     scratch.write("zero.scene.json", "{}");
     // 600 x 400: the list is in the middle, a button a row: blades, dust, zero
-    User user("Shoal",
-              "press 100 190; sleep 1; key o; press 100 213; sleep 1; key o; press 100 236\n"
-              "sleep 1; key Escape; key Escape\n");
     const Outcome outcome =
-        runShoal({"run", scratch.path(""), "--context", "window", "--size", "600x400"}, {.seconds = 90});
+        inWindow({"run", scratch.path(""), "--context", "window", "--size", "600x400"},
+                 "press 100 190; says opened:; settle; key o; press 100 213; says opened: 2; settle\n"
+                 "key o; press 100 236; says not.opened:; settle; key Escape; key Escape\n");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(user.finish() == 0);
     CHECK_THAT(outcome.out, Catch::Contains("opened: " + scratch.path("blades.scene.json")) &&
                                 Catch::Contains("opened: " + scratch.path("a/dust.scene.json")));
     REQUIRE(outcome.messages().size() == 1);

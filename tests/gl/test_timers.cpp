@@ -17,7 +17,9 @@ static void pause(int milliseconds) {
 
 TEST_CASE("finish mode adds up the calls of a frame", "[timers]") {
     PassTimers timers(testContext(), Mode::finish);
+    double whole = 0;  // s, of the last frame
     for (int frame = 0; frame < 3; ++frame) {
+        const auto begin = std::chrono::steady_clock::now();
         timers.beginFrame();
         for (int call = 0; call < 2; ++call) {
             auto t = timers.time("slow");
@@ -25,6 +27,7 @@ TEST_CASE("finish mode adds up the calls of a frame", "[timers]") {
         }
         { auto t = timers.time("quick"); }
         timers.endFrame();
+        whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     }
     const auto report = timers.report();
     REQUIRE(report.size() == 2);
@@ -34,7 +37,7 @@ TEST_CASE("finish mode adds up the calls of a frame", "[timers]") {
     CHECK(report[0].min >= 0.008);
     CHECK(report[0].median >= report[0].min);
     CHECK(report[1].calls == 1);
-    CHECK(report[1].min < report[0].min);
+    CHECK(report[0].last + report[1].last <= whole);  // nothing is counted twice
     CHECK(timers.history("slow").size() == 3);
     CHECK(timers.history("slow").back() == report[0].last);
     timers.reset();
