@@ -61,3 +61,10 @@ float largestEigenvalue(NormalSum sum)
     float norm = sqrt(dot(d, d) + 2.0f * dot(o, o));                           // Frobenius
     return max(min(rows, norm), 1.0f);
 }
+
+// Whether a contact is the only one that acts on either of its spheres, from its share: the inverse of the larger of their
+// eigenvalues, which is 1 of a single normal and at least sqrt(2) of two.
+bool isAlone(float share)
+{
+    return share > 0.8f;
+}
