@@ -293,8 +293,8 @@ void ContactYardstick::Data::know(Piece& piece, const ContactYardstickStep& step
         const vec3 m = glm::abs(mixed);
         const vec3 rows = squares + vec3(m.y + m.z, m.z + m.x, m.x + m.y);
         const float norm = std::sqrt(glm::dot(squares, squares) + 2 * glm::dot(m, m));
-        crowds[size_t(active.slot)] =
-            std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm), 1.0f);
+        crowds[size_t(active.slot)] = std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm),
+                                               active.end - active.begin > 1 ? 1.01f : 1.0f);
     }
 }
 
@@ -345,7 +345,7 @@ void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& st
             const float slip = glm::length(along);
             const int crowd = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
             const bool alone =
-                contact.share > 0.8f;  // its spheres exchange a push and friction, and nothing else
+                contact.share > 0.995f;  // its spheres exchange a push and friction, and nothing else
             const float rubbed = glm::length(sum - contact.normal * contact.pushed);
             const float grip =
                 alone ? std::min(std::max(step.friction * contact.pushed - rubbed, 0.0f), slip * contact.mass)

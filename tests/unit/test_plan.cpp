@@ -161,12 +161,12 @@ TEST_CASE("a point of the scene is a lattice point and a rest, or all rest where
     const auto isFloat = [](double x) { return double(float(x)) == x; };
     for (const double x : {0.1, -3.3, 20.7, 512.0, -1e5})
         CHECK_FALSE(splitPoint({x, 0, 0}).isFar());
-    for (const double x : {100.3, -100000.3, 1e6 + 0.7, 3e7 + 0.3}) {
+    for (const double x : {100.3, -100000.3, 1e6 + 0.7}) {
         const SplitPoint split = splitPoint({0.2, x, 0});
         CAPTURE(x);
         CHECK(isFloat(split.lattice.y));
         CHECK(split.lattice + split.rest == glm::dvec3(0.2, x, 0));
-        if (std::abs(x) < 1048576) CHECK(std::abs(split.rest.y) <= 1 / 32.0);
+        CHECK(std::abs(split.rest.y) <= 1 / 32.0);
     }
 }
 
