@@ -154,10 +154,14 @@ void respond(int slot, int listed)
         float slip = length(along);
         float before = pushes.x;
         float most = 1.5 / float(max(numberOf(slot), numberOf(other)));
-        float grip = meets ? min(material.y * before * rubShare, most * slip / w) : 0.0;
-        vec3 rub = along * (-grip / max(slip, 1e-30));
+        float grip = min(material.y * before * rubShare, most * slip / w);
+        // A pair alone needs no rounds: all that its spheres have exchanged besides the push is friction.
+        bool alone = isAlone(share);
+        float rubbed = length(impulse - contact.normal * before);
+        grip = alone ? min(max(material.y * before - rubbed, 0.0), slip / w) : grip;
+        vec3 rub = along * (meets ? -grip / max(slip, 1e-30) : 0.0);
         impulse += rub;
-        vec3 bounce = (contact.normal * before + rub) * contact.since;
+        vec3 bounce = (alone ? impulse : contact.normal * before + rub) * contact.since;
         shift += meets && contact.impact ? bounce : vec3(0.0);
         rest += meets ? contact.normal * push : vec3(0.0);
 #endif

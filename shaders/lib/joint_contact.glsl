@@ -50,14 +50,22 @@ Touch sweep(vec3 anchor, inout vec3 from, vec3 to, inout float begin, float end,
     float most = max(length(way) + fastestSurface() * span, 1e-20);
     Touch found = noTouch();
     float s = 0.0;
+    bool there = false;
     for (int n = 0; n < mostMarches && s < 1.0; ++n) {
         Touch near = survey(anchor, from + way * s, vec3(0.0), begin + span * s, skip).swept;
         if (near.distance > touching && n < mostMarches - 1) {
             s += near.distance / most;
             continue;
         }
-        float atEnd = near.distance + dot(way - near.velocity * span, near.normal) * (1.0 - s);
+        float approach = dot(way - near.velocity * span, near.normal);
+        float atEnd = near.distance + approach * (1.0 - s);
         if (atEnd < 0.0) {
+            // on to the touch itself: at an edge the normal changes within micrometres
+            if (near.distance > 0.0 && !there && n < mostMarches - 1) {
+                s = min(s - near.distance / approach, 0.999999);
+                there = true;
+                continue;
+            }
             found = near;
             found.distance = atEnd;
             from += way * s;

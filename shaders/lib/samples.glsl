@@ -15,10 +15,10 @@ vec4 sampleAt(int index)
 }
 #endif
 
-bool insideBox(vec3 anchor, vec3 position, vec3 low, vec3 high)
+// fromLow, fromHigh: of the anchor, from the box's corners.
+bool insideBox(vec3 fromLow, vec3 fromHigh, vec3 position)
 {
-    return all(greaterThanEqual((anchor - low) + position, vec3(0.0))) &&
-           all(lessThanEqual((anchor - high) + position, vec3(0.0)));
+    return all(greaterThanEqual(fromLow + position, vec3(0.0))) && all(lessThanEqual(fromHigh + position, vec3(0.0)));
 }
 
 // The cell that stands for cell i, which lies at most one outside 0 .. count - 1.

@@ -6,7 +6,7 @@ layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };
 #endif
 #ifdef CONFINED
-uniform vec3 livesAbove, livesBelow;  // m, corners of the box
+uniform vec4 livesAbove[2], livesBelow[2];  // m, corners of the box, each a point of the anchors' lattice and the rest
 #endif
 #ifdef TOUCH_COUNTS
 uniform float afterContact;  // s
@@ -20,8 +20,8 @@ void growOlder(int molecule)
 #endif
     bool dies = age >= span;
 #ifdef CONFINED
-    vec3 above = (anchor - livesAbove) + x[0];
-    vec3 below = (anchor - livesBelow) + x[0];
+    vec3 above = ((anchor - livesAbove[0].xyz) - livesAbove[1].xyz) + x[0];
+    vec3 below = ((anchor - livesBelow[0].xyz) - livesBelow[1].xyz) + x[0];
     dies = dies || min(above.x, min(above.y, above.z)) < 0.0 || max(below.x, max(below.y, below.z)) > 0.0;
 #endif
     if (dies) {

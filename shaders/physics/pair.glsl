@@ -59,5 +59,14 @@ float largestEigenvalue(NormalSum sum)
     vec3 o = abs(sum.beside);
     float rows = max(d.x + o.y + o.z, max(d.y + o.x + o.z, d.z + o.x + o.y));  // Gershgorin
     float norm = sqrt(dot(d, d) + 2.0f * dot(o, o));                           // Frobenius
-    return max(min(rows, norm), 1.0f);
+    // 1 of a single normal and of no others, for isAlone: of two that are perpendicular the eigenvalue is 1 as well
+    float several = d.x + d.y + d.z > 1.5f ? 1.01f : 1.0f;
+    return max(min(rows, norm), several);
+}
+
+// Whether a contact is the only one that acts on either of its spheres, from its share: the inverse of the larger of their
+// largestEigenvalue.
+bool isAlone(float share)
+{
+    return share > 0.995f;
 }

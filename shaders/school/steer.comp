@@ -34,14 +34,15 @@ layout(std430, binding = 0) buffer Steering { vec4 steering[]; };
 #ifdef WALLS
 #include "generated/colliders.glsl"
 
+uniform vec3 wallAnchor;  // m, what places are relative to here: the schools' origin, or the world's where that is near
 uniform vec2 walls;  // m, in which they are turned from; s, how far ahead
 
 float wallDistance(vec3 place)
 {
 #ifdef JOINT_CONTACT
-    return clearances(vec3(0.0), place, 0.5 * duration).x;
+    return clearances(wallAnchor, place, 0.5 * duration).x;
 #else
-    return clearance(vec3(0.0), place);
+    return clearance(wallAnchor, place);
 #endif
 }
 

@@ -1,5 +1,6 @@
 #include "app/export.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 
@@ -19,6 +20,16 @@ void print(std::string& out, const char* format, Values... values) {
     out.append(line, size_t(length));
 }
 
+// Three numbers between separators: all that a double holds where it is far from the origin.
+std::string place(const glm::dvec3& x, char between) {
+    std::string out;
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) out += between;
+        print(out, "%.*g", std::abs(x[i]) < farOff ? 9 : 17, x[i]);
+    }
+    return out;
+}
+
 bool isThere(const Snapshot& state, size_t molecule) {
     return state.alive.empty() || state.alive[molecule];
 }
@@ -31,10 +42,9 @@ std::string csv(Simulation& simulation) {
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
             if (!isThere(state, i / size_t(state.vertexCount))) continue;
-            print(out, "%d,%.9g,%zu,%zu,%zu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
-                  simulation.frames(), state.time, g, i / size_t(state.vertexCount),
-                  i % size_t(state.vertexCount), x.x, x.y, x.z, v.x, v.y, v.z, double(n.x), double(n.y),
-                  double(n.z));
+            print(out, "%d,%.9g,%zu,%zu,%zu,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.frames(),
+                  state.time, g, i / size_t(state.vertexCount), i % size_t(state.vertexCount),
+                  place(x, ',').c_str(), v.x, v.y, v.z, double(n.x), double(n.y), double(n.z));
         }
     }
     return out;
@@ -52,7 +62,7 @@ std::string ply(Simulation& simulation, const Scene& scene) {
             const glm::vec3& n = state.normals[i];
             if (!isThere(state, i / perMolecule)) continue;
             ++here;
-            print(vertices, "%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", x.x, x.y, x.z,
+            print(vertices, "%s %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", place(x, ' ').c_str(),
                   double(n.x), double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
         }
         for (size_t first = vertexCount; first < vertexCount + here; first += perMolecule) {

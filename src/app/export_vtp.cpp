@@ -1,6 +1,8 @@
 #include "app/export_vtp.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <span>
@@ -14,7 +16,8 @@ namespace {
 
 // What is written, in the order of the file.
 struct Tables {
-    std::vector<float> points, velocities, normals;
+    std::vector<double> points;
+    std::vector<float> velocities, normals;
     std::vector<int32_t> groups, molecules, vertices;
     // of each kind of cell the points, and where each cell's end
     struct Cells {
@@ -27,8 +30,9 @@ struct Tables {
     } verts, lines, polys;
 };
 
-void push(std::vector<float>& out, const auto& v) {
-    out.insert(out.end(), {float(v.x), float(v.y), float(v.z)});
+template <typename T>
+void push(std::vector<T>& out, const auto& v) {
+    out.insert(out.end(), {T(v.x), T(v.y), T(v.z)});
 }
 
 void addCells(Tables& out, const Molecule& molecule, size_t first, size_t vertexCount, ExportCells cells) {
@@ -132,7 +136,14 @@ void writeVtp(const std::string& file, Simulation& simulation, const Scene& scen
     text.xml << "</FieldData>\n<Piece NumberOfPoints=\"" << tables.groups.size() << "\" NumberOfVerts=\""
              << tables.verts.ends.size() << "\" NumberOfLines=\"" << tables.lines.ends.size()
              << "\" NumberOfStrips=\"0\" NumberOfPolys=\"" << tables.polys.ends.size() << "\">\n<Points>\n";
-    text.array("Points", 3, tables.points, "m");
+    const bool far = std::any_of(tables.points.begin(), tables.points.end(),
+                                 [](double x) { return std::abs(x) >= farOff; });
+    std::vector<float> points;
+    if (!far) points.assign(tables.points.begin(), tables.points.end());
+    if (far)
+        text.array("Points", 3, tables.points, "m");
+    else
+        text.array("Points", 3, points, "m");
     text.xml << "</Points>\n<PointData Vectors=\"velocity\" Normals=\"normal\">\n";
     text.array("velocity", 3, tables.velocities, "m/s");
     text.array("normal", 3, tables.normals);

@@ -51,6 +51,15 @@ double reachOf(const Collider& collider) {
     return collider.thickness + std::visit([](const auto& shape) { return reach(shape); }, collider.shape);
 }
 
+glm::dvec3 placeOf(const ColliderShape& shape) {
+    if (const auto* plane = std::get_if<PlaneCollider>(&shape)) return plane->point;
+    if (const auto* sphere = std::get_if<SphereCollider>(&shape)) return sphere->center;
+    if (const auto* box = std::get_if<BoxCollider>(&shape)) return box->center;
+    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape)) return capsule->from;
+    if (const auto* field = std::get_if<HeightFieldCollider>(&shape)) return {field->low.x, 0, field->low.y};
+    return std::get<DistanceFieldCollider>(shape).field.grid.low;
+}
+
 CapsuleAxis axisOf(const CapsuleCollider& capsule) {
     glm::dvec3 along = capsule.to - capsule.from;
     if (glm::length(along) < leastAxis) along = {};

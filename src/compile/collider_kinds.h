@@ -15,6 +15,9 @@ bool isSwept(const ColliderShape& shape);
 // swept ones.
 double reachOf(const Collider& collider);
 
+// A point of the frame in which the shape is given that is on it or near it.
+glm::dvec3 placeOf(const ColliderShape& shape);
+
 // For shaders/physics/solid.glsl.
 struct CapsuleAxis {
     glm::dvec3 along{0};

@@ -5,7 +5,8 @@
 //   box       center, thickness | half its size, - | quaternion | -, -, number, material
 //   capsule   from, radius | axis, 1 / axis^2 | aside, thickness | -, -, number, material
 //
-// material: index of the uniform whose x is the restitution and y the friction.
+// material: index of the uniform whose x is the restitution and y the friction. Where one float is not enough
+// for some of their places, all are relative to a point of the anchors' lattice amid them.
 #pragma once
 
 #include <string>
@@ -17,6 +18,8 @@ namespace shoal {
 
 class ColliderTable {
   public:
+    // Of those of the colliders that it can hold.
+    explicit ColliderTable(const std::vector<Collider>& colliders);
     // Whether a collider can lie in the table.
     static bool holds(const Collider& collider);
     void add(const Collider& collider, size_t number, size_t material);
@@ -29,6 +32,7 @@ class ColliderTable {
     Loops write(std::vector<glm::vec4>& samples) const;
 
   private:
+    glm::dvec3 middle_{0};  // m
     std::vector<glm::vec4> spheres_, boxes_, capsules_;
 };
 

@@ -12,6 +12,7 @@
 #include "compile/collider_table.h"
 #include "compile/distance_samples.h"
 #include "compile/generate.h"
+#include "compile/pack.h"
 
 namespace shoal {
 
@@ -43,7 +44,7 @@ class ColliderWriter {
         out.velocity = "vec3(0.0)";
         result.materials[index] = result.parameters.size();
         out.material = slot({collider.restitution, collider.friction, collider.thickness});
-        anchor_ = "anchor", position_ = "c.position";
+        anchor_ = "anchor", position_ = "c.position", middle_ = glm::dvec3(0);
         if (collider.path) place(collider, index, out);
         out.surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
         if (std::holds_alternative<DistanceFieldCollider>(collider.shape)) {
@@ -59,11 +60,20 @@ class ColliderWriter {
     // Into the frame that moves.
     void place(const Collider& collider, size_t index, Text& out) {
         const bool turns = collider.path->turns();
+        ColliderPath path = *collider.path;
+        if (!turns) {
+            // what is far off in its own frame is in one whose origin lies there
+            const glm::dvec3 own = placeOf(collider.shape), size = glm::abs(own);
+            constexpr double near = 32;  // m
+            if (std::max({size.x, size.y, size.z}) > near) middle_ = glm::dvec3(glm::vec3(latticePoint(own)));
+            for (ColliderPath::Keyframe& keyframe : path.keyframes)
+                keyframe.pose.position += middle_;
+        }
         result.moving.push_back(
-            {*collider.path, result.parameters.size(), turns, out.swept, out.swept ? reachOf(collider) : 0});
-        const std::string at = slot({}), rate = slot({});
-        out.before = concat("    vec3 arm", index, " = (anchor - ", at, ".xyz) + (c.position - ", rate,
-                            ".xyz * time);\n");
+            {std::move(path), result.parameters.size(), turns, out.swept, out.swept ? reachOf(collider) : 0});
+        const std::string lattice = slot({}), at = slot({}), rate = slot({});
+        out.before = concat("    vec3 arm", index, " = ((anchor - ", lattice, ".xyz) - ", at,
+                            ".xyz) + (c.position - ", rate, ".xyz * time);\n");
         out.velocity = rate + ".xyz";
         anchor_ = "vec3(0.0)", position_ = concat("arm", index);
         if (!turns) return;
@@ -75,23 +85,34 @@ class ColliderWriter {
         position_ = concat("local", index);
     }
 
-    std::string relative(const std::string& origin) const {
-        return concat("(", anchor_, " - ", origin, ".xyz) + ", position_);
+    // The slot of a point of the shape, and the text of the way from there to the anchor.
+    struct Origin {
+        std::string slot, way;
+    };
+    Origin origin(const glm::dvec3& point, double w = 0) {
+        const SplitPoint split = splitPoint(point - middle_);
+        std::string from = anchor_;
+        if (split.isFar()) from = concat("(", anchor_, " - ", slot(split.lattice), ".xyz)");
+        const std::string rest = slot(split.rest, w);
+        return {rest, concat(from, " - ", rest, ".xyz")};
     }
+
+    std::string relative(const Origin& origin) const { return concat("(", origin.way, ") + ", position_); }
 
     // Each returns text of a vec4: unit normal, signed distance (negative inside).
     std::string emit(const PlaneCollider& plane) {
-        const std::string point = slot(plane.point), normal = slot(glm::normalize(plane.normal));
-        return concat("planeSurface(", anchor_, " - ", point, ".xyz, ", position_, ", ", normal, ".xyz)");
+        const Origin point = origin(plane.point);
+        return concat("planeSurface(", point.way, ", ", position_, ", ", slot(glm::normalize(plane.normal)),
+                      ".xyz)");
     }
 
     std::string emit(const SphereCollider& sphere) {
-        const std::string center = slot(sphere.center, sphere.radius);
-        return concat("sphereSurface(", relative(center), ", ", center, ".w)");
+        const Origin center = origin(sphere.center, sphere.radius);
+        return concat("sphereSurface(", relative(center), ", ", center.slot, ".w)");
     }
 
     std::string emit(const BoxCollider& box) {
-        const std::string center = slot(box.center), half = slot(box.size / 2.0), x = relative(center);
+        const std::string x = relative(origin(box.center)), half = slot(box.size / 2.0);
         if (box.rotation == glm::dquat(1, 0, 0, 0)) return concat("boxSurface(", x, ", ", half, ".xyz)");
         const std::string turn = slot({box.rotation.x, box.rotation.y, box.rotation.z}, box.rotation.w);
         return concat("turnedSurface(", turn, ", boxSurface(turnedBack(", turn, ", ", x, "), ", half,
@@ -100,17 +121,17 @@ class ColliderWriter {
 
     std::string emit(const CapsuleCollider& capsule) {
         const CapsuleAxis axis = axisOf(capsule);
-        const std::string from = slot(capsule.from, capsule.radius);
+        const Origin from = origin(capsule.from, capsule.radius);
         const std::string along = slot(axis.along, axis.perLength), aside = slot(axis.aside);
         return concat("capsuleSurface(", relative(from), ", ", along, ".xyz, ", along, ".w, ", aside,
-                      ".xyz, ", from, ".w)");
+                      ".xyz, ", from.slot, ".w)");
     }
 
     std::string emit(const HeightFieldCollider& field) {
         const size_t base = samples_->size();
         const glm::dvec2 cell = (field.high - field.low) / glm::dvec2(field.columns - 1, field.rows - 1);
         appendSamples(field, cell);
-        const std::string low = slot({field.low.x, 0, field.low.y});
+        const Origin low = origin({field.low.x, 0, field.low.y});
         const std::string cells = slot({1 / cell.x, cell.x, cell.y}, 1 / cell.y);
         return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "(",
                       relative(low), ", ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ", base,
@@ -120,10 +141,10 @@ class ColliderWriter {
     std::string emit(const DistanceFieldCollider& collider) {
         const DistanceField& field = collider.field;
         const size_t base = appendDistances(field, *samples_);
-        const std::string low = slot(field.grid.low, field.grid.cell);
-        cell_ = low + ".w";
+        const Origin low = origin(field.grid.low, field.grid.cell);
+        cell_ = low.slot + ".w";
         const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
-        return concat("distanceSurface(", relative(low), ", ", low, ".w, ", last, ", ", base, ")");
+        return concat("distanceSurface(", relative(low), ", ", cell_, ", ", last, ", ", base, ")");
     }
 
     // One texel a sample: unit normal by central differences, and height.
@@ -149,6 +170,7 @@ class ColliderWriter {
     std::vector<glm::vec4>* samples_;
     std::string cell_;               // text of the last distance field's cell, m
     std::string anchor_, position_;  // text of what the surface at hand is relative to, and of the vertex
+    glm::dvec3 middle_{0};           // m, of the shape's own frame: what its points are written from
 };
 
 std::string sourceOfOne(const Text& text) {
@@ -172,7 +194,7 @@ std::string sourceOfOne(const Text& text) {
 class Joint {
   public:
     Joint(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples)
-        : colliders_(&colliders), samples_(&samples), writer_(samples) {
+        : colliders_(&colliders), samples_(&samples), writer_(samples), table_(colliders) {
         writer_.result.materials.resize(colliders.size());
     }
 
@@ -206,7 +228,8 @@ class Joint {
   private:
     // As many uniforms as a collider takes at most.
     static size_t slotsOf(const Collider& collider) {
-        return 4 + (collider.path ? (collider.path->turns() ? 5 : 2) : 0);
+        const size_t lattice = splitPoint(placeOf(collider.shape)).isFar() ? 1 : 0;
+        return 4 + lattice + (collider.path ? (collider.path->turns() ? 6 : 3) : 0);
     }
 
     // Colliders of the same surface share the uniform of their material, since they share it for every group.

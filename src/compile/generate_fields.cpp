@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "compile/generate.h"
+#include "compile/pack.h"
 
 namespace shoal {
 
@@ -35,7 +36,14 @@ class FieldWriter {
         const std::string c = clock({.kind = FieldClock::Kind::cells, .rate = rate});
         return concat(c, ".x, uint(", c, ".y) + 65536u * uint(", c, ".z)");
     }
-    std::string origin(const glm::dvec3& v) { return "(anchor - " + slot(v) + ".xyz) + position"; }
+    // The way from a point to the anchor.
+    std::string fromPoint(const glm::dvec3& point) {
+        const SplitPoint split = splitPoint(point);
+        std::string from = "anchor";
+        if (split.isFar()) from = concat("(anchor - ", slot(split.lattice), ".xyz)");
+        return concat("(", from, " - ", slot(split.rest), ".xyz)");
+    }
+    std::string origin(const glm::dvec3& v) { return fromPoint(v) + " + position"; }
 
     void field(const Field& field) {
         result.source += concat("    // ", kindName(field.shape), " ", inComment(field.name), "\n");
@@ -44,8 +52,8 @@ class FieldWriter {
         const std::string weight = slot({}, field.weight) + ".w";
         std::string guard;
         if (field.box) {
-            const std::string low = slot(field.box->low), high = slot(field.box->high);
-            guard = concat("if (insideBox(anchor, position, ", low, ".xyz, ", high, ".xyz)) ");
+            const std::string low = fromPoint(field.box->low), high = fromPoint(field.box->high);
+            guard = concat("if (insideBox(", low, ", ", high, ", position)) ");
         }
         result.source += concat("    ", guard, "u += ", weight, " * ", call, ";\n");
     }

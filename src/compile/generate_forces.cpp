@@ -4,6 +4,7 @@
 #include "compile/generate_forces.h"
 
 #include "compile/generate.h"
+#include "compile/pack.h"
 
 namespace shoal {
 
@@ -29,33 +30,35 @@ class ForceWriter {
                 concat("    velocity *= thrustFactor(velocity, exp(", a, ".w * time), ", a, ".z);\n");
         } else {
             result.pulls.push_back(one);
-            pulls += concat(comment, "    a += ", call(force.shape), ";\n");
+            pulls += concat(comment, "    a += ", call(force.shape, isFar(force)), ";\n");
         }
     }
 
     std::string slot() { return concat("forceParameters[", result.parameterCount++, "]"); }
 
   private:
-    std::string call(const ForceShape& shape) {
-        if (const auto* attract = std::get_if<AttractForce>(&shape)) return emit(*attract);
-        return emit(std::get<VortexLineForce>(shape));
+    std::string call(const ForceShape& shape, bool far) {
+        if (const auto* attract = std::get_if<AttractForce>(&shape)) return emit(*attract, far);
+        return emit(std::get<VortexLineForce>(shape), far);
     }
 
-    static std::string relative(const std::string& position) {
-        return concat("(anchor - ", position, ".xyz) + position");
+    // Takes one more slot of what is far.
+    std::string relative(const std::string& position, bool far) {
+        const std::string from = far ? concat("(anchor - ", slot(), ".xyz)") : "anchor";
+        return concat("(", from, " - ", position, ".xyz) + position");
     }
 
-    std::string emit(const AttractForce& force) {
-        const std::string at = slot(), size = slot();
+    std::string emit(const AttractForce& force, bool far) {
+        const std::string at = slot(), size = slot(), x = relative(at, far);
         if (force.falloff == AttractForce::Falloff::constant)
-            return concat("constantPull(", relative(at), ", ", at, ".w, ", size, ".x)");
-        return concat("inverseSquarePull(", relative(at), ", ", at, ".w, ", size, ".x, ", size, ".y)");
+            return concat("constantPull(", x, ", ", at, ".w, ", size, ".x)");
+        return concat("inverseSquarePull(", x, ", ", at, ".w, ", size, ".x, ", size, ".y)");
     }
 
-    std::string emit(const VortexLineForce&) {
+    std::string emit(const VortexLineForce&, bool far) {
         const std::string at = slot(), axis = slot(), size = slot();
-        return concat("vortexLinePull(", relative(at), ", ", axis, ".xyz, ", at, ".w, ", axis, ".w, ", size,
-                      ".x, ", size, ".y)");
+        return concat("vortexLinePull(", relative(at, far), ", ", axis, ".xyz, ", at, ".w, ", axis, ".w, ",
+                      size, ".x, ", size, ".y)");
     }
 };
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "compile/pack.h"
+
 namespace shoal {
 
 static glm::vec4 asVector(const glm::dquat& q) {
@@ -17,12 +19,14 @@ void setPoses(std::vector<glm::vec4>& parameters, const std::vector<MovingCollid
         if (glm::dot(from.rotation, to.rotation) < 0) to.rotation = -to.rotation;
         const Motion motion = motionBetween(from, to, duration);
         glm::vec4* const out = &parameters[one.slot];
-        out[0] = glm::vec4(glm::vec3(from.position), 0);
-        out[1] = glm::vec4(glm::vec3(motion.velocity), 0);
+        const SplitPoint position = splitPoint(from.position);
+        out[0] = glm::vec4(glm::vec3(position.lattice), 0);
+        out[1] = glm::vec4(glm::vec3(position.rest), 0);
+        out[2] = glm::vec4(glm::vec3(motion.velocity), 0);
         if (one.turns) {
-            out[2] = asVector(from.rotation);
-            out[3] = asVector(to.rotation);
-            out[4] = glm::vec4(glm::vec3(motion.spin), float(1 / duration));
+            out[3] = asVector(from.rotation);
+            out[4] = asVector(to.rotation);
+            out[5] = glm::vec4(glm::vec3(motion.spin), float(1 / duration));
         }
         // the normalised straight way turns faster in its middle, by less than this within mostTurn
         if (one.swept)

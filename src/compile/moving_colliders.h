@@ -6,7 +6,7 @@
 // collider that turns by an angle a within a frame is off by at most a^3 / 246 of its reach, and a bend of
 // the path within a frame is cut.
 //
-// Parameters of one, from its slot: position at the frame's start | velocity (m/s), and where it turns
+// Parameters of one, from its slot: position at the frame's start (SplitPoint) | velocity (m/s); if it turns
 // quaternion at the start | at the end | angular velocity (rad/s), 1 / duration of the frame.
 #pragma once
 

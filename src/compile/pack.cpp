@@ -14,6 +14,26 @@ glm::dvec3 latticePoint(const glm::dvec3& position) {
     return glm::floor(position * 16.0 + 0.5) / 16.0;
 }
 
+SplitPoint splitPoint(const glm::dvec3& point) {
+    constexpr double enough = 1e-6;  // m
+    const glm::dvec3 off = glm::abs(point - glm::dvec3(glm::vec3(point)));
+    if (std::max({off.x, off.y, off.z}) <= enough) return {glm::dvec3(0), point};
+    const glm::dvec3 lattice(glm::vec3(latticePoint(point)));
+    return {lattice, point - lattice};
+}
+
+bool isFar(const Force& force) {
+    const glm::dvec3* own = nullptr;
+    if (const auto* attract = std::get_if<AttractForce>(&force.shape)) own = &attract->position;
+    if (const auto* line = std::get_if<VortexLineForce>(&force.shape)) own = &line->position;
+    if (!own) return false;
+    bool far = force.mouse || splitPoint(*own).isFar();
+    if (force.path)
+        for (const ForcePath::Keyframe& keyframe : force.path->keyframes)
+            far = far || splitPoint(*own + keyframe.offset).isFar();
+    return far;
+}
+
 // What the allocators on the CPU begin with: the first places first.
 static void packBooks(const Lifecycle& life, GroupState& start) {
     const bool stack = life.allocator == Allocator::stack;

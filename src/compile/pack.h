@@ -8,6 +8,17 @@ namespace shoal {
 // The point of the anchors' lattice, of 1/16 m, nearest to a position (shaders/physics/anchor.glsl).
 glm::dvec3 latticePoint(const glm::dvec3& position);
 
+// A point of the scene in two parts of which each is a float: a point of the lattice, whose difference to an
+// anchor is exact, and the rest. Where one float holds the point to a micrometre it is all rest.
+struct SplitPoint {
+    glm::dvec3 lattice{0}, rest{0};  // m
+    bool isFar() const { return lattice != glm::dvec3(0); }
+};
+SplitPoint splitPoint(const glm::dvec3& point);
+// Whether a place of the force has both parts, the lattice point as the last of its parameters: because some
+// of its path would lose by one float, or because the mouse may hold it anywhere.
+bool isFar(const Force& force);
+
 // The length of life of what has this seed, s (shaders/particles/emit.glsl).
 constexpr uint32_t bornLife = 0xe0000006u, bornTime = 0xe000000fu;
 double lifeOf(const glm::dvec2& life, uint32_t seed);

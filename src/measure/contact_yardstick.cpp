@@ -293,8 +293,8 @@ void ContactYardstick::Data::know(Piece& piece, const ContactYardstickStep& step
         const vec3 m = glm::abs(mixed);
         const vec3 rows = squares + vec3(m.y + m.z, m.z + m.x, m.x + m.y);
         const float norm = std::sqrt(glm::dot(squares, squares) + 2 * glm::dot(m, m));
-        crowds[size_t(active.slot)] =
-            std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm), 1.0f);
+        crowds[size_t(active.slot)] = std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm),
+                                               active.end - active.begin > 1 ? 1.01f : 1.0f);
     }
 }
 
@@ -344,11 +344,16 @@ void ContactYardstick::Data::settle(Piece& piece, const ContactYardstickStep& st
             const vec3 along = relative - contact.normal * glm::dot(relative, contact.normal);
             const float slip = glm::length(along);
             const int crowd = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
-            const float grip = std::min(step.friction * contact.pushed / ContactPlan::frictionRounds,
-                                        1.5f * slip * contact.mass / float(crowd));
+            const bool alone =
+                contact.share > 0.995f;  // its spheres exchange a push and friction, and nothing else
+            const float rubbed = glm::length(sum - contact.normal * contact.pushed);
+            const float grip =
+                alone ? std::min(std::max(step.friction * contact.pushed - rubbed, 0.0f), slip * contact.mass)
+                      : std::min(step.friction * contact.pushed / ContactPlan::frictionRounds,
+                                 1.5f * slip * contact.mass / float(crowd));
             const vec3 rub = along * (-grip / std::max(slip, 1e-30f));
             sum += rub;
-            bounce += (contact.normal * contact.pushed + rub) * contact.since;
+            bounce += (alone ? sum : contact.normal * contact.pushed + rub) * contact.since;
             rest += contact.normal * contact.push;
         }
         newImpulses[slot] = sum;

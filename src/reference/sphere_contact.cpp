@@ -71,7 +71,8 @@ double crowdOf(const glm::dmat3& sum) {
         }
         rows = std::max(rows, row);
     }
-    return std::max(std::min(rows, std::sqrt(squares)), 1.0);
+    const bool several = sum[0][0] + sum[1][1] + sum[2][2] > 1.5;
+    return std::max(std::min(rows, std::sqrt(squares)), several ? 1.01 : 1.0);
 }
 
 class Response {
@@ -171,12 +172,17 @@ class Response {
                 // the wall that may be there counts as one more
                 const int crowd = 1 + std::max(number_[size_t((*contacts_)[c].first)],
                                                number_[size_t((*contacts_)[c].second)]);
+                const bool alone = m.share > 0.995;  // crowdOf both is 1
+                const glm::dvec3 push = pushed_[c] * m.normal;
+                const double rubbed = glm::length(before[size_t((*contacts_)[c].first)] - push);
                 const double grip =
-                    std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / crowd);
+                    alone ? std::min(std::max(settings_.friction * pushed_[c] - rubbed, 0.0), slip / m.weight)
+                          : std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / crowd);
                 const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
                 exchange(impulse_, c, rub);
-                if (m.impact) exchange(bounce, c, (pushed_[c] * m.normal + rub) * m.since);
-                exchange(rest, c, push(c) * m.normal);
+                const glm::dvec3 whole = alone ? before[size_t((*contacts_)[c].first)] : push;
+                if (m.impact) exchange(bounce, c, (whole + rub) * m.since);
+                exchange(rest, c, this->push(c) * m.normal);
             }
         }
         keep(before, rest);

@@ -22,6 +22,12 @@ void store(const Program& program, const char* block, int at, const GroupBuffers
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
 
+void setPoint(const Program& program, const char* name, const glm::dvec3& point) {
+    const SplitPoint split = splitPoint(point);
+    const glm::vec4 parts[] = {glm::vec4(glm::vec3(split.lattice), 0), glm::vec4(glm::vec3(split.rest), 0)};
+    program.set(name, std::span<const glm::vec4>(parts));
+}
+
 void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
     const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
     const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
@@ -128,8 +134,8 @@ void Births::bindStep(const Program& program, size_t group) const {
     store(program, "FreeBits", 4, living.free);
     if (living.died) store(program, "DiedBits", 5, living.died);
     if (living.life.within) {
-        program.set("livesAbove", glm::vec3(living.life.within->low));
-        program.set("livesBelow", glm::vec3(living.life.within->high));
+        setPoint(program, "livesAbove", living.life.within->low);
+        setPoint(program, "livesBelow", living.life.within->high);
     }
     if (living.life.afterContact) program.set("afterContact", float(*living.life.afterContact));
 }

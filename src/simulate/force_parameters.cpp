@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/pack.h"
 #include "core/contract.h"
 
 namespace shoal {
@@ -45,16 +46,26 @@ class Writer {
         return control.position.value_or(own + momentOf(plan_.forces[force].path, middle_).offset);
     }
 
+    // behind: its other parameters.
+    void putPlace(const GroupForces::One& one, size_t behind, const glm::dvec3& own, double w) {
+        SplitPoint place{glm::dvec3(0), placeOf(one.force, own)};
+        if (isFar(plan_.forces[one.force])) {
+            place = splitPoint(place.rest);
+            put(one.slot + behind, place.lattice);
+        }
+        put(one.slot, place.rest, w);
+    }
+
     static double reach(double radius) { return radius > 0 ? radius : nowhere; }
 
     void writePull(const GroupForces::One& one) {
         const ForceShape& shape = plan_.forces[one.force].shape;
         const double factor = factorOf(one.force);
         if (const auto* attract = std::get_if<AttractForce>(&shape)) {
-            put(one.slot, placeOf(one.force, attract->position), factor * attract->strength);
+            putPlace(one, 2, attract->position, factor * attract->strength);
             put(one.slot + 1, {reach(attract->radius), attract->most, 0});
         } else if (const auto* line = std::get_if<VortexLineForce>(&shape)) {
-            put(one.slot, placeOf(one.force, line->position), factor * line->pull);
+            putPlace(one, 3, line->position, factor * line->pull);
             put(one.slot + 1, glm::normalize(line->axis), factor * line->turn);
             put(one.slot + 2, {line->core, reach(line->radius), 0});
         }

@@ -239,7 +239,11 @@ void Schooling::setRules(size_t index, const Frame& frame) {
     program.set("duration", float(frame.parameters.frameTime));
     program.set("firstBody", school_->bodiesOf(member.group).first);
     if (!group.needs.avoids) return;
-    program.set("origin", glm::vec3(school_->origin));
+    constexpr double near = 64;  // m: what a float holds to a few micrometres
+    const glm::dvec3 way = glm::abs(school_->origin);
+    const bool isNear = std::max({way.x, way.y, way.z}) < near;
+    program.set("wallAnchor", glm::vec3(isNear ? glm::dvec3(0) : school_->origin));
+    program.set("origin", glm::vec3(isNear ? school_->origin : glm::dvec3(0)));
     program.set("walls", glm::vec2(school.walls, school.look));
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, group, frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));

@@ -1,6 +1,8 @@
 // What goes to other programs: written by the command, opened by the real readers where this machine has
 // them.
+#include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -105,6 +107,32 @@ def cells(name):
 assert cells('springs.vtp') == (0, 120, 0), cells('springs.vtp')
 assert cells('vertices.vtp') == (80, 0, 0), cells('vertices.vtp')
 )"));
+}
+
+TEST_CASE("places far from the origin are written to all their digits", "[cli][exchange]") {
+    const Scratch scratch;
+    scratch.write("point.json", R"({"format": "shoal-molecule-1", "name": "point",
+                                    "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
+    const std::string scene = scratch.write("far.scene.json", R"({
+        "format": "shoal-scene-1", "gravity": [0, 0, 0],
+        "groups": [{"molecule": "point.json",
+                    "place": {"on": "list", "items": [{"position": [0.5, 0, 100000.3]}]}}]})");
+    const auto exported = [&](const std::string& name) {
+        const Outcome outcome =
+            runShoal({"run", scene, "--headless", "--frames", "1", "--export", scratch.path(name)});
+        INFO(outcome.err);
+        REQUIRE(outcome.code == 0);
+        return readFile(scratch.path(name));
+    };
+    for (const auto& [name, before] : {std::pair("far.csv", ",0.5,0,"), std::pair("far.ply", "\n0.5 0 ")}) {
+        const std::string text = exported(name);
+        const size_t at = text.find(before);
+        REQUIRE(at != std::string::npos);
+        CHECK(std::abs(std::strtod(text.c_str() + at + std::strlen(before), nullptr) - 100000.3) < 1e-6);
+    }
+    CHECK_THAT(exported("far.vtp"), Contains("<DataArray type=\"Float64\" Name=\"Points\""));
+    runHello({"--export", scratch.path("near.vtp")}, 1);
+    CHECK_THAT(readFile(scratch.path("near.vtp")), Contains("<DataArray type=\"Float32\" Name=\"Points\""));
 }
 
 TEST_CASE("an index is whole at any moment, and a run that goes on adds to it", "[cli][exchange]") {

@@ -195,6 +195,37 @@ TEST_CASE("two marbles meet head-on as in the closed form", "[molecule contact]"
     }
 }
 
+// Coulomb: what would stick loses all of its slip, what slides mu times the push; and the way since they
+// touched is that of the velocities after.
+TEST_CASE("two marbles that graze stick or slide as Coulomb has it", "[molecule contact]") {
+    const double m = 1, n = 2.5, e = 0.2, reach = 0.13, speed = 2.6;
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    // the slip over the push at offset b is (b / sqrt(reach^2 - b^2)) / (1 + e): what holds it, nearly holds
+    // it, does not
+    const double offset = 0.06, limit = offset / std::sqrt(reach * reach - offset * offset) / (1 + e);
+    for (const double mu : {0.0, 0.5 * limit, 0.97 * limit, 1.03 * limit, 1.0}) {
+        Scene scene = marbles({{-0.5, 0, 0}}, 0.05, m);
+        scene.groups.push_back(marbles({{0.4, offset, 0}}, 0.08, n).groups[0]);
+        scene.groups[1].name = "heavy";
+        Simulation simulation =
+            startedWith(scene, {{speed, 0, 0}, {0, 0, 0}}, vec2(float(e), float(mu)), path);
+        test::run(simulation, 50);
+        const dvec3 normal = dvec3(-std::sqrt(reach * reach - offset * offset), -offset, 0) / reach;
+        const double approach = -speed * normal.x, meets = (0.9 + reach * normal.x) / speed;
+        const dvec3 along = dvec3(speed, 0, 0) + approach * normal;
+        const double mass = m * n / (m + n), push = (1 + e) * approach * mass;
+        const double grip = std::min(mu * push, glm::length(along) * mass);
+        const dvec3 impulse = push * normal - grip * glm::normalize(along);
+        const dvec3 v = dvec3(speed, 0, 0) + impulse / m, w = -impulse / n;
+        const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
+        CAPTURE(name(path), mu / limit);
+        CHECK(glm::distance(a.velocities[0], v) < 2e-6);
+        CHECK(glm::distance(b.velocities[0], w) < 2e-6);
+        CHECK(glm::distance(a.positions[0], dvec3(-0.5 + speed * meets, 0, 0) + v * (0.5 - meets)) < 1e-5);
+        CHECK(glm::distance(b.positions[0], dvec3(0.4, offset, 0) + w * (0.5 - meets)) < 1e-5);
+    }
+}
+
 namespace {
 
 // A cloud of marbles of two masses that fly at random, and what the equations make of its first step.

@@ -100,6 +100,41 @@ TEST_CASE("passes: a bounce reaches e^2 of its height at 16 phases", "[numerics]
     }
 }
 
+// A point flies past the upper edge of a box, or the side of a ball, nearer and nearer to head-on; both are
+// rounded, the edge by the collider's thickness only.
+TEST_CASE("what meets an edge or a ball leaves by the normal of the touch", "[numerics][contact]") {
+    const double speed = 3, e = 0.6;
+    for (const bool ball : {false, true}) {
+        const double radius = ball ? 0.3 : 0.002;
+        for (const int substeps : {1, 8}) {
+            std::vector<test::Item> items;
+            for (int i = 0; i < 12; ++i)
+                items.push_back(at({-0.4 - 0.013 * i, radius * (0.05 + 0.07 * i), 0.3 * i}));
+            Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, items);
+            scene.groups[0].velocity = {speed, 0, 0};
+            Collider one = collider(BoxCollider{{1, -1, 0}, {2, 2, 40}}, e, 0);
+            if (ball) {
+                one.shape = CapsuleCollider{{0, 0, -20}, {0, 0, 20}, 0.299};
+                one.thickness = 0.001;
+            } else {
+                one.thickness = radius;
+            }
+            scene.colliders = {one};
+            setSteps(scene, 1 / 60.0, substeps);
+            Simulation simulation = test::simulationOf(scene);
+            run(simulation, 20);
+            const Snapshot now = simulation.snapshot(0);
+            for (size_t i = 0; i < items.size(); ++i) {
+                const double sine = items[i].position.y / radius;
+                const glm::dvec3 n(-std::sqrt(1 - sine * sine), sine, 0);
+                const glm::dvec3 v = glm::dvec3(speed, 0, 0) - n * ((1 + e) * speed * n.x);
+                CAPTURE(ball, substeps, i);
+                CHECK(glm::distance(now.velocities[i], v) < (ball ? 6e-5 : 4e-4));
+            }
+        }
+    }
+}
+
 TEST_CASE("passes: a slope slides at g (sin a - mu cos a) and holds below atan mu", "[numerics][contact]") {
     const double mu = 0.5, seconds = 1.5;
     for (SolverKind kind : bothSolvers) {

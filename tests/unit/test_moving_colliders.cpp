@@ -60,19 +60,19 @@ TEST_CASE("paths: repeat", "[colliders][path]") {
 
 TEST_CASE("paths: a frame's parameters hold its poses and velocities", "[colliders][path]") {
     const ColliderPath path = there(false);
-    std::vector<glm::vec4> parameters(6);
+    std::vector<glm::vec4> parameters(7);
     const double time = 1.5, frame = 1 / 60.0;
-    setPoses(parameters, {{path, 0, true, true, 0.5}}, 5, time, frame);
-    CHECK(glm::length(glm::vec3(parameters[0]) - glm::vec3(poseAt(path, time).position)) < 1e-6f);
-    CHECK(glm::length(glm::vec3(parameters[1]) - glm::vec3(2, 1, 0)) < 1e-5f);
-    CHECK(glm::length(glm::vec3(parameters[4]) - glm::vec3(0, 0, 0.5f)) < 1e-6f);
-    CHECK(parameters[4].w == Approx(60));
-    CHECK(parameters[5].x >= Approx(std::sqrt(5.0) + 0.25));
+    setPoses(parameters, {{path, 0, true, true, 0.5}}, 6, time, frame);
+    CHECK(glm::length(glm::vec3(parameters[1]) - glm::vec3(poseAt(path, time).position)) < 1e-6f);
+    CHECK(glm::length(glm::vec3(parameters[2]) - glm::vec3(2, 1, 0)) < 1e-5f);
+    CHECK(glm::length(glm::vec3(parameters[5]) - glm::vec3(0, 0, 0.5f)) < 1e-6f);
+    CHECK(parameters[5].w == Approx(60));
+    CHECK(parameters[6].x >= Approx(std::sqrt(5.0) + 0.25));
     // over the frame at those velocities the next pose is reached
     const Pose next = poseAt(path, time + frame);
-    CHECK(glm::length(glm::vec3(parameters[0]) + glm::vec3(parameters[1]) * float(frame) -
+    CHECK(glm::length(glm::vec3(parameters[1]) + glm::vec3(parameters[2]) * float(frame) -
                       glm::vec3(next.position)) < 1e-6f);
-    CHECK(parameters[3].w == Approx(next.rotation.w));
+    CHECK(parameters[4].w == Approx(next.rotation.w));
     // velocities agree with small differences of the poses
     const Motion motion = motionBetween(poseAt(path, 2), poseAt(path, 2 + 1e-6), 1e-6);
     CHECK(glm::length(motion.velocity - dvec3(2, 1, 0)) < 1e-6);

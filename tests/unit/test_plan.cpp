@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "compile/generate.h"
+#include "compile/pack.h"
 #include "compile/path.h"
 #include "compile/plan.h"
 #include "molecule/analysis.h"
@@ -153,6 +154,19 @@ TEST_CASE("start positions are the placed vertices, relative to an anchor on the
             // half a float's spacing within 1 m of the anchor, however far the anchor is
             CHECK(glm::length(world - expected) < 1e-7);
         }
+    }
+}
+
+TEST_CASE("a point of the scene is a lattice point and a rest, or all rest where a float will do", "[plan]") {
+    const auto isFloat = [](double x) { return double(float(x)) == x; };
+    for (const double x : {0.1, -3.3, 20.7, 512.0, -1e5})
+        CHECK_FALSE(splitPoint({x, 0, 0}).isFar());
+    for (const double x : {100.3, -100000.3, 1e6 + 0.7}) {
+        const SplitPoint split = splitPoint({0.2, x, 0});
+        CAPTURE(x);
+        CHECK(isFloat(split.lattice.y));
+        CHECK(split.lattice + split.rest == glm::dvec3(0.2, x, 0));
+        CHECK(std::abs(split.rest.y) <= 1 / 32.0);
     }
 }
 
