@@ -13,6 +13,15 @@ install(FILES $<TARGET_OBJECTS:shoal_gpu_forward> DESTINATION ${CMAKE_INSTALL_LI
 install(EXPORT ShoalTargets NAMESPACE Shoal:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/Shoal)
 
 install(TARGETS shoal_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+# The manual page and the completion of bash, from the declarations of the command's options.
+set(documents ${CMAKE_CURRENT_BINARY_DIR}/documents)
+file(MAKE_DIRECTORY ${documents})
+add_custom_command(OUTPUT ${documents}/shoal.1 ${documents}/shoal
+    COMMAND shoal_app --man-page > ${documents}/shoal.1
+    COMMAND shoal_app --bash-completion > ${documents}/shoal DEPENDS shoal_app VERBATIM)
+add_custom_target(documents ALL DEPENDS ${documents}/shoal.1 ${documents}/shoal)
+install(FILES ${documents}/shoal.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+install(FILES ${documents}/shoal DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions)
 install(DIRECTORY shaders molecules models DESTINATION ${CMAKE_INSTALL_DATADIR}/shoal
     PATTERN "*.py" EXCLUDE PATTERN "__pycache__" EXCLUDE)
 

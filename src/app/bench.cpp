@@ -15,6 +15,7 @@
 #include "app/machine.h"
 #include "app/progress.h"
 #include "core/cache_folder.h"
+#include "core/printable.h"
 #include "measure/pin_threads.h"
 
 namespace shoal::app {
@@ -201,7 +202,7 @@ int benchCommand(const Options& options) {
     if (!options.plot.empty())
         plot(options.plot, report.processor + ", " + context.info().renderer, report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
-    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << options.plot << "\n";
+    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
     return 0;
 }
 

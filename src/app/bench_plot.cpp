@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "app/gnuplot.h"
+#include "app/options.h"
 #include "core/error.h"
 #include "core/file.h"
 
@@ -43,12 +44,12 @@ void addData(std::ostringstream& out, Subject subject, const std::vector<BenchRe
 
 void checkPlot(const std::string& file, const std::vector<BenchCase>& cases) {
     if (std::none_of(cases.begin(), cases.end(), plotted))
-        throw Error("--plot draws the quads on each path and yardstick: --only leaves none of them");
+        throw WrongUse("--plot draws the quads on each path and yardstick: --only leaves none of them");
     needGnuplot(file);
 }
 
-std::string plotScript(const std::string& file, const std::string& title,
-                       const std::vector<BenchResult>& results) {
+static std::string plotScript(const std::string& file, const std::string& title,
+                              const std::vector<BenchResult>& results) {
     std::ostringstream out, lines;
     double low = std::numeric_limits<double>::max(), high = 0;
     for (const BenchResult& result : results) {
@@ -69,7 +70,6 @@ std::string plotScript(const std::string& file, const std::string& title,
     out << "set encoding utf8\n"
         << (svg ? "set terminal svg size 960,600 dynamic font 'DejaVu Sans,15' background rgb 'white'\n"
                 : "set terminal pngcairo size 1440,900 font 'DejaVu Sans,20' linewidth 1.5\n")
-        << "set output " << quoted(file) << "\n"
         << "set title " << quoted("euler, 4 substeps a frame; " + title) << " noenhanced\n"
         << "set xlabel 'quads' offset 0,-0.3\nset ylabel 'nanoseconds a quad and frame'\n"
         << "set logscale xy\nset xrange [700:1500000]\n"
@@ -86,7 +86,7 @@ std::string plotScript(const std::string& file, const std::string& title,
 }
 
 void plot(const std::string& file, const std::string& title, const std::vector<BenchResult>& results) {
-    drawWithGnuplot(file, [&](const std::string& output) { return plotScript(output, title, results); });
+    drawWithGnuplot(file, plotScript(file, title, results));
 }
 
 }  // namespace shoal::app

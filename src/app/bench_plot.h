@@ -15,8 +15,4 @@ void checkPlot(const std::string& file, const std::vector<measure::BenchCase>& c
 void plot(const std::string& file, const std::string& title,
           const std::vector<measure::BenchResult>& results);
 
-// What gnuplot is told.
-std::string plotScript(const std::string& file, const std::string& title,
-                       const std::vector<measure::BenchResult>& results);
-
 }  // namespace shoal::app

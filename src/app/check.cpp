@@ -6,6 +6,7 @@
 #include "app/data_paths.h"
 #include "app/field_watch.h"
 #include "core/json.h"
+#include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
@@ -75,7 +76,7 @@ Verdict checkMolecule(const std::string& file) {
         .add("lowestFrequency", JsonValue::makeNumber(free.lowestFrequency))
         .add("highestFrequency", JsonValue::makeNumber(free.highestFrequency));
     out.summary =
-        concat("molecule \"", molecule.name, "\": ", molecule.vertices.size(),
+        concat("molecule \"", printable(molecule.name), "\": ", molecule.vertices.size(),
                molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
                many(molecule.springs.size(), "spring"), ", ", many(molecule.triangles.size(), "triangle"),
                ", mass ", free.totalMass, " kg, rest energy ", free.restEnergy, " J");
@@ -130,12 +131,13 @@ Verdict checkScene(const std::string& file) {
         const Group& source = scene.groups[group.index];
         const ContactGap gap = largestGap(source.molecule, *source.contact);
         gaps.add(group.name, JsonValue::makeNumber(gap.radius));
-        gapText += concat("\n  contact of \"", group.name, "\": spheres of ", contact.radius, " m, ");
+        gapText +=
+            concat("\n  contact of \"", printable(group.name), "\": spheres of ", contact.radius, " m, ");
         gapText +=
             gap.triangle < 0 ? "no gap" : concat("largest gap ", gap.radius, " m in triangle ", gap.triangle);
     }
     if (plan.contact.any()) out.facts.add("contactGaps", std::move(gaps));
-    out.summary = concat("scene \"", scene.name, "\": ", many(plan.groups.size(), "group"), ", ",
+    out.summary = concat("scene \"", printable(scene.name), "\": ", many(plan.groups.size(), "group"), ", ",
                          many(size_t(molecules), "molecule"), ", ", many(scene.fields.size(), "field"), ", ",
                          many(scene.colliders.size(), "collider"), gapText);
     return out;
@@ -160,7 +162,7 @@ int checkCommand(const Options& options) {
                 .add("warnings", std::move(warnings))
                 .add(verdict.kind, std::move(verdict.facts));
             if (!options.json) {
-                std::cout << file << ": " << verdict.summary << "\n";
+                std::cout << printable(file) << ": " << verdict.summary << "\n";
                 for (const Warning& warning : verdict.warnings)
                     std::cout << "  warning: " << text(warning) << "\n";
             }

@@ -25,9 +25,10 @@ bool contains(const std::vector<int>& frames, int frame) {
 
 void checkFrames(const char* option, const std::vector<int>& frames, int first, int last) {
     for (const int frame : frames) {
-        if (frame > last) throw Error(concat(option, ": frame ", frame, " is beyond the last, ", last));
+        if (frame > last) throw WrongUse(concat(option, ": frame ", frame, " is beyond the last, ", last));
         if (frame < first)
-            throw Error(concat(option, ": frame ", frame, " is before ", first, ", where the run goes on"));
+            throw WrongUse(
+                concat(option, ": frame ", frame, " is before ", first, ", where the run goes on"));
     }
 }
 

@@ -27,7 +27,7 @@ std::string shaderRoot() {
         tried += "\n  " + (root / "shaders").string();
     }
     throw Error("the shaders are missing; looked in" + tried +
-                "\nset SHOAL_DATA to the folder that holds them");
+                "\n  set SHOAL_DATA to the folder that holds them");
 }
 
 std::string moleculeFolder() {

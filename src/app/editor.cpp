@@ -17,6 +17,7 @@
 #include "author/edit.h"
 #include "core/cache_folder.h"
 #include "core/file_watch.h"
+#include "core/printable.h"
 #include "gpu/context.h"
 #include "molecule/molecule_file.h"
 
@@ -67,8 +68,8 @@ class EditorWindow {
             if (!showFrame()) break;
         }
         if (editor_.document.unsaved() && !closedInOrder_)
-            std::cerr << "shoal: warning: what was changed was not saved in " << editor_.document.file()
-                      << "\n";
+            std::cerr << "shoal: warning: what was changed was not saved in "
+                      << printable(editor_.document.file()) << "\n";
     }
 
   private:
@@ -686,7 +687,7 @@ int editCommand(const Options& options) {
     wanted.preferWindow = true;
     wanted.width = options.width;
     wanted.height = options.height;
-    wanted.title = "Shoal - " + std::filesystem::path(options.files.front()).filename().string();
+    wanted.title = "Shoal - " + printable(std::filesystem::path(options.files.front()).filename().string());
     gpu::Context context(wanted);
     EditorWindow(options, context).go();
     return 0;

@@ -37,8 +37,8 @@ int explainCommand(const Options& options) {
     const PathLimits limits;
     const PathChoice choice = choosePath(loaded.plan, options.path, limits);
     if (options.shader && choice.path != Path::fused)
-        throw Error("--shader prints the fused path's kernels; this scene runs on the other path: " +
-                    choice.why);
+        throw WrongUse("--shader prints the fused path's kernels; this scene runs on the other path: " +
+                       choice.why);
     if (options.json) {
         JsonValue report = explainJson(loaded.plan, choice, options.inPlace);
         if (found) report.add("calibration", asJson(*found));

@@ -98,7 +98,7 @@ std::string exportName(const std::string& target, int frame, bool several, int l
 Exporter::Exporter(const Options& options, int first, int last)
     : options_(options), first_(first), last_(last) {
     if (options.exportEvery && *options.exportEvery > last - first)
-        throw Error(
+        throw WrongUse(
             concat("--export-every ", *options.exportEvery, " is beyond the last frame, ", last - first));
     if (options.exports.empty()) return;
     const std::string kind = lowerExtension(options.exports);

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "core/file.h"
+#include "core/printable.h"
 
 namespace shoal::app {
 
@@ -158,6 +159,27 @@ void writeVtp(const std::string& file, Simulation& simulation, const Scene& scen
     text.write(file);
 }
 
+// A value between double quotes. Error: XML has no way to write it.
+static std::string xmlQuoted(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const Utf8 one = firstCharacter(text);
+        const bool known = one.code == '\n' || one.code == '\r' || one.code == '\t' ||
+                           (one.code >= 0x20 && one.code < 0xfffe) ||
+                           (one.code >= 0x10000 && one.code <= 0x10ffff);
+        if (!known)
+            throw Error(concat("\"", text,
+                               "\": an index (.pvd) cannot name a file with control characters or "
+                               "bytes that are no UTF-8"));
+        if (one.code < 0x20 || std::string_view("\"&<>").find(text[0]) != std::string_view::npos)
+            out += concat("&#", one.code, ";");
+        else
+            out += text.substr(0, one.bytes);
+        text.remove_prefix(one.bytes);
+    }
+    return out;
+}
+
 PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
     std::error_code code;
     if (!std::filesystem::is_regular_file(file_, code)) return;
@@ -165,7 +187,8 @@ PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
     for (std::string line; std::getline(old, line);) {
         double time = 0;
         if (std::sscanf(line.c_str(), "<DataSet timestep=\"%lf\"", &time) == 1 &&
-            time < until * (1 - 1e-8))  // it was written with nine digits
+            time < until * (1 - 1e-8) &&  // it was written with nine digits
+            line.ends_with("\"/>") && line.find('<', 1) == std::string::npos)  // a line of ours
             lines_ += line + "\n";
     }
 }
@@ -173,7 +196,7 @@ PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
 void PvdIndex::add(double time, const std::string& dataFile) {
     char number[32];
     std::snprintf(number, sizeof number, "%.9g", time);
-    lines_ += concat("<DataSet timestep=\"", number, "\" part=\"0\" file=\"", dataFile, "\"/>\n");
+    lines_ += concat("<DataSet timestep=\"", number, "\" part=\"0\" file=\"", xmlQuoted(dataFile), "\"/>\n");
     writeFile(file_,
               std::string_view(concat(
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"",

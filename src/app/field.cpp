@@ -6,6 +6,7 @@
 #include "app/field_watch.h"
 #include "core/file.h"
 #include "core/json.h"
+#include "core/printable.h"
 #include "scene/load_model.h"
 #include "scene/scene_file.h"
 
@@ -71,7 +72,7 @@ std::string asText(const BakedField& baked) {
     const SampleGrid& grid = field.grid;
     const double mebibytes = double(field.bytesOnDevice()) / (1 << 20);
     std::string out =
-        concat("field \"", baked.name, "\": ", field.surface.triangles, " triangles, ",
+        concat("field \"", printable(baked.name), "\": ", field.surface.triangles, " triangles, ",
                field.surface.closed() ? std::string("closed") : "not closed: " + whyOpen(field.surface));
     if (field.shell > 0) out += concat("\n  a shell ", field.shell, " m thick");
     out += concat("\n  resolution ", field.resolution, ": ", grid.size.x, " x ", grid.size.y, " x ",
@@ -125,8 +126,8 @@ SlicePlane planeOf(const Options& options, const BakedField& baked) {
     const double middle = (grid.low[axis] + grid.high()[axis]) / 2;
     const double position = options.field.slicePosition.value_or(middle);
     if (position < grid.low[axis] || position > grid.high()[axis])
-        throw Error(concat("--slice: ", "xyz"[axis], " = ", position, " is outside of the grid, from ",
-                           grid.low[axis], " to ", grid.high()[axis]));
+        throw WrongUse(concat("--slice: ", "xyz"[axis], " = ", position, " is outside of the grid, from ",
+                              grid.low[axis], " to ", grid.high()[axis]));
     return {axis, position};
 }
 
@@ -142,18 +143,18 @@ int fieldCommand(const Options& options) {
         std::erase_if(fields,
                       [&](const BakedField& f) { return f.name.find(options.only) == std::string::npos; });
     if (fields.empty())
-        throw Error(concat("--only: no distance field has \"", options.only, "\" in its name"));
+        throw WrongUse(concat("--only: no distance field has \"", options.only, "\" in its name"));
     if (!options.capture.empty() && fields.size() > 1)
-        throw Error(concat("--capture draws one field, and the scene has ", fields.size(),
-                           ": choose one with --only"));
+        throw WrongUse(concat("--capture draws one field, and the scene has ", fields.size(),
+                              ": choose one with --only"));
     std::string drawn;
     if (!options.capture.empty()) {
         const SlicePlane plane = planeOf(options, fields.front());
         const SlicePicture picture =
             drawSlice(fields.front().field, fields.front().mesh, plane, options.width, options.height);
         writePng(options.capture, picture.image);
-        drawn = concat("  ", options.capture, ": the slice ", "xyz"[plane.axis], " = ", plane.position,
-                       " m, a contour every ", picture.contours, " m\n");
+        drawn = concat("  ", printable(options.capture), ": the slice ", "xyz"[plane.axis], " = ",
+                       plane.position, " m, a contour every ", picture.contours, " m\n");
     }
     JsonValue report = JsonValue::makeArray();
     for (const BakedField& field : fields) {

@@ -1,5 +1,6 @@
 #include "app/gnuplot.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 
 #include "core/error.h"
 #include "core/part_file.h"
+#include "core/printable.h"
 
 namespace shoal::app {
 
@@ -43,9 +45,9 @@ std::string contents(int file) {
     return out;
 }
 
-// Its exit code; what it says goes to `log`.
-int runGnuplot(const std::string& program, const std::string& script, std::string& log) {
-    const int input = memoryFile("gnuplot's script"), output = memoryFile("gnuplot's messages");
+// Its exit code; the picture goes to the file `output`, what it says to `log`.
+int runGnuplot(const std::string& program, const std::string& script, int output, std::string& log) {
+    const int input = memoryFile("gnuplot's script"), messages = memoryFile("gnuplot's messages");
     for (size_t done = 0; done < script.size();) {
         const ssize_t part = write(input, script.data() + done, script.size() - done);
         if (part <= 0) throw Error("cannot write gnuplot's script");
@@ -57,22 +59,24 @@ int runGnuplot(const std::string& program, const std::string& script, std::strin
         // Only calls that are safe between fork and exec.
         dup2(input, STDIN_FILENO);
         dup2(output, STDOUT_FILENO);
-        dup2(output, STDERR_FILENO);
-        execl(program.c_str(), "gnuplot", "-", static_cast<char*>(nullptr));
+        dup2(messages, STDERR_FILENO);
+        // Without the user's settings, and those of the folder.
+        execl(program.c_str(), "gnuplot", "-d", "-", static_cast<char*>(nullptr));
         _exit(127);
     }
     int status = -1;
     while (process > 0 && waitpid(process, &status, 0) < 0 && errno == EINTR) {
     }
-    log = contents(output);
+    log = contents(messages);
     close(input);
-    close(output);
+    close(messages);
     return process > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
 }  // namespace
 
-std::string quoted(std::string text) {
+std::string quoted(const std::string& given) {
+    std::string text = printable(given);
     for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
         text.insert(at, "'");
     return "'" + text + "'";
@@ -86,14 +90,14 @@ void needGnuplot(const std::string& file) {
     PartFile{file};  // made, and taken away again
 }
 
-void drawWithGnuplot(const std::string& file, const std::function<std::string(const std::string&)>& script) {
+void drawWithGnuplot(const std::string& file, const std::string& script) {
     PartFile part(fs::absolute(file));
     std::string log;
-    const int code = runGnuplot(findGnuplot(), script(part.path().string()), log);
+    const int code = runGnuplot(findGnuplot(), script, part.file(), log);
     std::error_code error;
     const bool written = fs::exists(part.path(), error) && fs::file_size(part.path(), error) > 0;
     if (code != 0 || !written)
-        throw Error(concat(file, ": gnuplot did not draw it", log.empty() ? "" : ": ", log));
+        throw Error(concat(file, ": gnuplot did not draw it", log.empty() ? "" : ": ", indented(log)));
     part.replaceTarget();
 }
 

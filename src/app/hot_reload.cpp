@@ -5,6 +5,7 @@
 #include <set>
 
 #include "app/data_paths.h"
+#include "core/printable.h"
 
 namespace shoal::app {
 
@@ -63,10 +64,10 @@ bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
 void HotReload::tell(const RunningScene::Reloaded& reloaded) {
     std::cout << "reloaded:";
     for (const std::string& file : changed_)
-        std::cout << " " << file;
+        std::cout << " " << printable(file);
     if (!reloaded.restarted.empty()) std::cout << "; begins anew:";
     for (const std::string& group : reloaded.restarted)
-        std::cout << " " << group;
+        std::cout << " " << printable(group);
     std::cout << std::endl;
 }
 

@@ -5,7 +5,29 @@
 
 #include "app/commands.h"
 #include "app/data_paths.h"
+#include "app/scene_list.h"
 #include "app/signals.h"
+#include "core/printable.h"
+
+// Scenes by their names become files. What `check` does not find it reports like other files.
+static void findScenes(shoal::app::Options& options) {
+    using Command = shoal::app::Options::Command;
+    for (std::string& file : options.files) {
+        switch (options.command) {
+        case Command::run:
+        case Command::explain:
+        case Command::measure:
+        case Command::field:
+            file = shoal::app::needScene(file);
+            break;
+        case Command::check:
+            file = shoal::app::sceneFile(file).value_or(file);
+            break;
+        default:
+            break;
+        }
+    }
+}
 
 int main(int argc, char** argv) {
     using namespace shoal::app;
@@ -13,14 +35,20 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     catchSignals();
+    // Whoever writes to them, of whatever names: no terminal takes it for anything but text.
+    const shoal::PrintableStream out(std::cout), messages(std::cerr);
     try {
-        const std::optional<Options> options = parseOptions(argc, argv);
+        std::optional<Options> options = parseOptions(argc, argv);
         int code = 0;
-        if (options && !options->files.empty()) keepToSandbox(*options, options->files.front());
         if (options) {
+            findScenes(*options);
+            if (!options->files.empty()) keepToSandbox(*options, options->files.front());
             switch (options->command) {
             case Options::Command::run:
                 code = runCommand(*options);
+                break;
+            case Options::Command::scenes:
+                code = scenesCommand(*options);
                 break;
             case Options::Command::check:
                 code = checkCommand(*options);
@@ -57,8 +85,13 @@ int main(int argc, char** argv) {
         return code;
     } catch (const std::bad_alloc&) {
         std::cerr << "shoal: out of memory\n";
-    } catch (const std::exception& error) {
+    } catch (const WrongUse& error) {
         std::cerr << "shoal: " << error.what() << "\n";
+        return 2;
+    } catch (const shoal::Error& error) {
+        std::cerr << "shoal: " << error.what() << "\n";
+    } catch (const std::exception& error) {
+        std::cerr << "shoal: " << shoal::printable(error.what()) << "\n";
     }
     return 1;
 }

@@ -13,6 +13,7 @@
 #include "app/progress.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
+#include "core/printable.h"
 #include "scene/scene_file.h"
 
 namespace shoal::app {
@@ -85,10 +86,10 @@ AccuracyPanel panelOf(const MeasureReport& report) {
 void tell(const MeasureReport& report, const Options& options) {
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     if (!options.csv.empty()) writeFile(options.csv, asCsv(report));
-    if (!options.csv.empty() && !options.json) std::cout << "\ntable: " << options.csv << "\n";
+    if (!options.csv.empty() && !options.json) std::cout << "\ntable: " << printable(options.csv) << "\n";
     std::cout.flush();
     if (!options.plot.empty()) plotAccuracy(options.plot, panelOf(report));
-    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << options.plot << "\n";
+    if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
 }
 
 }  // namespace

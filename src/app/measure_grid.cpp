@@ -19,6 +19,7 @@
 #include "app/measure_read.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
+#include "core/printable.h"
 #include "measure/report_scenes.h"
 
 namespace shoal::app {
@@ -120,8 +121,9 @@ std::string headOf(const std::vector<Measured>& there) {
         const MeasuredWith& with = one.with;
         const auto [measured, timed] = with.molecules.at(0);
         const std::string head =
-            concat("Machine: ", with.processor, ". Context: ", with.renderer, " (", with.context,
-                   "), OpenGL ", with.opengl, ". ", timed, " molecules timed, ", measured, " measured.\n\n");
+            concat("Machine: ", printable(with.processor), ". Context: ", printable(with.renderer), " (",
+                   printable(with.context), "), OpenGL ", printable(with.opengl), ". ", timed,
+                   " molecules timed, ", measured, " measured.\n\n");
         if (std::find(heads.begin(), heads.end(), head) == heads.end()) heads.push_back(head);
     }
     std::string out;
@@ -180,12 +182,13 @@ void tellAll(const Options& options, const std::vector<ReportScene>& all) {
         places[i] = found[i]->entry;
     }
     if (there.empty())
-        throw Error(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
+        throw WrongUse(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
     const std::string text = headOf(there) + tables(entries, options.error.value_or(1e-3));
     writeFile(fs::path(options.report) / "tables.md", text);
     const MeasuredWith& first = there.front().with;
     drawAll(options, all, places, first.processor + ", " + first.renderer);
     std::cout << text;
+    std::cerr << "tables and pictures: " << printable(options.report) << "\n";
 }
 
 }  // namespace

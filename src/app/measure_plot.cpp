@@ -137,8 +137,7 @@ std::string terminal(const std::string& output, int width, int height, int font)
         svg ? concat("set terminal svg size ", width, ",", height, " dynamic font 'DejaVu Sans,", font,
                      "' background rgb 'white'\n")
             : concat("set terminal pngcairo size ", width * 3 / 2, ",", height * 3 / 2, " font 'DejaVu Sans,",
-                     font, "' fontscale ", font < 14 ? 1.25 : 1.5, " linewidth 1.5 pointscale 1.5\n"),
-        "set output ", quoted(output), "\n");
+                     font, "' fontscale ", font < 14 ? 1.25 : 1.5, " linewidth 1.5 pointscale 1.5\n"));
 }
 
 const char* axes =
@@ -212,7 +211,7 @@ bool plottable(const std::vector<AccuracyPoint>& points) {
     return std::any_of(points.begin(), points.end(), drawn);
 }
 
-std::string accuracyScript(const std::string& output, const AccuracyPanel& panel) {
+static std::string accuracyScript(const std::string& output, const AccuracyPanel& panel) {
     Limits limits;
     limits.add(panel.points);
     if (!limits.any()) limits.add(panel.points, std::numeric_limits<double>::infinity());
@@ -233,13 +232,12 @@ std::string accuracyScript(const std::string& output, const AccuracyPanel& panel
 void plotAccuracy(const std::string& file, const AccuracyPanel& panel) {
     if (!plottable(panel.points))
         throw Error(concat(file, ": no point has both an error and a time to draw"));
-    drawWithGnuplot(file, [&](const std::string& output) { return accuracyScript(output, panel); });
+    drawWithGnuplot(file, accuracyScript(file, panel));
 }
 
 void plotGrid(const std::string& file, const std::string& title, int columns,
               const std::vector<AccuracyPanel>& panels) {
-    drawWithGnuplot(file,
-                    [&](const std::string& output) { return gridScript(output, title, columns, panels); });
+    drawWithGnuplot(file, gridScript(file, title, columns, panels));
 }
 
 }  // namespace shoal::app

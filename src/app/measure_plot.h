@@ -26,7 +26,4 @@ void plotAccuracy(const std::string& file, const AccuracyPanel& panel);
 void plotGrid(const std::string& file, const std::string& title, int columns,
               const std::vector<AccuracyPanel>& panels);
 
-// What gnuplot is told.
-std::string accuracyScript(const std::string& output, const AccuracyPanel& panel);
-
 }  // namespace shoal::app

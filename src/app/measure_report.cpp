@@ -6,6 +6,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "core/printable.h"
 #include "measure/bench_case.h"
 #include "measure/calibration_store.h"
 #include "measure/pareto.h"
@@ -40,16 +41,17 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
     out << report.processor << ", " << report.cores << " cores\n"
         << report.context.renderer << " (" << gpu::name(report.context.kind) << "), OpenGL "
         << report.context.version << "; " << name(a.path) << " path\n"
-        << "\"" << a.scene << "\": " << a.duration << " s at " << a.frameRate << " frames a second\n";
+        << "\"" << printable(a.scene) << "\": " << a.duration << " s at " << a.frameRate
+        << " frames a second\n";
     for (const AccuracyGroup& group : a.groups)
-        out << "  " << group.name << ": " << many(group.vertices, "vertex", "vertices") << ", "
+        out << "  " << printable(group.name) << ": " << many(group.vertices, "vertex", "vertices") << ", "
             << many(group.springs, "spring", "springs") << ", up to "
             << number("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured << ", time of "
             << grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
-        out << "too stiff, so that no errors are given: " << a.tooStiff << "\n";
+        out << "too stiff, so that no errors are given: " << printable(a.tooStiff) << "\n";
     else if (!a.chaotic.empty())
-        out << "chaotic, so that no errors are given: " << a.chaotic << "\n";
+        out << "chaotic, so that no errors are given: " << printable(a.chaotic) << "\n";
     else
         out << "the reference is good to " << exponent(a.referenceError) << "\n";
 }
@@ -97,7 +99,8 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
     const auto tellRefused = [&] {
         if (refused != nullptr)
             out << "  refused up to " << steps(*refused)
-                << (refused->step.perFrame() == 1 ? " substep: " : " substeps: ") << refused->why << "\n";
+                << (refused->step.perFrame() == 1 ? " substep: " : " substeps: ") << printable(refused->why)
+                << "\n";
         refused = nullptr;
     };
     for (const AccuracyPoint& point : report.accuracy.points) {
@@ -108,7 +111,8 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
         }
         tellRefused();
         if (point.outcome != Outcome::measured) {
-            out << "  " << steps(point) << " substeps: " << name(point.outcome) << ": " << point.why << "\n";
+            out << "  " << steps(point) << " substeps: " << name(point.outcome) << ": "
+                << printable(point.why) << "\n";
             continue;
         }
         if (!head)
@@ -123,7 +127,8 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
 void addChosen(std::ostringstream& out, const MeasureReport& report) {
     out << "\n";
     if (!report.chosen) {
-        out << "For an error of " << report.target << " nothing is chosen: " << report.notChosen << "\n";
+        out << "For an error of " << report.target << " nothing is chosen: " << printable(report.notChosen)
+            << "\n";
         return;
     }
     out << asText(*report.chosen);
@@ -204,8 +209,8 @@ JsonValue asJson(const AccuracyGroup& group) {
 
 std::string quotedCell(const std::string& text) {
     std::string out = "\"";
-    for (const char c : text)
-        out += c == '"' ? std::string("\"\"") : std::string(1, c == '\n' ? ' ' : c);
+    for (const char c : printable(text))
+        out += c == '"' ? std::string("\"\"") : std::string(1, c);
     return out + "\"";
 }
 
@@ -230,12 +235,13 @@ std::string oneLine(const Calibration& one) {
 
 std::string asText(const Calibration& one) {
     std::ostringstream out;
-    out << oneLine(one) << ": " << one.why << "\n";
+    out << oneLine(one) << ": " << printable(one.why) << "\n";
     for (const Candidate& candidate : one.candidates) {
         out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
             << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")
             << std::setw(10) << (candidate.error ? exponent(*candidate.error) : "-") << std::setw(9)
-            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << candidate.why << "\n";
+            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why)
+            << "\n";
     }
     return out.str();
 }
@@ -249,7 +255,7 @@ std::string asText(const MeasureReport& report) {
     addChosen(out, report);
     if (!report.accuracy.notes.empty()) out << "\n";
     for (const std::string& note : report.accuracy.notes)
-        out << "note: " << note << "\n";
+        out << "note: " << printable(note) << "\n";
     return out.str();
 }
 

@@ -9,6 +9,7 @@
 #include "core/image.h"
 #include "core/json.h"
 #include "core/many.h"
+#include "core/printable.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "scene/load_model.h"
@@ -82,7 +83,7 @@ int substeps(const Report& report) {
 std::string asText(const Report& r) {
     const MadeMolecule& made = r.made;
     const Molecule& molecule = made.molecule;
-    std::string out = concat(r.file, ": ", many(r.sourceVertices, "vertex", "vertices"), ", ",
+    std::string out = concat(printable(r.file), ": ", many(r.sourceVertices, "vertex", "vertices"), ", ",
                              many(r.sourceTriangles, "triangle", "triangles"), ", ", round3(made.extent.x),
                              " x ", round3(made.extent.y), " x ", round3(made.extent.z), " m, ",
                              made.solid ? concat("a volume of ", round3(made.volume), " m^3")
@@ -90,11 +91,11 @@ std::string asText(const Report& r) {
     size_t pinned = 0;
     for (const Vertex& vertex : molecule.vertices)
         pinned += vertex.pinned ? 1 : 0;
-    out +=
-        concat("\nmolecule \"", molecule.name, "\": ", many(molecule.vertices.size(), "vertex", "vertices"),
-               pinned > 0 ? concat(" (", pinned, " pinned)") : "", ", ",
-               many(molecule.triangles.size(), "triangle", "triangles"), ", ", made.material, ", ",
-               round3(r.analysis.totalMass), " kg");
+    out += concat("\nmolecule \"", printable(molecule.name),
+                  "\": ", many(molecule.vertices.size(), "vertex", "vertices"),
+                  pinned > 0 ? concat(" (", pinned, " pinned)") : "", ", ",
+                  many(molecule.triangles.size(), "triangle", "triangles"), ", ", made.material, ", ",
+                  round3(r.analysis.totalMass), " kg");
     out += concat("\n  ", many(molecule.springs.size(), "spring", "springs"), ": ", made.edges, " edges, ",
                   made.shears, " shear, ", made.bends, " bending, ", made.braces, " through the inside, ",
                   made.repairs, " repairs");
@@ -111,11 +112,12 @@ std::string asText(const Report& r) {
                       round3(made.skinError / molecule.size()), " of its size");
     out += "\n";
     for (const std::string& note : made.notes)
-        out += "  note: " + note + "\n";
+        out += "  note: " + printable(note) + "\n";
     for (const Warning& warning : r.warnings)
         out += "  warning: " + text(warning) + "\n";
-    out += concat(r.output.empty() ? std::string("not written (give -o FILE.json)") : "wrote " + r.output,
-                  ", ", round3(r.seconds), " s\n");
+    out += concat(
+        r.output.empty() ? std::string("not written (give -o FILE.json)") : "wrote " + printable(r.output),
+        ", ", round3(r.seconds), " s\n");
     return out;
 }
 

@@ -11,6 +11,7 @@
 #include "app/editor_view.h"
 #include "core/cache_folder.h"
 #include "core/many.h"
+#include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
 
@@ -182,7 +183,7 @@ int moleculeShowCommand(const Options& options) {
     gpu::Context context(wanted);
     gpu::ProgramCache cache(context, cacheFolder());
     writePng(options.capture, Sheet(context, cache, molecule, options.width, options.height).draw());
-    std::cout << "picture: " << options.capture << "\n";
+    std::cout << "picture: " << printable(options.capture) << "\n";
     return 0;
 }
 

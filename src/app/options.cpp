@@ -7,7 +7,10 @@
 #include <iostream>
 
 #include "app/cli.h"
+#include "app/documents.h"
 #include "app/interface.h"
+#include "app/options_field.h"
+#include "app/options_measure.h"
 #include "core/file.h"
 #include "scene/scene_file.h"
 
@@ -15,58 +18,43 @@ namespace shoal::app {
 
 namespace {
 
-struct Texts {
-    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice,
-                exportCells = "surface";
-    std::vector<std::string> solvers, samplings;
-};
-
 void addSandbox(CLI::App& command, Options& options) {
+    section(command, execution);
     command.add_flag("--sandbox", options.sandbox,
                      "Open nothing outside the file's own folder and the shipped data, links followed");
 }
 
 void addScene(CLI::App& command, Options& options) {
-    command.add_option("scene", options.files, "Scene file (.scene.json)")->required()->expected(1);
+    command.add_option("scene", options.files, "Scene file (.scene.json), or a name that shoal scenes lists")
+        ->required()
+        ->expected(1)
+        ->type_name("SCENE");
 }
 
-CLI::Validator wholeNumber() {
-    return kindOf(isAll<int>, "a whole number");
+std::string solverWords() {
+    std::string out = "auto";
+    for (const Solver& one : solvers())
+        out += concat("|", one.name);
+    return out;
 }
 
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
+    section(command, ofScene);
     command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's")
         ->check(kindOf(isAll<double>, "a time in seconds"));
-    command.add_option(
-        "--solver", texts.solver,
-        "auto, euler, verlet, leapfrog, rk4, xpbd, bdf2-xpbd or bdf2-corotated, instead of the scene's");
+    command.add_option("--solver", texts.solver, "Method of every group, instead of the scene's")
+        ->type_name(solverWords());
     command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
         ->check(wholeNumber());
-    command.add_option("--field-sampling", options.fieldSampling,
-                       "vertexSubstep, vertexFrame or moleculeFrame, instead of the scene's");
     command
-        .add_option("--count", options.count,
-                    "Molecules in each group that is placed at random; places where they are born")
-        ->check(wholeNumber());
-    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
-        ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
-}
-
-void addPath(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("--path", texts.path, "fused (OpenGL 4.3), ping-pong (3.3) or auto")
-        ->capture_default_str();
-    command
-        .add_option("--lanes", texts.lanes, "Fused: a lane a molecule or a vertex: molecule, vertex or auto")
-        ->capture_default_str();
-    command.add_flag("--in-place", options.inPlace, "Fused: one copy of the state instead of two");
-}
-
-void addContext(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("--context", texts.context, "window, egl, osmesa or auto")->capture_default_str();
-    command.add_flag("--json", options.json, "Report as JSON on standard output");
+        .add_option("--field-sampling", options.fieldSampling,
+                    "Where and how often fields are read, instead of the scene's")
+        ->type_name("vertexSubstep|vertexFrame|moleculeFrame");
+    addCountAndSeed(command, options);
 }
 
 void addError(CLI::App& command, Options& options) {
+    section(command, ofScene);
     command
         .add_option("--error", options.error,
                     "Cheapest solver, substeps and field sampling whose measured error is below this")
@@ -74,125 +62,80 @@ void addError(CLI::App& command, Options& options) {
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("molecule", options.files, "Molecule file")->required()->expected(1);
-    command.add_option("--size", texts.size, "Size of the window in pixels")->capture_default_str();
+    command.add_option("molecule", options.files, "Molecule file")
+        ->required()
+        ->expected(1)
+        ->type_name("FILE");
+    command.add_option("--size", texts.size, "Size of the window in pixels")
+        ->type_name("WxH")
+        ->capture_default_str();
     command
         .add_option("--scale", options.scale, "Pixels a point of the panels; as the screen asks unless given")
         ->check(kindOf(isAll<double>, "a number"));
     command.add_option("--frames", options.frames, "Close after so many frames")->check(wholeNumber());
-    command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG");
+    command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG")
+        ->type_name("FILE");
 }
 
 void addRun(CLI::App& command, Options& options, Texts& texts) {
     command
-        .add_option("scene", options.files,
-                    "Scene file (.scene.json); nothing, or a folder: a window lists those to choose from")
-        ->expected(0, 1);
+        .add_option(
+            "scene", options.files,
+            "Scene file (.scene.json), or a name that shoal scenes lists; nothing, or a folder: lists "
+            "those to choose from")
+        ->expected(0, 1)
+        ->type_name("SCENE");
     addError(command, options);
     addOverrides(command, options, texts);
     addPath(command, options, texts);
     addContext(command, options, texts);
+    section(command, execution);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
     command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
         ->check(wholeNumber());
-    command.add_option("--size", texts.size, "Picture size in pixels")->capture_default_str();
+    command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
+    section(command, "Pictures");
+    command.add_option("--size", texts.size, "Size of pictures, or of the window, in pixels")
+        ->type_name("WxH")
+        ->capture_default_str();
     command
-        .add_option("--scale", options.scale,
-                    "Window: size of panels and letters, such as 2 (default: as the screen asks)")
-        ->check(kindOf(isAll<double>, "a factor such as 1.5"));
-    command.add_option("--capture", options.capture,
-                       "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)");
+        .add_option("--capture", options.capture,
+                    "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)")
+        ->type_name("TARGET");
     command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
         ->check(wholeNumber())
         ->capture_default_str();
-    command.add_option(
-        "--export", options.exports,
-        "State: folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)");
+    section(command, "State");
+    command
+        .add_option("--export", options.exports,
+                    "Folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)")
+        ->type_name("TARGET");
     command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
         ->delimiter(',')
         ->check(wholeNumber());
     command.add_option("--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)")
         ->check(wholeNumber());
-    command.add_option("--export-cells", texts.exportCells,
-                       ".vtp, .pvd: surface, springs or vertices (default: surface)");
-    command.add_option("--save", options.save, "File for the state at the end, to resume from");
+    command.add_option("--export-cells", texts.exportCells, ".vtp, .pvd: what becomes cells")
+        ->type_name("surface|springs|vertices")
+        ->capture_default_str();
+    command.add_option("--save", options.save, "File for the state at the end, to resume from")
+        ->type_name("FILE");
     command.add_option("--save-frames", options.saveFrames, "Frames to save (default: the last)")
         ->delimiter(',')
         ->check(wholeNumber());
-    command.add_option("--resume", options.resume,
-                       "Go on from the state in this file; --frames are further ones");
-    command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
+    command
+        .add_option("--resume", options.resume,
+                    "Go on from the state in this file; --frames are further ones")
+        ->type_name("FILE");
+    section(command, reports);
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
-    command.add_option("--screenshot", options.screenshot,
-                       "Window: save its picture after --frames and close");
-}
-
-// What `shoal bench` measures beside the simulation's frames, each in a file bench_<word>.cpp.
-const std::vector<std::string> benchWords = {"sort", "collide", "particles", "school"};
-
-void addBench(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option(
-        "of", options.benchOf,
-        "sort: the sorts; collide: contact; particles: points; school: fish; nothing: frames of "
-        "molecules");
-    addContext(command, options, texts);
-    command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
-    command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
-    command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
-    command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)");
-}
-
-void addMeasure(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("scene", options.files, "Scene file (.scene.json)")->expected(1);
-    addError(command, options);
-    command.add_option("--solvers", texts.solvers, "Only these, such as euler,leapfrog")->delimiter(',');
-    command.add_option("--samplings", texts.samplings, "Only these, such as vertexFrame")->delimiter(',');
-    command.add_option("--duration", options.duration, "Simulated seconds after which the error is taken")
-        ->check(kindOf(isAll<double>, "a time in seconds"))
-        ->capture_default_str();
-    command.add_option("--molecules", options.molecules, "Molecules of each group whose error is measured")
-        ->check(wholeNumber())
-        ->capture_default_str();
-    command.add_option("--seconds", options.seconds, "About how long to measure; leaves out what is dearest")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
-    command.add_flag("--fine", options.fine, "Steps by the square root of 2 instead of 2");
-    command.add_option("--csv", options.csv, "Every point as a row of this file");
-    command.add_option("--plot", options.plot, "Error against time (.svg or .png)");
-    command.add_option("--report", options.report,
-                       "Measures the report's own scenes into this folder, and goes on where it was ended");
-    command.add_option("--only", options.only,
-                       "With --report: scenes with this in their name, such as leaf-fall");
+    section(command, "Window");
     command
-        .add_option("--count", options.count,
-                    "Molecules in each group that is placed at random; places where they are born")
-        ->check(wholeNumber());
-    command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
-        ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
-    addPath(command, options, texts);
-    addContext(command, options, texts);
-}
-
-void addField(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("file", options.files, "Scene (.scene.json), or a model of any format")
-        ->required()
-        ->expected(1);
-    const auto length = [&](const char* option, std::optional<double>& value, const char* what) {
-        command.add_option(option, value, what)->check(kindOf(isAll<double>, "a length in m"));
-    };
-    command
-        .add_option("--resolution", options.field.resolution,
-                    concat("Cells along the model's longest side (default ", defaultResolution, ")"))
-        ->check(wholeNumber());
-    length("--error", options.field.error,
-           "Instead: refine until no point near the surface is off by more, m");
-    length("--shell", options.field.shell, "Thickness of a model that is not closed, m (default two cells)");
-    length("--thickness", options.field.thickness, "What vertices keep off the surface, m (default 0.002)");
-    command.add_option("--capture", options.capture, "Draw a slice into this file (.png)");
-    command.add_option("--slice", texts.slice, "Its plane, such as y=0.5 (default z, through the middle)");
-    command.add_option("--size", texts.size, "Largest size of the picture in pixels")->capture_default_str();
-    command.add_option("--only", options.only, "Of a scene: fields with this in their name");
-    command.add_flag("--json", options.json, "Report as JSON on standard output");
+        .add_option("--scale", options.scale,
+                    "Size of panels and letters, such as 2 (default: as the screen asks)")
+        ->check(kindOf(isAll<double>, "a factor such as 1.5"));
+    command.add_option("--screenshot", options.screenshot, "Save its picture after --frames and close")
+        ->type_name("FILE");
 }
 
 void readExportCells(const std::string& word, Options& options) {
@@ -204,90 +147,6 @@ void readExportCells(const std::string& word, Options& options) {
     const std::string kind = lowerExtension(options.exports);
     if (options.exportCells != ExportCells::surface && kind != ".vtp" && kind != ".pvd")
         throw Error("--export-cells is of --export to .vtp or .pvd");
-}
-
-// x, y or z, and where.
-void readSlice(const std::string& text, Options& options) {
-    if (text.empty()) return;
-    const size_t axis = std::string("xyz").find(text[0]);
-    const std::string position = text.size() > 2 ? text.substr(2) : "";
-    if (axis == std::string::npos || (text.size() > 1 && (text[1] != '=' || !isAll<double>(position))))
-        throw Error(concat("--slice: expected x, y or z and a position such as y=0.5, found \"", text, "\""));
-    options.field.sliceAxis = int(axis);
-    if (!position.empty()) options.field.slicePosition = std::stod(position);
-}
-
-void checkField(const Options& options) {
-    if (options.command != Options::Command::field) return;
-    const Options::Field& field = options.field;
-    if (field.resolution && field.error) throw Error("expected either --resolution or --error, found both");
-    if (field.resolution && (*field.resolution < leastResolution || *field.resolution > mostResolution))
-        throw Error(concat("--resolution: expected ", leastResolution, " to ", mostResolution, ", found ",
-                           *field.resolution));
-    const auto above = [](const char* option, const std::optional<double>& value, bool zero) {
-        if (value && !(zero ? *value >= 0 : *value > 0 && *value < 1e15))
-            throw Error(concat(option, ": expected a length ", zero ? "of at least" : "above", " 0 m, found ",
-                               *value));
-    };
-    above("--error", field.error, false);
-    above("--shell", field.shell, false);
-    above("--thickness", field.thickness, true);
-    if (!options.capture.empty() && lowerExtension(options.capture) != ".png")
-        throw Error(concat("--capture: expected a name ending in .png, found \"", options.capture, "\""));
-    if (field.sliceAxis && options.capture.empty()) throw Error("--slice needs --capture and a file's name");
-}
-
-std::optional<SolverKind> solverNamed(const char* option, const std::string& word) {
-    try {
-        return solverOf(word);
-    } catch (const Error& error) {
-        throw Error(concat(option, ": ", error.message()));
-    }
-}
-
-void readLists(const Texts& texts, Options& options) {
-    for (const std::string& word : texts.solvers) {
-        const std::optional<SolverKind> kind = solverNamed("--solvers", word);
-        if (!kind) throw Error("--solvers: expected the names of solvers; auto is the choice among them");
-        options.solvers.push_back(*kind);
-    }
-    for (const std::string& word : texts.samplings)
-        options.samplings.push_back(samplingNamed("--samplings", word));
-}
-
-void checkMeasure(const Options& options) {
-    if (options.error && !(*options.error > 0 && *options.error <= 1))
-        throw Error(concat("--error: expected a relative error above 0, at most 1, found ", *options.error));
-    if (options.command != Options::Command::measure) return;
-    if (options.files.empty() == options.report.empty())
-        throw Error("measure: expected a scene file, or --report and a folder");
-    if (!options.report.empty() && (!options.csv.empty() || !options.plot.empty() || options.json))
-        throw Error("--report writes files of its own: leave out --json, --csv and --plot");
-    if (options.report.empty() && !options.only.empty()) throw Error("--only chooses scenes of --report");
-    if (!(options.duration > 0 && options.duration <= 100))
-        throw Error(concat("--duration: expected a time above 0, at most 100 s, found ", options.duration));
-    if (options.molecules < 1 || options.molecules > 1024)
-        throw Error(concat("--molecules: expected 1 to 1024, found ", options.molecules));
-}
-
-void checkBench(const Options& options) {
-    if (options.command != Options::Command::bench || options.benchOf.empty()) return;
-    const std::string& word = options.benchOf;
-    if (std::find(benchWords.begin(), benchWords.end(), word) == benchWords.end())
-        throw Error(concat("bench: unknown \"", word, "\"", suggestion(word, benchWords),
-                           "; expected sort, collide, particles or nothing"));
-    if (!options.plot.empty())
-        throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
-    if (!options.only.empty() && word == "sort")
-        throw Error("--only is not of bench sort, which measures everything: leave it out");
-}
-
-// The report's scenes have their own.
-void checkReport(const Options& options, const CLI::App& measure) {
-    if (options.report.empty()) return;
-    for (const char* own : {"--duration", "--seed"})
-        if (measure.count(own) > 0)
-            throw Error(concat("--report: its scenes have their own times and seeds: leave out ", own));
 }
 
 // All long option names of a command, for suggestions.
@@ -401,50 +260,107 @@ void parseSize(const std::string& text, Options& options) {
         throw Error(concat("--size: expected WIDTHxHEIGHT in pixels such as 1280x720, found \"", text, "\""));
 }
 
-FieldSampling samplingNamed(const char* option, const std::string& word) {
-    std::vector<std::string> words;
-    for (const FieldSampling one :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
-        if (word == name(one)) return one;
-        words.emplace_back(name(one));
-    }
-    throw Error(concat(option, ": unknown sampling \"", word, "\"", suggestion(word, words)));
+static void declare(CLI::App& app, Options& options, Texts& texts) {
+    app.set_version_flag("--version", "shoal " SHOAL_VERSION);
+    app.require_subcommand(1);
+    app.formatter(helpFormat());
+    const auto add = [&app](const char* name, const char* what, const char* group) {
+        CLI::App* out = app.add_subcommand(name, what);
+        out->group(group);
+        return out;
+    };
+    const char *scenes = "Scenes", *molecules = "Molecules", *machine = "This machine";
+    addRun(*add("run", "Run a scene: in a window, or headless with pictures", scenes), options, texts);
+    add("scenes", "List the scenes that ship, or those below a folder", scenes)
+        ->add_option("folder", options.files, "Folder to look in (default: what ships)")
+        ->expected(0, 1)
+        ->type_name("FOLDER");
+    CLI::App* check = add("check", "Check molecule and scene files", scenes);
+    check->add_option("files", options.files, "Molecule or scene files, or names that shoal scenes lists")
+        ->required()
+        ->type_name("FILE");
+    check->add_flag("--json", options.json, "Report as JSON on standard output");
+    CLI::App* explain = add("explain", "Print what a scene compiles to, and why", scenes);
+    addScene(*explain, options);
+    addOverrides(*explain, options, texts);
+    addError(*explain, options);
+    addPath(*explain, options, texts);
+    addContext(*explain, options, texts);
+    explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
+    addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options, texts);
+    addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options,
+             texts.slice, texts.size);
+    addEdit(*add("edit", "Change a molecule in a window, while it moves", molecules), options, texts);
+    addMolecule(app, options);
+    app.get_subcommand("molecule")->group(molecules);
+    addContext(*add("info", "Print the OpenGL contexts that can be had", machine), options, texts);
+    addBench(*add("bench", "Measure speed, against the limit and the error", machine), options, texts);
+    for (const char* name : {"run", "check", "explain", "measure", "field", "edit"})
+        addSandbox(*app.get_subcommand(name), options);
+    for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
+        addSandbox(*command, options);
+    // Last, so that commands do not take it over.
+    app.footer(
+        "shoal COMMAND --help has the options of a command.\n"
+        "Exit codes: 0 when all went well, 1 when a run failed or a file is wrong, 2 when the command line "
+        "is "
+        "wrong.");
+    // What the installation is made with (cmake/ShoalInstall.cmake).
+    const auto document = [&app](const char* flag, std::string (*write)(const CLI::App&)) {
+        app.add_flag_callback(flag,
+                              [&app, write] {
+                                  std::cout << write(app);
+                                  throw CLI::Success();
+                              })
+            ->group("");
+    };
+    document("--man-page", manPage);
+    document("--bash-completion", bashCompletion);
+}
+
+// The command that the words on the command line have come to.
+static const CLI::App* reached(const CLI::App& app) {
+    const CLI::App* out = &app;
+    while (!out->get_subcommands().empty())
+        out = out->get_subcommands().back();
+    return out;
+}
+
+static std::string nameOf(const CLI::App* command) {
+    return (command->get_parent() ? nameOf(command->get_parent()) + " " : "") + command->get_name();
+}
+
+static Options::Command commandOf(const CLI::App& app) {
+    static const std::pair<const char*, Options::Command> names[] = {
+        {"run", Options::Command::run},     {"scenes", Options::Command::scenes},
+        {"check", Options::Command::check}, {"explain", Options::Command::explain},
+        {"bench", Options::Command::bench}, {"measure", Options::Command::measure},
+        {"field", Options::Command::field}, {"edit", Options::Command::edit},
+    };
+    for (const auto& [name, command] : names)
+        if (app.got_subcommand(name)) return command;
+    return Options::Command::info;
+}
+
+static void finish(const CLI::App& app, Options& options, const Texts& texts) {
+    options.command = commandOf(app);
+    options.context = gpu::contextKind(texts.context);
+    options.path = path(texts.path);
+    if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);
+    options.lanes = lanes(texts.lanes);
+    parseSize(texts.size, options);
+    finishMolecule(app, options);
+    checkRanges(options);
+    readExportCells(texts.exportCells, options);
+    checkField(options, texts.slice);
+    finishMeasure(texts, *app.get_subcommand("measure"), options);
 }
 
 std::optional<Options> parseOptions(int argc, char** argv) {
     Options options;
     Texts texts;
     CLI::App app("Shoal: very many small mass-spring meshes, simulated and drawn on the GPU", "shoal");
-    app.set_version_flag("--version", "shoal " SHOAL_VERSION);
-    app.require_subcommand(1);
-    CLI::App* run = app.add_subcommand("run", "Run a scene: in a window, or headless with pictures");
-    CLI::App* check = app.add_subcommand("check", "Check molecule and scene files");
-    CLI::App* explain = app.add_subcommand("explain", "Print what a scene compiles to, and why");
-    CLI::App* info = app.add_subcommand("info", "Print the OpenGL contexts that can be had");
-    CLI::App* bench = app.add_subcommand("bench", "Measure speed, against the limit and the error");
-    CLI::App* measure = app.add_subcommand("measure", "Measure a scene's error against what it costs");
-    CLI::App* field = app.add_subcommand("field", "Bake a model's distance field: its error, and a slice");
-    CLI::App* edit = app.add_subcommand("edit", "Change a molecule in a window, while it moves");
-    addRun(*run, options, texts);
-    addEdit(*edit, options, texts);
-    check->add_option("files", options.files, "Molecule or scene files")->required();
-    check->add_flag("--json", options.json, "Report as JSON on standard output");
-    addScene(*explain, options);
-    addOverrides(*explain, options, texts);
-    addPath(*explain, options, texts);
-    explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
-    addContext(*explain, options, texts);
-    addError(*explain, options);
-    addContext(*info, options, texts);
-    addBench(*bench, options, texts);
-    addMeasure(*measure, options, texts);
-    addField(*field, options, texts);
-    addMolecule(app, options);
-    for (CLI::App* command : {run, check, explain, measure, field, edit})
-        addSandbox(*command, options);
-    for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
-        addSandbox(*command, options);
-
+    declare(app, options, texts);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
@@ -453,30 +369,13 @@ std::optional<Options> parseOptions(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         std::string message = explainExtras(app, argc, argv);
         if (message.empty()) message = error.what();
-        throw Error(message + "; see shoal --help");
+        throw WrongUse(message + "; see " + nameOf(reached(app)) + " --help");
     }
-    options.command = run->parsed()       ? Options::Command::run
-                      : check->parsed()   ? Options::Command::check
-                      : explain->parsed() ? Options::Command::explain
-                      : bench->parsed()   ? Options::Command::bench
-                      : measure->parsed() ? Options::Command::measure
-                      : field->parsed()   ? Options::Command::field
-                      : edit->parsed()    ? Options::Command::edit
-                                          : Options::Command::info;
-    options.context = gpu::contextKind(texts.context);
-    options.path = path(texts.path);
-    if (!texts.solver.empty()) options.solver = solverNamed("--solver", texts.solver);
-    options.lanes = lanes(texts.lanes);
-    readLists(texts, options);
-    parseSize(texts.size, options);
-    finishMolecule(app, options);
-    checkRanges(options);
-    readExportCells(texts.exportCells, options);
-    readSlice(texts.slice, options);
-    checkMeasure(options);
-    checkBench(options);
-    checkField(options);
-    checkReport(options, *measure);
+    try {
+        finish(app, options, texts);
+    } catch (const Error& error) {
+        throw WrongUse(error.message());
+    }
     return options;
 }
 

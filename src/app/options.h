@@ -26,6 +26,7 @@ constexpr int headlessFrames = 240;  // unless --frames says otherwise
 struct Options {
     enum class Command {
         run,
+        scenes,
         check,
         explain,
         info,
@@ -100,8 +101,13 @@ struct Options {
     MoleculeOptions molecule;
 };
 
-// Error: unknown command, option or value, with a suggestion. Prints help or the version itself and returns
-// nothing then.
+// What the command line asks for cannot be: exit code 2, where a run that fails has 1.
+class WrongUse : public Error {
+    using Error::Error;
+};
+
+// WrongUse: unknown command, option or value, with a suggestion. Prints help or the version itself and
+// returns nothing then.
 std::optional<Options> parseOptions(int argc, char** argv);
 
 // "1280x720" into width and height. Error: not such a text, or out of range.

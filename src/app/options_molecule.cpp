@@ -21,18 +21,22 @@ void addFromMesh(CLI::App& command, Options& options) {
     };
     command.add_option("mesh", options.files, "Mesh of any format that Assimp reads")
         ->required()
-        ->expected(1);
-    command.add_option("-o,--output", molecule.output,
-                       "Molecule file (.json); without it nothing is written");
+        ->expected(1)
+        ->type_name("FILE");
+    command
+        .add_option("-o,--output", molecule.output, "Molecule file (.json); without it nothing is written")
+        ->type_name("FILE");
     command.add_flag("--force", molecule.force, "Write over a file that is there");
     count("--vertices", make.vertices, "At most so many are simulated (default 24)");
     count("--rings", make.rings, "Instead: so many rings of four vertices along the longest side");
-    command.add_option("--springs", molecule.springs,
-                       "surface, or lattice: tetrahedra that fill the volume (default surface)");
+    command.add_option("--springs", molecule.springs, "lattice: tetrahedra that fill the volume")
+        ->type_name("surface|lattice")
+        ->capture_default_str();
     std::string names;
     for (const ScaledMaterial& material : materialScale())
-        names += (names.empty() ? "" : ", ") + std::string(material.name);
-    command.add_option("--material", make.material, names + " (default flesh; of a sheet leaf)");
+        names += (names.empty() ? "" : "|") + std::string(material.name);
+    command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
+        ->type_name(names);
     number("--size", make.size, "m, of the longest side (default: as in the file)");
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");
@@ -45,7 +49,7 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--pin-paint", make.pins.paints,
                        "Pin what is painted in this vertex colour: red, or 1,0.5,0");
     command.add_option("--name", make.name, "Of the molecule (default: that of the file)");
-    command.add_option("--texture", molecule.texture, "PNG beside the molecule file");
+    command.add_option("--texture", molecule.texture, "PNG beside the molecule file")->type_name("FILE");
     command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
@@ -55,9 +59,15 @@ void addFromMesh(CLI::App& command, Options& options) {
 }
 
 void addShow(CLI::App& command, Options& options) {
-    command.add_option("molecule", options.files, "Molecule file")->required()->expected(1);
-    command.add_option("--capture", options.capture, "Picture to write (.png)")->required();
-    command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)");
+    command.add_option("molecule", options.files, "Molecule file")
+        ->required()
+        ->expected(1)
+        ->type_name("FILE");
+    command.add_option("--capture", options.capture, "Picture to write (.png)")
+        ->required()
+        ->type_name("FILE");
+    command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)")
+        ->type_name("WxH");
 }
 
 void finishShow(Options& options) {

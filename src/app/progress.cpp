@@ -5,12 +5,16 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "app/machine.h"
+#include "core/error.h"
+#include "core/printable.h"
+
 namespace shoal::app {
 
 using Clock = std::chrono::steady_clock;
 
 Progress::Progress(std::string what, int total)
-    : what_(std::move(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {}
+    : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {}
 
 Progress::~Progress() {
     if (terminal_ && done_ > 0) std::fputc('\n', stderr);
@@ -32,7 +36,7 @@ void Progress::step() {
 
 void Progress::rename(std::string what) {
     if (terminal_) what.resize(std::max(what.size(), what_.size()), ' ');  // over what is longer
-    what_ = std::move(what);
+    what_ = printable(what);
     if (terminal_ && done_ > 0) print();
 }
 
@@ -40,13 +44,15 @@ void Progress::print() {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     const double left = seconds / done_ * (total_ - done_);
     if (!terminal_) {
-        std::fprintf(stderr, "%s: %d of %d, %.1f s\n", what_.c_str(), done_, total_, seconds);
+        const std::string rest = done_ < total_ ? concat(", about ", roughly(left), " left") : "";
+        std::fprintf(stderr, "%s: %d of %d, %.1f s%s\n", what_.c_str(), done_, total_, seconds, rest.c_str());
         return;
     }
     constexpr int width = 32;
     std::string bar(size_t(width * done_ / total_), '#');
     bar.resize(width, '.');
-    std::fprintf(stderr, "\r%s [%s] %d/%d  %.0f s left ", what_.c_str(), bar.c_str(), done_, total_, left);
+    std::fprintf(stderr, "\r%s [%s] %d/%d  %s left   ", what_.c_str(), bar.c_str(), done_, total_,
+                 done_ < total_ ? roughly(left).c_str() : "0 s");
     std::fflush(stderr);
 }
 

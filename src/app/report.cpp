@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "core/error.h"
+#include "core/printable.h"
 
 namespace shoal::app {
 
@@ -43,7 +44,7 @@ std::vector<GroupLives> livesOf(const Simulation& simulation) {
 std::string text(const GroupLives& lives) {
     const LifeCounts& n = lives.counts;
     return concat(
-        lives.group, ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born",
+        printable(lives.group), ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born",
         n.lost > 0
             ? concat(", ", n.lost, " lost (no place was free: a larger \"capacity\" or --count holds more)")
             : "");

@@ -16,9 +16,12 @@
 #include "app/measure.h"
 #include "app/progress.h"
 #include "app/report.h"
+#include "app/scene_list.h"
 #include "app/signals.h"
 #include "core/cache_folder.h"
+#include "core/file.h"
 #include "core/many.h"
+#include "core/printable.h"
 #include "render/picture.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
@@ -38,7 +41,7 @@ bool hasDisplay() {
 bool wantsWindow(const Options& options) {
     if (options.headless) {
         if (options.context == gpu::ContextKind::window)
-            throw Error("--headless and --context window exclude each other");
+            throw WrongUse("--headless and --context window exclude each other");
         return false;
     }
     if (options.context == gpu::ContextKind::window) return true;
@@ -86,7 +89,7 @@ class HeadlessRun {
         resume(options, simulation_);
         first_ = simulation_.frames();
         if (frames_ > std::numeric_limits<int>::max() - first_)
-            throw Error(concat("--frames: ", frames_, " after frame ", first_, " are too many to count"));
+            throw WrongUse(concat("--frames: ", frames_, " after frame ", first_, " are too many to count"));
         last_ = first_ + frames_;
         checkSave(options);
         const bool nothingAsked = asksForNothing(options);
@@ -116,7 +119,7 @@ class HeadlessRun {
                         concat(runaway.message(), ". ", saveForInspection(options_, simulation_, runaway)));
         }
         if (pictures_) pictures_->finish();
-        if (pictures_ && isVideo(pictures_->target())) note(pictures_->last().string());
+        if (isVideo(target()) && drawn_ > 0) report_.written.push_back(target());
         context_.checkErrors("run");
         simulation_.timers().drain();
         if (renderer_) renderer_->timers().drain();
@@ -136,7 +139,8 @@ class HeadlessRun {
             outside([&] {
                 if (draws) {
                     pictures_->write(renderer_->capture(), frame);
-                    if (!isVideo(pictures_->target())) note(pictures_->last().string());
+                    ++drawn_;
+                    if (!isVideo(target())) report_.written.push_back(pictures_->last().string());
                 }
                 writeIfAsked(frame);
             });
@@ -158,10 +162,11 @@ class HeadlessRun {
             std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
             return;
         }
-        std::cout << many(simulation_.frames() - first_, "frame", "frames") << ", " << simulation_.time() << " s simulated in "
-                  << report_.seconds << " s on the " << name(simulation_.path().path) << " path, "
-                  << context_.info().renderer << " (" << gpu::name(context_.info().kind) << ")\n";
-        if (pictures_ && !pictures_->last().empty()) std::cout << "pictures: " << pictures_->target() << "\n";
+        std::cout << many(simulation_.frames() - first_, "frame", "frames") << ", " << simulation_.time()
+                  << " s simulated in " << report_.seconds << " s on the " << name(simulation_.path().path)
+                  << " path, " << context_.info().renderer << " (" << gpu::name(context_.info().kind)
+                  << ")\n";
+        tellWritten();
         for (const GroupLives& lives : report_.lives)
             std::cout << text(lives) << "\n";
         for (const gpu::PassTime& pass : passTimes())
@@ -184,8 +189,8 @@ class HeadlessRun {
         std::cerr << "shoal: stopped by signal " << signal << " (" << ::strsignal(signal) << ") after frame "
                   << simulation_.frames() << " of " << last_;
         const size_t count = report_.written.size();
-        if (count > 0) std::cerr << "; whole: " << report_.written.front();
-        if (count > 1) std::cerr << (count > 2 ? " to " : ", ") << report_.written.back();
+        if (count > 0) std::cerr << "; whole: " << printable(report_.written.front());
+        if (count > 1) std::cerr << (count > 2 ? " to " : ", ") << printable(report_.written.back());
         if (count > 2) std::cerr << ", " << count << " files";
         std::cerr << "\n";
     }
@@ -208,24 +213,45 @@ class HeadlessRun {
             sum.readBack[i] += part.readBack[i];
         }
     }
-    void note(const std::string& file) {
-        if (!file.empty() && (report_.written.empty() || report_.written.back() != file))
-            report_.written.push_back(file);
+    void note(std::vector<std::string>& files, const std::string& file) {
+        files.push_back(file);
+        report_.written.push_back(file);
     }
+    std::string target() const { return pictures_ ? pictures_->target() : std::string(); }
+
+    // What was written, and where: "pictures: pictures/hello: 8, frame-00030.png to frame-00240.png".
+    void tellWritten() {
+        if (drawn_ > 0) {
+            std::cout << (isVideo(target()) ? "video: " : "pictures: ") << printable(target()) << ", "
+                      << drawn_ << (drawn_ == 1 ? " picture\n" : " pictures\n");
+        }
+        tellFiles("state: ", exported_);
+        if (exported_.size() > 1 && lowerExtension(options_.exports) == ".pvd")
+            std::cout << "index: " << printable(options_.exports) << "\n";
+        tellFiles("saved: ", saved_);
+    }
+    static void tellFiles(const char* what, const std::vector<std::string>& files) {
+        if (files.empty()) return;
+        std::cout << what << printable(files.front());
+        if (files.size() > 1)
+            std::cout << " to " << printable(files.back()) << ", " << files.size() << " files";
+        std::cout << "\n";
+    }
+
     // What frames leave in files beside pictures.
     void writeIfAsked(int frame) {
-        if (exporter_->asksFor(frame)) note(exporter_->write(simulation_, loaded_.scene));
+        if (exporter_->asksFor(frame)) note(exported_, exporter_->write(simulation_, loaded_.scene));
         if (contains(options_.saveFrames, frame)) save(frame);
     }
     // What is asked of the last frame, which may be one before its time.
     void writeLast() {
-        if (exporter_->asksForLast()) note(exporter_->write(simulation_, loaded_.scene));
+        if (exporter_->asksForLast()) note(exported_, exporter_->write(simulation_, loaded_.scene));
         if (options_.saveFrames.empty() && !options_.save.empty()) save(simulation_.frames());
     }
     void save(int frame) {
         const std::string file = numbered(options_.save, frame, options_.saveFrames.size() > 1, last_);
         saveState(file, simulation_);
-        note(file);
+        note(saved_, file);
     }
 
     const Options& options_;
@@ -238,6 +264,8 @@ class HeadlessRun {
     std::unique_ptr<Renderer> renderer_;
     std::unique_ptr<PictureWriter> pictures_;
     std::optional<Exporter> exporter_;
+    int drawn_ = 0;  // pictures
+    std::vector<std::string> exported_, saved_;
     RunReport report_;
 };
 
@@ -258,14 +286,34 @@ int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
     return 0;
 }
 
+static std::string folderOf(const Options& options) {
+    return options.files.empty() ? modelFolder() : options.files.front();
+}
+
+int scenesCommand(const Options& options) {
+    const std::string list = listOfScenes(folderOf(options));
+    if (list.empty())
+        throw Error(concat(folderOf(options), ": there is no scene (*.scene.json) in or below it"));
+    std::cout << list;
+    return 0;
+}
+
+// There is no window to choose in. Who asks for work has forgotten to say of what.
+static int listInstead(const Options& options) {
+    const bool asks = !asksForNothing(options) || options.headless || options.frames ||
+                      options.context != gpu::ContextKind::automatic;
+    if (!asks) return scenesCommand(options);
+    throw WrongUse(options.files.empty() ? "scene is required: shoal scenes lists those that ship"
+                                         : concat(options.files.front(),
+                                                  ": expected a scene file, found a folder; shoal scenes ",
+                                                  options.files.front(), " lists those in it"));
+}
+
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // mistakes in the files are told before any context is made; what the context can hold, once it is there
     const bool chooses = options.files.empty() || std::filesystem::is_directory(options.files.front());
-    if (chooses && !window)
-        throw Error(options.files.empty()
-                        ? "scene is required: only a window, with a display, lists those to choose from"
-                        : concat(options.files.front(), ": expected a scene file, found a folder"));
+    if (chooses && !window) return listInstead(options);
     std::optional<Loaded> loaded;
     if (!chooses) loaded = load(options);
     gpu::ContextOptions wanted;
@@ -274,11 +322,12 @@ int runCommand(const Options& options) {
     wanted.width = options.width;
     wanted.height = options.height;
     wanted.title = "Shoal";
-    if (loaded) wanted.title += " - " + std::filesystem::path(options.files.front()).filename().string();
+    if (loaded)
+        wanted.title += " - " + printable(std::filesystem::path(options.files.front()).filename().string());
     gpu::Context context(wanted);
     if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
     if (context.window()) return runWindow(options, context, std::move(loaded));
-    if (!loaded) throw Error("scene is required: there is no window to list those to choose from");
+    if (!loaded) return listInstead(options);
     return runHeadless(options, context, std::move(*loaded));
 }
 

@@ -4,6 +4,7 @@
 #include <iostream>
 
 #include "core/image.h"
+#include "core/printable.h"
 #include "gpu/gl.h"
 
 namespace shoal::app {
@@ -21,7 +22,7 @@ void saveScreenshot(const std::string& file, int width, int height) {
     for (size_t i = 3; i < image.pixels.size(); i += 4)
         image.pixels[i] = 255;
     writePng(file, image);
-    std::cout << "screenshot: " << file << "\n";
+    std::cout << "screenshot: " << printable(file) << "\n";
 }
 
 }  // namespace shoal::app

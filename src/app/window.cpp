@@ -28,6 +28,7 @@
 #include "core/cache_folder.h"
 #include "core/image.h"
 #include "core/many.h"
+#include "core/printable.h"
 #include "gpu/gl.h"
 #include "scene/scene_files.h"
 
@@ -78,7 +79,7 @@ class WindowRun {
         saveIfAsked(true);
         if (open_->running.unsaved())
             std::cerr << "shoal: warning: what was changed in the window was not saved in "
-                      << open_->running.scene.file << "\n";
+                      << printable(open_->running.scene.file) << "\n";
     }
 
   private:
@@ -225,7 +226,7 @@ class WindowRun {
         const std::string file = numbered(options.save, simulation.frames(), options.saveFrames.size() > 1,
                                           last == options.saveFrames.end() ? 0 : *last);
         saveState(file, simulation);
-        std::cout << "saved: " << file << "\n";
+        std::cout << "saved: " << printable(file) << "\n";
     }
 
     // ---- What was asked for
@@ -315,7 +316,7 @@ class WindowRun {
 
     void tell(const std::string& line) {
         status_.say(line);
-        std::cout << line << std::endl;
+        std::cout << printable(line) << std::endl;
     }
 
     void takePicture() {
@@ -367,7 +368,7 @@ class WindowRun {
             open_ = std::move(next);
             troubles_.clear();
             chooser_.open = discards_ = shownUnsaved_ = false;
-            std::cout << "opened: " << open_->running.scene.file << std::endl;
+            std::cout << "opened: " << printable(open_->running.scene.file) << std::endl;
             glfwSetWindowTitle(window_, title().c_str());
         } catch (const Error& error) {
             troubles_.begin("opening", error.what());
@@ -389,7 +390,7 @@ class WindowRun {
     }
 
     std::string title() const {
-        return "Shoal - " + std::filesystem::path(open_->running.scene.file).filename().string();
+        return "Shoal - " + printable(std::filesystem::path(open_->running.scene.file).filename().string());
     }
 
     // ---- What is edited and saved
@@ -495,7 +496,7 @@ class WindowRun {
         open_->pick({io.MousePos.x / io.DisplaySize.x, io.MousePos.y / io.DisplaySize.y},
                     double(width_) / height_, height_);
         if (const auto& picked = open_->explanations->picked)
-            std::cout << "picked: " << open_->simulation().plan().groups[picked->group].name << " "
+            std::cout << "picked: " << printable(open_->simulation().plan().groups[picked->group].name) << " "
                       << picked->molecule << std::endl;
     }
 

@@ -4,6 +4,7 @@
 #include "compile/path.h"
 #include "core/json.h"
 #include "core/many.h"
+#include "core/printable.h"
 
 namespace shoal {
 
@@ -26,7 +27,7 @@ static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
     for (const PassPlan& pass : plan.passes) {
         if (pass.group != g) continue;
         out << "  " << std::left << std::setw(9) << name(pass.kind) << std::setw(21) << when(pass.when)
-            << pass.why << "\n";
+            << printable(pass.why) << "\n";
     }
 }
 
@@ -73,7 +74,7 @@ static void listBirths(std::ostringstream& out, const GroupPlan& group) {
     for (const Emitter& emitter : life.emitters) {
         out << "           from " << name(emitter.from);
         if (emitter.from == Emitter::From::death)
-            out << " of \"" << emitter.group << "\", " << emitter.perDeath << " each";
+            out << " of \"" << printable(emitter.group) << "\", " << emitter.perDeath << " each";
         else
             out << ", " << emitter.rate << " a second" << (emitter.random ? " at random" : "");
         if (!emitter.bursts.empty()) out << ", " << emitter.bursts.size() << " bursts";
@@ -102,8 +103,9 @@ static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& gr
     for (const auto* kind : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})
         for (const GroupForces::One& one : *kind) {
             const Force& force = plan.forces[one.force];
-            out.push_back(force.name.empty() ? kindName(force.shape)
-                                             : concat(kindName(force.shape), " \"", force.name, "\""));
+            out.push_back(force.name.empty()
+                              ? kindName(force.shape)
+                              : concat(kindName(force.shape), " \"", printable(force.name), "\""));
         }
     return out;
 }
@@ -132,9 +134,9 @@ static void tellSchool(std::ostringstream& out, const Plan& plan, size_t g) {
     const School& school = member->school;
     out << "  school   once a frame         others within " << school.radius << " m";
     for (const SchoolTarget& target : school.flees)
-        out << ", flees \"" << target.group << "\" within " << target.radius << " m";
+        out << ", flees \"" << printable(target.group) << "\" within " << target.radius << " m";
     for (const SchoolTarget& target : school.hunts)
-        out << ", hunts \"" << target.group << "\" within " << target.radius << " m";
+        out << ", hunts \"" << printable(target.group) << "\" within " << target.radius << " m";
     if (plan.groups[g].needs.avoids) out << ", turns from colliders within " << school.walls << " m";
     if (school.home) out << ", has a home";
     if (school.depth) out << ", likes y from " << school.depth->x << " to " << school.depth->y << " m";
@@ -143,10 +145,10 @@ static void tellSchool(std::ostringstream& out, const Plan& plan, size_t g) {
 
 std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     std::ostringstream out;
-    if (!plan.sceneName.empty()) out << plan.sceneName << "\n";
+    if (!plan.sceneName.empty()) out << printable(plan.sceneName) << "\n";
     out << "frame    1/" << plan.frameRate << " s in " << many(plan.substeps, "substep", "substeps") << " of "
         << 1 / plan.frameRate / plan.substeps << " s\n";
-    out << "path     " << name(choice.path) << ": " << choice.why << "\n";
+    out << "path     " << name(choice.path) << ": " << printable(choice.why) << "\n";
     if (plan.fieldSampling != FieldSampling::vertexSubstep)
         out << "fields   " << name(plan.fieldSampling) << "\n";
     out << "memory   state " << mebibytes(stateBytes(plan, choice.path, true, inPlace)) << ", tables "
@@ -156,9 +158,9 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     tellContact(out, plan);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
-        out << "\ngroup \"" << group.name << "\": " << group.count << " molecules of " << group.vertexCount
-            << " vertices\n";
-        out << "  solver   " << name(group.solver) << ": " << group.solverWhy << "\n";
+        out << "\ngroup \"" << printable(group.name) << "\": " << group.count << " molecules of "
+            << group.vertexCount << " vertices\n";
+        out << "  solver   " << name(group.solver) << ": " << printable(group.solverWhy) << "\n";
         if (group.needs.springs) {
             out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(group.solver);
             if (solver(group.solver).implicit)

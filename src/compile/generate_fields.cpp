@@ -8,6 +8,7 @@
 
 #include "compile/generate.h"
 #include "compile/pack.h"
+#include "core/printable.h"
 
 namespace shoal {
 
@@ -197,7 +198,7 @@ std::vector<std::string> describeGrids(const std::vector<Field>& fields) {
         const GridField* grid = std::get_if<GridField>(&field.shape);
         if (!grid) continue;
         std::ostringstream line;
-        line << "grid " << (field.name.empty() ? "" : "\"" + field.name + "\" ") << "of "
+        line << "grid " << (field.name.empty() ? "" : "\"" + printable(field.name) + "\" ") << "of "
              << grid->resolution.x << " x " << grid->resolution.y << " x " << grid->resolution.z << " cells";
         if (!grid->times.empty())
             line << ", " << grid->times.size() << " frames from " << grid->times.front() << " to "

@@ -4,19 +4,22 @@
 #include <numeric>
 #include <utility>
 
+#include "core/printable.h"
+
 namespace shoal {
 
 std::string prefix(const Location& location) {
     if (location.file.empty()) return {};
-    std::string out = location.file + ":";
+    std::string out = printable(location.file) + ":";
     if (location.line > 0) out += std::to_string(location.line) + ":";
     if (location.line > 0 && location.column > 0) out += std::to_string(location.column) + ":";
     return out + " ";
 }
 
+// Messages quote what stands in files; who shows one need not think of that.
 static std::string located(const Location& location, const std::string& message) {
-    std::string out = prefix(location) + message;
-    if (!location.path.empty()) out += " (at " + location.path + ")";
+    std::string out = prefix(location) + printableLines(message);
+    if (!location.path.empty()) out += " (at " + printable(location.path) + ")";
     return out;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/json.h"
+#include "core/printable.h"
 
 namespace shoal {
 
@@ -11,35 +12,20 @@ namespace {
 
 constexpr size_t lineWidth = 120;
 
-std::string quoted(const std::string& text) {
+// The name of a file may be no UTF-8, which JSON has no way to say.
+std::string quoted(std::string_view text) {
     std::string out = "\"";
-    for (const char c : text) {
-        switch (c) {
-        case '"':
-            out += "\\\"";
-            break;
-        case '\\':
-            out += "\\\\";
-            break;
-        case '\n':
-            out += "\\n";
-            break;
-        case '\r':
-            out += "\\r";
-            break;
-        case '\t':
-            out += "\\t";
-            break;
-        default:
-            if (static_cast<unsigned char>(c) < 0x20) {
-                constexpr const char* digits = "0123456789abcdef";
-                out += "\\u00";
-                out += digits[(c >> 4) & 15];
-                out += digits[c & 15];
-            } else {
-                out += c;
-            }
-        }
+    while (!text.empty()) {
+        const Utf8 one = firstCharacter(text);
+        if (one.code == Utf8::nothing)
+            out += "\\ufffd";
+        else if (one.code == '"' || one.code == '\\')
+            out += {'\\', char(one.code)};
+        else if (hides(one.code))
+            out += escape(one.code);
+        else
+            out += text.substr(0, one.bytes);
+        text.remove_prefix(one.bytes);
     }
     return out + "\"";
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/error.h"
+#include "core/printable.h"
 #include "gpu/gl.h"
 #include "gpu/platform.h"
 
@@ -142,7 +143,8 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
 
 static void GLAPIENTRY printMessage(GLenum, GLenum, GLuint, GLenum severity, GLsizei, const GLchar* text,
                                     const void*) {
-    if (severity != GL_DEBUG_SEVERITY_NOTIFICATION) std::fprintf(stderr, "OpenGL: %s\n", text);
+    if (severity != GL_DEBUG_SEVERITY_NOTIFICATION)
+        std::fprintf(stderr, "OpenGL: %s\n", printableLines(indented(text)).c_str());
 }
 
 static std::unique_ptr<Platform> createPlatform(ContextKind kind, const ContextOptions& options) {
@@ -217,12 +219,12 @@ Context::Context(const ContextOptions& options) {
             state_ = open(kind, options);
             return;
         } catch (const Error& error) {
-            tried += concat("\n  ", name(kind), ": ", error.message());
-            help += concat("\n  ", advice(kind));
+            tried += concat("\n    ", name(kind), ": ", error.message());
+            help += concat("\n    ", advice(kind));
         }
     }
     restore(before);
-    throw Error("no OpenGL context of 3.3 or newer can be had\ntried:" + tried + "\nwhat helps:" + help);
+    throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
 }
 
 Context::~Context() = default;

@@ -4,6 +4,7 @@
 
 #include "core/contract.h"
 #include "core/error.h"
+#include "core/printable.h"
 #include "gpu/debug_group.h"
 #include "gpu/program_cache.h"
 #include "gpu/shader_source.h"
@@ -60,8 +61,9 @@ Handle<deleteShader> compile(const Stage& stage, const std::string& label) {
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (compiled != GL_TRUE) {
         const std::string log = shaderLog(shader.id());
-        throw Error(source.firstLocation(log), concat("the ", stage.name, " shader of program \"", label,
-                                                      "\" does not compile\n", source.rewriteLog(log)));
+        throw Error(source.firstLocation(log),
+                    concat("the ", stage.name, " shader of program \"", label, "\" does not compile\n  ",
+                           indented(source.rewriteLog(log))));
     }
     return shader;
 }
@@ -82,7 +84,8 @@ void compileAndLink(GLuint program, const std::vector<Stage>& stages, const Prog
     if (linked == GL_TRUE) return;
     const std::string files =
         options.compute.empty() ? options.vertex + " and " + options.fragment : options.compute;
-    throw Error(concat("program \"", label, "\" (", files, ") does not link\n", programLog(program)));
+    throw Error(
+        concat("program \"", label, "\" (", files, ") does not link\n  ", indented(programLog(program))));
 }
 
 std::string keyOf(const ContextInfo& info, const std::vector<Stage>& stages) {

@@ -16,6 +16,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/printable.h"
 
 namespace shoal {
 
@@ -151,7 +152,8 @@ void VideoWriter::fail(const std::string& what) {
     closePipe();
     if (process_ > 0) wait();
     const std::string reason = complaint();
-    throw Error(concat(file_.string(), ": ", what, ": ", reason.empty() ? "it gave no reason" : reason));
+    throw Error(
+        concat(file_.string(), ": ", what, ": ", reason.empty() ? "it gave no reason" : indented(reason)));
 }
 
 namespace {

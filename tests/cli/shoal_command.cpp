@@ -203,7 +203,7 @@ std::string refusal(const Words& arguments, const std::string& part, const Surro
     for (const std::string& word : arguments)
         shown += " " + word;
     INFO("shoal" << shown << "\n" << outcome.err);
-    CHECK(outcome.code == 1);
+    CHECK((outcome.code == 1 || outcome.code == 2));
     CHECK(outcome.out.empty());
     CHECK(outcome.messages().size() == 1);
     CHECK_THAT(outcome.err, Catch::Contains(part));

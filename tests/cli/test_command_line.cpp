@@ -33,7 +33,7 @@ TEST_CASE("unknown words are refused with the nearest known one", "[cli]") {
     refusal({"run", scene, "--headles"}, "unknown option --headles (did you mean \"--headless\"?)");
     refusal({"run", scene, "--captur=x"}, "unknown option --captur (did you mean \"--capture\"?)");
     refusal({"explain", scene, "--jsn"}, "did you mean \"--json\"?");
-    refusal({"run"}, "scene is required");
+    refusal({"run", "--headless"}, "scene is required");
     refusal({"run", scene, scene}, "scene");
     refusal({"check"}, "files is required");
 }
