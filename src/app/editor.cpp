@@ -608,7 +608,7 @@ class EditorWindow {
             editor_.document.reload();
             editor_.message = "the file was changed by another program: reloaded";
             editor_.troubles.end("file");
-            std::cout << "reloaded: " << editor_.document.file() << std::endl;
+            std::cout << "reloaded: " << printable(editor_.document.file()) << std::endl;
         } catch (const Error& error) {
             tell("file", error.what());
         }
@@ -644,7 +644,7 @@ class EditorWindow {
             return tell("file", "the file was changed by another program; what you changed is not in it");
         fileChanged_ = false;
         if (document.changedOnDisk()) return reload();
-        if (editor_.troubles.end("file")) std::cout << "as before: " << document.file() << std::endl;
+        if (editor_.troubles.end("file")) std::cout << "as before: " << printable(document.file()) << std::endl;
     }
 
     std::string fileName() const {

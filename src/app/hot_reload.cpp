@@ -72,10 +72,10 @@ void HotReload::tell(const RunningScene::Reloaded& reloaded) {
 }
 
 void HotReload::tellConflicts(const RunningScene& running) const {
-    std::cerr << "shoal: warning: not reloaded yet: " << running.original().file
+    std::cerr << "shoal: warning: not reloaded yet: " << printable(running.original().file)
               << " and the window both changed";
     for (const std::string& conflict : conflicts_)
-        std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << conflict;
+        std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << printable(conflict);
     std::cerr << std::endl;
 }
 
