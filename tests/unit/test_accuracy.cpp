@@ -6,6 +6,7 @@
 
 #include "compile/plan.h"
 #include "measure/accuracy_tables.h"
+#include "measure/accuracy_times.h"
 #include "measure/pareto.h"
 #include "reference/fields.h"
 #include "support/catch.h"
@@ -119,6 +120,32 @@ TEST_CASE("the ladder of steps", "[accuracy]") {
         CHECK(fine[i].perFrame() > fine[i - 1].perFrame());
     CHECK(fine[3] == Step{4, 1});
     CHECK(fine[4] == Step{6, 1});
+}
+
+TEST_CASE("times end when their seconds are over, and say by the first round what has none", "[accuracy]") {
+    // a clock of its own: each visit takes `slow` times what was expected of it
+    const std::vector<double> cost = {0.01, 0.02, 0.1, 0.5, 1, 4};
+    CHECK(thoseThatFit(cost, 0.2) == std::vector<bool>{true, true, true, false, false, false});
+    CHECK(thoseThatFit({4, 0.5, 1}, 2) == std::vector<bool>{false, true, true});
+    CHECK(thoseThatFit(cost, {}) == std::vector<bool>(6, true));
+    for (const double slow : {0.5, 1.0, 5.0}) {
+        for (const double seconds : {0.3, 6.0, 60.0}) {
+            CAPTURE(slow, seconds);
+            double clock = 100;
+            std::vector<int> visits(cost.size());
+            visitInTurn(
+                cost, seconds, [&] { return clock; },
+                [&](size_t i) {
+                    clock += slow * cost[i];
+                    ++visits[i];
+                });
+            // at most the first visit of one that is slower than expected goes beyond
+            CHECK(clock - 100 <= seconds + std::max(0.0, slow - 1) * cost.back());
+            CHECK(visits[0] > 0);
+            if (slow <= 1 && seconds >= 6)
+                CHECK(std::all_of(visits.begin(), visits.end(), [](int n) { return n > 0; }));
+        }
+    }
 }
 
 TEST_CASE("field samplings that differ", "[accuracy]") {
