@@ -8,6 +8,7 @@
 #include "measure/accuracy_tables.h"
 #include "measure/accuracy_times.h"
 #include "measure/pareto.h"
+#include "measure/sample.h"
 #include "reference/fields.h"
 #include "support/catch.h"
 
@@ -96,6 +97,50 @@ TEST_CASE("what an error costs is interpolated between logarithms", "[accuracy]"
     std::vector<AccuracyPoint> exact = {point(SolverKind::leapfrog, 1, 1, 0.1),
                                         point(SolverKind::leapfrog, 2, 2, 0)};
     CHECK(std::isfinite(costAt(curveOf(exact, exact[0].method), 1e-3)->time));
+}
+
+TEST_CASE("a method is left out only when it is dearer each time that both are timed in turn", "[accuracy]") {
+    int timed = 0;
+    const auto always = [&](double seconds) {
+        return [&timed, seconds] {
+            ++timed;
+            return seconds;
+        };
+    };
+    // 50 times as dear at first sight, because something else ran
+    double challenger = 50, best = 1;
+    CHECK_FALSE(losesAgain(challenger, best, always(0.9), always(1)));
+    CHECK(challenger == 0.9);
+    // noise twice in a row
+    int call = 0;
+    challenger = 50;
+    CHECK_FALSE(losesAgain(
+        challenger, best, [&] { return ++call < 3 ? 2 : 0.9; }, always(1)));
+    // the best one's time was too good... and one that is really dearer stays so, without much ado
+    challenger = 50;
+    timed = 0;
+    CHECK(losesAgain(challenger, best, always(50), always(1)));
+    CHECK(timed == 2);
+    challenger = 1.2;
+    CHECK(losesAgain(challenger, best, always(1.2), always(1)));
+    // nothing is timed where it wins
+    timed = 0;
+    challenger = 0.5;
+    CHECK_FALSE(losesAgain(challenger, best, always(9), always(9)));
+    CHECK(timed == 0);
+}
+
+TEST_CASE("an error is claimed of a sample that shows what one of a hundred molecules does", "[accuracy]") {
+    CHECK(1 - std::pow(0.99, sampleMolecules) > 0.95);
+    CHECK(SampleError{.rms = 5e-5, .worst = 1e-4, .measured = 300}.holds(1e-3));
+    CHECK_FALSE(SampleError{}.holds(1e-3));
+    // 12 of 400 end elsewhere
+    CHECK_FALSE(SampleError{.rms = 3.9e-2, .worst = 0.36, .measured = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 1.2e-2, .measured = 300, .above = 1}.holds(1e-3));
+    CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 3}.holds(1e-3));
+    // of few molecules none may be above
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 20, .above = 1}.holds(1e-3));
 }
 
 TEST_CASE("the best field sampling of a solver", "[accuracy]") {
