@@ -244,7 +244,8 @@ std::string asText(const Calibration& one) {
     std::ostringstream out;
     out << oneLine(one) << ": " << one.why << "\n  " << std::left << std::setw(30) << "method" << std::right
         << std::setw(5) << "steps" << std::setw(10) << "RMS" << std::setw(10) << "worst" << std::setw(9)
-        << "ns\n";
+        << "ns"
+        << "\n";
     for (const Candidate& candidate : one.candidates) {
         out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
             << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")
