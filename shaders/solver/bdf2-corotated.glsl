@@ -7,7 +7,9 @@
 // generated/factors.glsl. R turns the rest shape onto the predicted one, and for the second step onto
 // what the first has made of it (Mueller, Bender, Chentanez, Macklin 2016).
 // Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
-// step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps solve the stage as in bdf2-xpbd.
+// step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps go ahead as in
+// bdf2-xpbd. Sweeps alone can hold a pinned molecule in a shape at which its springs are far from rest and the stage far
+// from solved, so the two steps are then tried from where the sweeps ended, and kept if the second is much smaller.
 
 mat3 turn;  // of the rest shape
 vec3 start[VERTICES];     // m, q without springs
@@ -94,31 +96,46 @@ void beginSolver()
            transpose(axesOf(restArm[FIT_B] - restArm[FIT_A], restArm[FIT_C] - restArm[FIT_A]));
 }
 
+// Two quasi-Newton steps; whether they come to an end.
+bool solved(float time)
+{
+    float first = 0.0;
+    float second = 0.0;
+    for (int n = 0; n < 2; ++n) {
+        if (n > 0) fit(2);
+        first = second;
+        second = improve(time);
+    }
+    return second < 0.25 * first || second < SETTLED * scale * scale;
+}
+
 // A substep up to contact.
 void advance(int step)
 {
     predict(step);
     float time = float(step + 1) * substep;
-    bool sweeps = fit(step == 0 ? 8 : 3) || (released && SHARED_PINS) || restart;
+    bool shares = !(released && SHARED_PINS);  // the matrix
+    bool sweeps = fit(step == 0 ? 8 : 3) || !shares || restart;
     for (int i = 0; i < VERTICES; ++i) {
         start[i] = q[i];
     }
-    if (!sweeps) {
-        float first = 0.0;
-        float second = 0.0;
-        for (int n = 0; n < 2; ++n) {
-            if (n > 0) fit(2);
-            first = second;
-            second = improve(time);
-        }
-        sweeps = !(second < 0.25 * first || second < SETTLED * scale * scale);
-    }
+    if (!sweeps) sweeps = !solved(time);
     if (sweeps) {
         for (int i = 0; i < VERTICES; ++i) {
             q[i] = start[i];
         }
         relaxForward(time, 1.0 / eta);
         relaxBackward(time, 1.0 / eta);
+    }
+    if (sweeps && shares) {
+        for (int i = 0; i < VERTICES; ++i) {
+            probe[i] = q[i];  // which nothing reads any more in this substep
+        }
+        fit(3);
+        bool worse = !solved(time);
+        for (int i = 0; i < VERTICES; ++i) {
+            q[i] = worse ? probe[i] : q[i];
+        }
     }
     accept();
 }

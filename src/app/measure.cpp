@@ -31,6 +31,13 @@ class Bar {
             std::cerr << "This takes about " << roughly(seconds) << ".\n";
             bar_ = std::make_unique<Progress>("per cent", 100);
         };
+        out.left = [](double seconds, double share) {
+            std::cerr << "Errors and times take about " << roughly(seconds) << " more";
+            if (share < 1)
+                std::cerr << ", for about " << std::max(1, int(100 * share))
+                          << " % of all points: the dearest ones are left out";
+            std::cerr << ".\n";
+        };
         out.stage = [this](const char* words) {
             if (bar_) bar_->rename(concat(words, ", per cent"));
         };

@@ -225,23 +225,38 @@ const AccuracyPoint* chosenPoint(const MeasureReport& report) {
     return nullptr;
 }
 
+// Of which molecules an error is claimed.
+static std::string sampleText(const Calibration& one) {
+    const SampleError& s = one.sample;
+    std::string out = concat("measured ", exponent(one.error), " RMS");
+    if (s.compared > s.measured) out += concat(" of ", s.measured, " molecules");
+    out += concat(" and ", exponent(s.worst), " at worst of ", s.compared,
+                  s.compared == 1 ? " molecule (" : " molecules (", one.how, ")");
+    if (s.above > 0) out += concat(", ", s.above, " above");
+    if (s.untold > 0) out += concat(", nothing known of ", s.untold, " more");
+    return out;
+}
+
 std::string oneLine(const Calibration& one) {
     return concat("error ", one.target, ": ", shoal::name(one.method.solver), ", ", one.substeps,
                   one.substeps == 1 ? " substep" : " substeps", " a frame, fields by ",
-                  shoal::name(one.method.sampling), "; measured ", exponent(one.error), " at ",
-                  nanoseconds(one.cost), " ns per vertex and simulated second, ",
+                  shoal::name(one.method.sampling), "; ", sampleText(one), "; ", nanoseconds(one.cost),
+                  " ns per vertex and simulated second, ",
                   one.kept ? "as found before" : concat("found in ", number("%.1f", one.seconds), " s"));
 }
 
 std::string asText(const Calibration& one) {
     std::ostringstream out;
-    out << oneLine(one) << ": " << printable(one.why) << "\n";
+    out << oneLine(one) << ": " << printable(one.why) << "\n  " << std::left << std::setw(30) << "method" << std::right
+        << std::setw(5) << "steps" << std::setw(10) << "RMS" << std::setw(10) << "worst" << std::setw(9)
+        << "ns"
+        << "\n";
     for (const Candidate& candidate : one.candidates) {
         out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
             << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")
-            << std::setw(10) << (candidate.error ? exponent(*candidate.error) : "-") << std::setw(9)
-            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why)
-            << "\n";
+            << std::setw(10) << (candidate.error ? exponent(*candidate.error) : "-") << std::setw(10)
+            << (candidate.worst ? exponent(*candidate.worst) : "-") << std::setw(9)
+            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why) << "\n";
     }
     return out.str();
 }

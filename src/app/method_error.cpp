@@ -47,8 +47,9 @@ std::string methodError(const Scene& scene, const Simulation& simulation, const 
         const std::vector<Snapshot> reached = runner.snapshots();
         if (!ExactEnds::finite(reached)) return "it blows up";
         char text[96];
-        std::snprintf(text, sizeof text, "error %.1e of its size (RMS after %.2g s)",
-                      std::max(ends.errorOf(reached).total, ends.error()), frames / scene.frameRate);
+        std::snprintf(text, sizeof text, "error %.1e of its size (RMS of %d after %.2g s)",
+                      std::max(ends.errorOf(reached).total, ends.error()), ends.molecules(),
+                      frames / scene.frameRate);
         return text;
     } catch (const Error& error) {
         return concat("no error: ", error.message());

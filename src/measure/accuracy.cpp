@@ -25,7 +25,8 @@ struct Curve {
     Method method;
     std::unique_ptr<MethodRunner> few, many;
     FrameCost fewCost, manyCost;
-    std::string refused;  // at every step
+    double fewStep = 0, manyStep = 0;  // s, that setting another step takes
+    std::string refused;               // at every step
     std::vector<AccuracyPoint> points;
     std::vector<std::vector<Snapshot>> ends;  // of the points' few molecules; empty: none
     double best = 1e30;                       // smallest error
@@ -63,6 +64,7 @@ class Sweep {
         solveReference();
         measuring_ = Clock::now();
         stage("errors", 0);
+        tellWhatIsLeft();
         for (const Step& step : ladder_)
             for (Curve& curve : curves_)
                 level(curve, step);
@@ -126,7 +128,17 @@ class Sweep {
                                             out_.duration, device_.cores, options_.molecules);
         curve.fewCost = frameCost(*curve.few);
         curve.manyCost = frameCost(*curve.many);
+        curve.fewStep = secondsOfStep(*curve.few, curve.fewCost);
+        curve.manyStep = secondsOfStep(*curve.many, curve.manyCost);
         out_.path = curve.few->simulation().path().path;
+    }
+
+    // To a step that has not been set before, as the next ones will not have been.
+    static double secondsOfStep(MethodRunner& runner, const FrameCost& cost) {
+        constexpr Step other{8, 1};
+        runner.set(other);
+        const double seconds = std::chrono::duration<double>(runner.warmUp()).count();
+        return std::max(0.0, seconds - cost.of(other));
     }
 
     void describe() {
@@ -150,6 +162,13 @@ class Sweep {
         progress_.estimate(expected_);
     }
 
+    // What came before took as long as it took: the rest is bounded, and what it has no time for is said now.
+    void tellWhatIsLeft() {
+        const double all = secondsOfErrors() + secondsOfTimes();
+        progress_.left(options_.seconds ? std::min(all, *options_.seconds) : all,
+                       options_.seconds ? *options_.seconds / all : 1);
+    }
+
     // Ends the stage before, whatever it took, as what it was expected to take.
     void stage(const char* words, double expected) {
         tell(expectedOfStage_);
@@ -164,7 +183,7 @@ class Sweep {
     }
 
     double secondsOf(const Curve& curve, const Step& step) const {
-        return curve.fewCost.of(step) * frames_ * step.split;
+        return curve.fewStep + curve.fewCost.of(step) * (frames_ * step.split + 1);
     }
     double secondsOfErrors() const {
         double out = 0;
@@ -173,12 +192,14 @@ class Sweep {
                 if (!curve.done && step.split == 1) out += secondsOf(curve, step);
         return out;
     }
+    static Contender contender(Curve& curve, const Step& step) {
+        return {curve.many.get(), step, curve.manyCost.of(step), curve.manyStep};
+    }
     double secondsOfTimes() {
         std::vector<Contender> all;
         for (Curve& curve : curves_)
             for (const Step& step : ladder_)
-                if (!curve.done && step.split == 1)
-                    all.push_back({curve.many.get(), step, curve.manyCost.of(step)});
+                if (!curve.done && step.split == 1) all.push_back(contender(curve, step));
         return leastSeconds(all);
     }
 
@@ -223,7 +244,7 @@ class Sweep {
             point.outcome = Outcome::measured;
             return;
         }
-        measuring_ += curve.few->warmUp();
+        curve.few->warmUp();
         curve.few->run(frames_);
         std::vector<Snapshot> ends = curve.few->snapshots();
         if (!ExactEnds::finite(ends)) {
@@ -284,7 +305,7 @@ class Sweep {
         for (Curve& curve : curves_) {
             for (AccuracyPoint& point : curve.points) {
                 if (point.outcome != Outcome::measured) continue;
-                contenders.push_back({curve.many.get(), point.step, curve.manyCost.of(point.step)});
+                contenders.push_back(contender(curve, point.step));
                 points.push_back(&point);
             }
         }
@@ -305,7 +326,8 @@ class Sweep {
         }
         if (without > 0)
             out_.notes.push_back(concat(without, " of ", points.size(),
-                                        " points were not timed, the dearest ones: --seconds is too short"));
+                                        " points were not timed, the dearest ones: --seconds ",
+                                        *options_.seconds, " is too short"));
     }
 
     AccuracyReport finish() {

@@ -46,8 +46,8 @@ struct AccuracyOptions {
     bool fine = false;                          // steps by sqrt 2 instead of 2
     std::vector<SolverKind> solvers = {};       // empty: all
     std::vector<FieldSampling> samplings = {};  // empty: all that differ in this scene
-    std::optional<double> seconds = {};         // of errors and times, about, beside compiling, `extra` and
-                                                // the reference; nothing: as long as it takes
+    std::optional<double> seconds = {};         // of errors and times, at most, beside the first compiling,
+                                                // `extra` and the reference; nothing: as long as it takes
     // Frames are made shorter than the scene's, down to this share, while a method's smallest error is above
     // `enough` at the most substeps that a frame may have.
     int mostSplits = 16;
@@ -83,6 +83,9 @@ struct AccuracyReport {
 struct AccuracyProgress {
     // Once, before the long part: of all that follows.
     std::function<void(double seconds)> estimate = [](double) {};
+    // Once, when `extra` and the reference are done: of what follows, and the share of all errors and times
+    // that this has room for.
+    std::function<void(double seconds, double share)> left = [](double, double) {};
     std::function<void(const char* words)> stage = [](const char*) {};  // "reference", ...
     std::function<void(double share)> tell = [](double) {};             // of the whole that is done
 };

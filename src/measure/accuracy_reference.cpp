@@ -17,13 +17,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-reference::State stateOf(const Snapshot& snapshot, int m) {
-    const auto first = ptrdiff_t(m) * snapshot.vertexCount, last = first + snapshot.vertexCount;
-    return {snapshot.time,
-            {snapshot.positions.begin() + first, snapshot.positions.begin() + last},
-            {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
-}
-
 reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     const Group& group = scene.groups[plan.index];
     reference::Problem out;
@@ -110,24 +103,41 @@ double ratio(double part, double scale) {
 
 }  // namespace
 
+static std::vector<std::pair<size_t, int>> firstOf(const std::vector<Snapshot>& starts, int molecules) {
+    std::vector<std::pair<size_t, int>> out;
+    for (size_t g = 0; g < starts.size(); ++g)
+        for (int m = 0; m < std::min(molecules, starts[g].count); ++m)
+            out.emplace_back(g, m);
+    return out;
+}
+
+reference::State ExactEnds::stateOf(const Snapshot& snapshot, int m) {
+    const auto first = ptrdiff_t(m) * snapshot.vertexCount, last = first + snapshot.vertexCount;
+    return {snapshot.time,
+            {snapshot.positions.begin() + first, snapshot.positions.begin() + last},
+            {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
+}
+
 ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts,
                      double duration, int cores, int molecules)
+    : ExactEnds(scene, plan, starts, duration, cores, firstOf(starts, molecules)) {}
+
+ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts,
+                     double duration, int cores, const std::vector<std::pair<size_t, int>>& which)
     : duration_(duration), cores_(std::max(1, cores)) {
-    for (size_t g = 0; g < plan.groups.size(); ++g) {
-        names_.push_back(plan.groups[g].name);
-        for (int m = 0; m < std::min(molecules, starts[g].count); ++m) {
-            One one;
-            one.group = g;
-            one.index = m;
-            one.problem = problemOf(scene, plan.groups[g], m);
-            one.size = one.problem.size();
-            one.start = one.end = stateOf(starts[g], m);
-            molecules_.push_back(std::move(one));
-        }
-    }
-    for (const One& one : molecules_)
-        if (one.index == 0)
+    for (const GroupPlan& group : plan.groups)
+        names_.push_back(group.name);
+    for (const auto& [g, m] : which) {
+        One one;
+        one.group = g;
+        one.index = m;
+        one.problem = problemOf(scene, plan.groups[g], m);
+        one.size = one.problem.size();
+        one.start = one.end = stateOf(starts[g], m);
+        if (molecules_.empty() || molecules_.back().group != g)
             secondsPerStep_ = std::max(secondsPerStep_, measureStep(one.problem, one.start, duration_));
+        molecules_.push_back(std::move(one));
+    }
 }
 
 // As many molecules are: halved six times, or, where contact breaks the order, as often as is allowed, with
@@ -239,6 +249,19 @@ ErrorParts ExactEnds::errorOf(const std::vector<Snapshot>& ends) const {
     out.centroid = std::sqrt(out.centroid);
     out.shape = std::sqrt(out.shape);
     return out;
+}
+
+std::vector<double> ExactEnds::eachOf(const std::vector<Snapshot>& ends) const {
+    std::vector<double> out;
+    for (const One& one : molecules_)
+        out.push_back(reference::relativeError(stateOf(ends[one.group], one.index), one.end, one.size));
+    return out;
+}
+
+std::optional<size_t> ExactEnds::placeOf(size_t group, int molecule) const {
+    for (size_t i = 0; i < molecules_.size(); ++i)
+        if (molecules_[i].group == group && molecules_[i].index == molecule) return i;
+    return std::nullopt;
 }
 
 Drift ExactEnds::driftOf(const One& one, const reference::State& end) const {

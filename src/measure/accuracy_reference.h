@@ -1,6 +1,7 @@
 // Where the measured molecules of a scene ought to be at the end, in double precision.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ class ExactEnds {
     // many molecules of each group, the first ones.
     ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts, double duration,
               int cores, int molecules);
+    // Likewise, of these: group and number in it.
+    ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Snapshot>& starts, double duration,
+              int cores, const std::vector<std::pair<size_t, int>>& which);
     ExactEnds(const ExactEnds&) = delete;
     ExactEnds& operator=(const ExactEnds&) = delete;
 
@@ -62,6 +66,10 @@ class ExactEnds {
     ErrorParts errorOf(const std::vector<Snapshot>& ends) const;
     Drift driftOf(const std::vector<Snapshot>& ends) const;
     int molecules() const { return int(molecules_.size()); }
+    // Of each molecule; and where among them one is.
+    std::vector<double> eachOf(const std::vector<Snapshot>& ends) const;
+    std::optional<size_t> placeOf(size_t group, int molecule) const;
+    static reference::State stateOf(const Snapshot& snapshot, int molecule);
 
   private:
     struct One {

@@ -34,28 +34,10 @@ double sample(const Contender& one) {
     return std::chrono::duration<double>(Clock::now() - start).count() / frames;
 }
 
-// The contenders that fit, cheapest first, as flags.
-std::vector<bool> thoseThatFit(const std::vector<Contender>& contenders, std::optional<double> seconds,
-                               int samples) {
-    std::vector<bool> out(contenders.size(), true);
-    if (!seconds) return out;
-    std::vector<size_t> order(contenders.size());
-    std::iota(order.begin(), order.end(), size_t(0));
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) {
-        return contenders[a].secondsOfFrame < contenders[b].secondsOfFrame;
-    });
-    double sum = 0;
-    for (const size_t i : order) {
-        sum += samples * secondsOfVisit(contenders[i]);
-        out[i] = sum <= *seconds;
-    }
-    return out;
-}
-
 }  // namespace
 
 double secondsOfVisit(const Contender& one) {
-    return one.secondsOfFrame * (framesOfSample(one) + 1) + 1e-3;
+    return one.secondsOfStep + one.secondsOfFrame * (framesOfSample(one) + 1) + 1e-3;
 }
 
 double leastSeconds(const std::vector<Contender>& contenders) {
@@ -65,24 +47,60 @@ double leastSeconds(const std::vector<Contender>& contenders) {
     return std::max(out, std::min(usualSeconds, out / leastSamples * mostSamples));
 }
 
+std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<double> seconds) {
+    std::vector<bool> out(cost.size(), true);
+    if (!seconds) return out;
+    std::vector<size_t> order(cost.size());
+    std::iota(order.begin(), order.end(), size_t(0));
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return cost[a] < cost[b]; });
+    double sum = 0;
+    for (const size_t i : order)
+        out[i] = (sum += cost[i]) <= *seconds;
+    return out;
+}
+
+void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
+                 const std::function<double()>& now, const std::function<void(size_t)>& visit) {
+    BenchSchedule schedule;
+    schedule.seconds = seconds.value_or(usualSeconds);
+    schedule.leastSamples = seconds ? 1 : leastSamples;
+    schedule.mostSamples = mostSamples;
+    const double start = now();
+    std::vector<double> dearest = cost;
+    const auto visitInTime = [&](size_t i) {
+        const double before = now();
+        if (seconds && before - start + dearest[i] > *seconds) return;
+        visit(i);
+        dearest[i] = std::max(dearest[i], now() - before);
+    };
+    // all once before any twice
+    VisitPlan plan = planVisits(cost, schedule);
+    for (size_t i = 0; i < cost.size(); ++i) {
+        visitInTime(i);
+        --plan.samples[i];
+    }
+    takeTurns(plan, visitInTime);
+}
+
 std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::optional<double> seconds,
                                const std::function<void(double)>& tell) {
-    const int least = seconds ? 1 : leastSamples;
-    const std::vector<bool> fits = thoseThatFit(contenders, seconds, least);
+    std::vector<double> all, cost;
+    for (const Contender& one : contenders)
+        all.push_back(secondsOfVisit(one));
+    const std::vector<bool> fits = thoseThatFit(all, seconds);
     std::vector<size_t> places;
-    std::vector<double> cost;
     for (size_t i = 0; i < contenders.size(); ++i) {
         if (!fits[i]) continue;
         places.push_back(i);
-        cost.push_back(secondsOfVisit(contenders[i]));
+        cost.push_back(all[i]);
     }
-    BenchSchedule schedule;
-    schedule.seconds = seconds.value_or(usualSeconds);
-    schedule.leastSamples = least;
-    schedule.mostSamples = mostSamples;
+    // the cheap ones first: what a busy machine has no time for is the dearest
+    std::stable_sort(places.begin(), places.end(), [&](size_t a, size_t b) { return all[a] < all[b]; });
+    std::sort(cost.begin(), cost.end());
     std::vector<std::vector<double>> samples(contenders.size());
     double done = 0;
-    takeTurns(planVisits(cost, schedule), [&](size_t i) {
+    const auto now = [] { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); };
+    visitInTurn(cost, seconds, now, [&](size_t i) {
         samples[places[i]].push_back(sample(contenders[places[i]]));
         tell(done += cost[i]);
     });

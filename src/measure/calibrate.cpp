@@ -8,6 +8,7 @@
 #include "measure/accuracy.h"
 #include "measure/calibration_store.h"
 #include "measure/pin_threads.h"
+#include "measure/statistics.h"
 
 namespace shoal::measure {
 
@@ -18,6 +19,7 @@ using Clock = std::chrono::steady_clock;
 // A sampling other than the exact one is tried for solvers within this factor of the best: reading fields
 // less often does not save more.
 constexpr double worthSampling = 10;
+constexpr int mostTries = 8;            // of more substeps for the sample
 constexpr double closeEnough = 1.12;    // of the fewest substeps that do
 constexpr double secondsAMolecule = 3;  // of the reference
 constexpr int fewOnGpu = 4096, fewOnCpu = 32;
@@ -32,6 +34,7 @@ class Search {
         // what a lane does costs a GPU nothing more in its neighbours
         few_ = withMolecules(scene, software ? std::max(fewOnCpu, options.molecules) : fewOnGpu);
         many_ = withMolecules(scene, software ? manyOnCpu : manyOnGpu);
+        all_ = withMolecules(scene, sampleMolecules);
         frames_ = std::max(1, int(std::lround(options.duration * scene.frameRate)));
     }
 
@@ -45,7 +48,8 @@ class Search {
         for (const SolverKind kind : kinds)
             probe({kind, samplings.front()});
         searchAll();
-        const double best = bestCost();
+        const Run* ahead = cheapest();
+        const double best = ahead == nullptr ? 0 : ahead->candidate.cost;
         const size_t firsts = runs_.size();
         for (size_t i = 0; i < firsts; ++i) {
             const Candidate one = runs_[i].candidate;
@@ -54,13 +58,15 @@ class Search {
                 probe({one.method.solver, samplings[s]});
         }
         searchAll();
+        timeAgain();
         return conclude();
     }
 
   private:
     struct Run {
         Candidate candidate;
-        std::unique_ptr<MethodRunner> few, many;
+        std::unique_ptr<MethodRunner> few, many, all;  // all: of the sample
+        SampleError sample;
         FrameCost frame;
         bool searched = false;
     };
@@ -112,10 +118,13 @@ class Search {
                 std::make_unique<ExactEnds>(few_, runner.simulation().plan(), starts,
                                             frames_ / few_.frameRate, device_.cores, options_.molecules);
             const Settled settled = reference_->solve(0.01 * options_.error, secondsAMolecule);
-            if (settled == Settled::yes) return;
-            if (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error) return;
+            if (settled == Settled::yes ||
+                (settled == Settled::roughly && reference_->error() <= 0.1 * options_.error))
+                break;
             if (frames_ == least) throw Error(Location{few_.file, 0, 0, {}}, noReference(settled));
         }
+        sample_ = std::make_unique<MoleculeSample>(all_, options_.error, frames_, *reference_, device_);
+        sample_->settle();
     }
 
     std::string noReference(Settled settled) const {
@@ -173,9 +182,38 @@ class Search {
             return;
         }
         refine(run, failed, good);
+        if (!holds(run)) return;
         run.candidate.reached = true;
         run.candidate.cost = costAt(run, run.candidate.substeps);
         run.candidate.why = "gets there";
+    }
+
+    // Takes more substeps until what the few molecules have shown holds over the sample.
+    bool holds(Run& run) {
+        Candidate& one = run.candidate;
+        for (int tries = 0;; ++tries) {
+            run.sample = errorOfSample(run, one.substeps);
+            one.error = run.sample.rms;
+            one.worst = run.sample.worst;
+            if (run.sample.holds(options_.error)) return true;
+            const int next = std::max(one.substeps + 1, int(std::lround(1.3 * one.substeps)));
+            one.why = concat("does not get there: at ", one.substeps, " substeps ", run.sample.above, " of ",
+                             run.sample.measured, " molecules are above, the worst at ", run.sample.worst);
+            if (options_.substeps || tries == mostTries || next > maxSubsteps ||
+                !run.few->refusal({next, 1}).empty() || !canWin(run, next))
+                return false;
+            one.substeps = next;
+        }
+    }
+
+    SampleError errorOfSample(Run& run, int substeps) {
+        if (!run.all) run.all = std::make_unique<MethodRunner>(all_, run.candidate.method, device_);
+        run.all->set({substeps, 1});
+        run.all->run(frames_);
+        const std::vector<Snapshot> ends = run.all->snapshots();
+        const double infinite = std::numeric_limits<double>::infinity();
+        if (!ExactEnds::finite(ends)) return {.rms = infinite, .worst = infinite};
+        return sample_->errorOf(ends);
     }
 
     // Between substeps that fail (or none) and substeps that do.
@@ -213,12 +251,32 @@ class Search {
         return error;
     }
 
+    // What one look finds too dear is timed again, in turn with the best: a busy moment must not decide.
     bool canWin(Run& run, int substeps) {
-        const double expected = perVertex(run, run.frame.of({substeps, 1})), best = bestCost();
-        if (expected < best) return true;
-        run.candidate.why = concat("cannot win: at ", substeps, substeps == 1 ? " substep" : " substeps",
-                                   " it costs ", std::round(100 * expected / best) / 100, " times the best");
+        Run* best = cheapest();
+        if (best == nullptr) return true;
+        Candidate& ahead = best->candidate;
+        double expected = perVertex(run, run.frame.of({substeps, 1}));
+        if (!losesAgain(
+                expected, ahead.cost, [&] { return costAt(run, substeps); },
+                [&] { return costAt(*best, ahead.substeps); }))
+            return true;
+        run.candidate.why =
+            concat("cannot win: at ", substeps, substeps == 1 ? " substep" : " substeps", " it costs ",
+                   std::round(100 * expected / ahead.cost) / 100, " times the best");
         return false;
+    }
+
+    // Those that get there were timed one after the other: the best is found in turn.
+    void timeAgain() {
+        for (Run& run : runs_) {
+            Run* best = cheapest();
+            if (best == nullptr || &run == best || !run.candidate.reached) continue;
+            if (run.candidate.cost > 3 * best->candidate.cost) continue;
+            losesAgain(
+                run.candidate.cost, best->candidate.cost, [&] { return costAt(run, run.candidate.substeps); },
+                [&] { return costAt(*best, best->candidate.substeps); });
+        }
     }
 
     double perVertex(const Run& run, double secondsOfFrame) const {
@@ -227,19 +285,19 @@ class Search {
     double costAt(Run& run, int substeps) const {
         return perVertex(run, run.many->secondsOfFrame({substeps, 1}));
     }
-    double bestCost() const {
-        double out = std::numeric_limits<double>::infinity();
-        for (const Run& run : runs_)
-            if (run.candidate.reached) out = std::min(out, run.candidate.cost);
+    Run* cheapest() {
+        Run* out = nullptr;
+        for (Run& run : runs_)
+            if (run.candidate.reached && (out == nullptr || run.candidate.cost < out->candidate.cost))
+                out = &run;
         return out;
     }
 
     Calibration conclude() {
-        const Run* best = nullptr;
+        const Run* best = cheapest();
         const Run* nearest = nullptr;
         for (const Run& run : runs_) {
             const Candidate& one = run.candidate;
-            if (one.reached && (best == nullptr || one.cost < best->candidate.cost)) best = &run;
             if (one.error && (nearest == nullptr || *one.error < *nearest->candidate.error)) nearest = &run;
         }
         if (best == nullptr) refuse(nearest == nullptr ? nullptr : &nearest->candidate);
@@ -248,6 +306,8 @@ class Search {
         out.method = best->candidate.method;
         out.substeps = best->candidate.substeps;
         out.error = *best->candidate.error;
+        out.sample = best->sample;
+        out.how = sample_->how();
         out.cost = best->candidate.cost;
         int others = 0;
         for (const Run& run : runs_) {
@@ -271,14 +331,16 @@ class Search {
         throw Error(place, concat("--error ", options_.error, " is out of reach: the nearest is ",
                                   name(nearest->method.solver), " with ", nearest->substeps,
                                   " substeps of a frame, fields by ", name(nearest->method.sampling),
-                                  ", which has an error of ", *nearest->error));
+                                  ", which has an error of ", *nearest->error,
+                                  nearest->worst ? concat(" RMS and ", *nearest->worst, " at worst") : ""));
     }
 
     const CalibrationOptions& options_;
     const AccuracyDevice& device_;
-    Scene few_, many_;
+    Scene few_, many_, all_;  // all_: the sample
     int frames_ = 60;
     std::unique_ptr<ExactEnds> reference_;
+    std::unique_ptr<MoleculeSample> sample_;
     std::vector<Run> runs_;
 };
 

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr int layoutVersion = 2;
+constexpr int layoutVersion = 3;
 
 // FNV-1a over the bytes of what it is given.
 class Hash {
@@ -86,6 +86,7 @@ JsonValue asJson(const Candidate& one) {
         .add("fieldSampling", JsonValue::makeString(name(one.method.sampling)))
         .add("substeps", JsonValue::makeNumber(one.substeps))
         .add("error", one.error ? JsonValue::makeNumber(*one.error) : JsonValue())
+        .add("worst", one.worst ? JsonValue::makeNumber(*one.worst) : JsonValue())
         .add("secondsPerVertexAndSecond", one.cost > 0 ? JsonValue::makeNumber(one.cost) : JsonValue())
         .add("reached", JsonValue::makeBoolean(one.reached))
         .add("why", JsonValue::makeString(one.why));
@@ -110,6 +111,8 @@ Candidate candidateOf(JsonReader& reader) {
     reader.need("substeps", out.substeps);
     const JsonValue* error = reader.raw("error");
     if (error != nullptr && error->kind == JsonValue::Kind::number) out.error = error->number;
+    const JsonValue* worst = reader.raw("worst");
+    if (worst != nullptr && worst->kind == JsonValue::Kind::number) out.worst = worst->number;
     const JsonValue* cost = reader.raw("secondsPerVertexAndSecond");
     if (cost != nullptr && cost->kind == JsonValue::Kind::number) out.cost = cost->number;
     reader.need("reached", out.reached);
@@ -159,6 +162,12 @@ JsonValue asJson(const Calibration& one) {
         .add("fieldSampling", JsonValue::makeString(name(one.method.sampling)))
         .add("substeps", JsonValue::makeNumber(one.substeps))
         .add("error", JsonValue::makeNumber(one.error))
+        .add("worst", JsonValue::makeNumber(one.sample.worst))
+        .add("measured", JsonValue::makeNumber(one.sample.measured))
+        .add("above", JsonValue::makeNumber(one.sample.above))
+        .add("compared", JsonValue::makeNumber(one.sample.compared))
+        .add("untold", JsonValue::makeNumber(one.sample.untold))
+        .add("how", JsonValue::makeString(one.how))
         .add("secondsPerVertexAndSecond", JsonValue::makeNumber(one.cost))
         .add("duration", JsonValue::makeNumber(one.duration))
         .add("why", JsonValue::makeString(one.why))
@@ -179,6 +188,13 @@ std::optional<Calibration> loadCalibration(const std::string& folder, const std:
         reader.need("target", out.target);
         reader.need("substeps", out.substeps, Range::between(1, maxSubsteps));
         reader.need("error", out.error);
+        out.sample.rms = out.error;
+        reader.need("worst", out.sample.worst);
+        reader.need("measured", out.sample.measured);
+        reader.need("above", out.sample.above);
+        reader.need("compared", out.sample.compared);
+        reader.need("untold", out.sample.untold);
+        reader.need("how", out.how);
         reader.need("secondsPerVertexAndSecond", out.cost);
         reader.need("duration", out.duration);
         reader.need("why", out.why);

@@ -12,4 +12,15 @@ Spread spreadOf(std::vector<double> values) {
     return {values.front(), median, int(n)};
 }
 
+bool losesAgain(double& challenger, double& best, const std::function<double()>& timeChallenger,
+                const std::function<double()>& timeBest) {
+    for (int round = 0; round < 3 && challenger >= best; ++round) {
+        best = std::min(best, timeBest());
+        const double again = timeChallenger();
+        challenger = std::min(challenger, again);
+        if (again > 3 * best && challenger > 3 * best) break;
+    }
+    return challenger >= best;
+}
+
 }  // namespace shoal::measure

@@ -138,7 +138,7 @@ Fit fit(const Problem& problem, const State& state, const Stage& stage) {
     return out;
 }
 
-Eigen::MatrixXd restMatrix(const Problem& problem, const Stage& stage) {
+Eigen::MatrixXd restMatrix(const Problem& problem, double eta) {
     const Molecule& molecule = *problem.molecule;
     const Eigen::Index size = 3 * Eigen::Index(molecule.vertices.size());
     const double gamma = std::max(problem.drag.normal, problem.drag.tangent);
@@ -150,7 +150,7 @@ Eigen::MatrixXd restMatrix(const Problem& problem, const Stage& stage) {
         Eigen::VectorXd n = Eigen::VectorXd::Zero(size);
         n.segment<3>(3 * spring.a) = toEigen(glm::normalize(d));
         n.segment<3>(3 * spring.b) = -toEigen(glm::normalize(d));
-        out += (problem.stiffness * spring.stiffness + problem.damping * spring.damping / stage.eta) * n *
+        out += (problem.stiffness * spring.stiffness + problem.damping * spring.damping / eta) * n *
                n.transpose();
     }
     for (size_t i = 0; i < molecule.vertices.size(); ++i) {
@@ -159,19 +159,19 @@ Eigen::MatrixXd restMatrix(const Problem& problem, const Stage& stage) {
             out.middleRows<3>(row).setZero();
             out.middleCols<3>(row).setZero();
         }
-        out.block<3, 3>(row, row) += (1 / (stage.eta * stage.eta) + gamma / stage.eta) *
-                                     molecule.vertices[i].mass * Eigen::Matrix3d::Identity();
+        out.block<3, 3>(row, row) +=
+            (1 / (eta * eta) + gamma / eta) * molecule.vertices[i].mass * Eigen::Matrix3d::Identity();
     }
     return out;
 }
 
-// Whether two quasi-Newton steps have solved the stage.
-bool improve(const Problem& problem, const State& state, Stage& stage) {
-    if (fit(problem, state, stage).furthest > 0.03) return false;
-    const Eigen::LDLT<Eigen::MatrixXd> matrix(restMatrix(problem, stage));
-    const Vectors start = stage.moved;
+// Whether two quasi-Newton steps from where the stage is have solved it; else it is as it was. `eta`: of the
+// matrix; `start`: the solution without springs.
+bool improve(const Problem& problem, const State& state, double eta, const Vectors& start, Stage& stage) {
+    const Eigen::LDLT<Eigen::MatrixXd> matrix(restMatrix(problem, eta));
+    const Vectors before = stage.moved;
     const size_t count = start.size();
-    double before = 0, now = 0;
+    double first = 0, second = 0;
     for (int step = 0; step < 2; ++step) {
         const Fit rotation = fit(problem, state, stage);
         Vectors position(count), velocity(count);
@@ -188,19 +188,30 @@ bool improve(const Problem& problem, const State& state, Stage& stage) {
             residual.segment<3>(3 * Eigen::Index(i)) = rotation.rotation.transpose() * toEigen(left);
         }
         const Eigen::VectorXd change = matrix.solve(residual);
-        before = now;
-        now = 0;
+        first = second;
+        second = 0;
         for (size_t i = 0; i < count; ++i) {
             if (problem.pinned(i)) continue;
             const Eigen::Vector3d d = rotation.rotation * change.segment<3>(3 * Eigen::Index(i));
             stage.moved[i] += glm::dvec3(d.x(), d.y(), d.z());
-            now += d.squaredNorm();
+            second += d.squaredNorm();
         }
     }
     const double size = problem.scale * problem.molecule->size();
-    if (now < 0.25 * before || now < 1e-12 * size * size) return true;
-    stage.moved = start;
+    if (second < 0.25 * first || second < 1e-12 * size * size) return true;
+    stage.moved = before;
     return false;
+}
+
+// Quasi-Newton steps, guarded as the shader's are: where they fail, from where the sweeps end. The matrix is
+// that of steps with history.
+void solveCorotated(const Problem& problem, const State& state, bool fresh, Stage& stage) {
+    const Vectors start = stage.moved;
+    const double eta = fresh ? 2 * stage.eta / 3 : stage.eta;
+    const bool near = !fresh && fit(problem, state, stage).furthest <= 0.03;
+    if (near && improve(problem, state, eta, start, stage)) return;
+    sweep(problem, state, stage, true);
+    improve(problem, state, eta, start, stage);
 }
 
 }  // namespace
@@ -271,7 +282,10 @@ void bdf2Step(const Problem& problem, State& state, History& history, double h, 
         stage.moved[i] = stage.known[i] + eta * velocity;
         stage.weight[i] = eta / problem.molecule->vertices[i].mass * byDirection(n[i], phi);
     }
-    if (fresh || !corotated || !improve(problem, state, stage)) sweep(problem, state, stage, true);
+    if (corotated)
+        solveCorotated(problem, state, fresh, stage);
+    else
+        sweep(problem, state, stage, true);
     history.displacement.resize(count);
     history.velocityChange.resize(count);
     for (size_t i = 0; i < count; ++i) {

@@ -48,7 +48,8 @@ TEST_CASE("measure reports every point as JSON and CSV", "[cli]") {
         quick(shearScene(scratch), {"--json", "--csv", scratch.path("points.csv")}), cacheIn(scratch));
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
-    CHECK_THAT(outcome.err, Catch::Contains("This takes about "));
+    CHECK_THAT(outcome.err,
+               Catch::Contains("This takes about ") && Catch::Contains("Errors and times take about "));
     const JsonValue report = outcome.json();
     CHECK_FALSE(member(member(report, "machine"), "processor").text.empty());
     CHECK_FALSE(member(member(report, "context"), "renderer").text.empty());
@@ -189,6 +190,13 @@ TEST_CASE("--error finds a method, once", "[cli]") {
     REQUIRE(explained.code == 0);
     const JsonValue calibration = member(explained.json(), "calibration");
     CHECK(member(calibration, "error").number < 1e-3);
+    // of all 40 molecules, not of the few that have the reference
+    CHECK(member(calibration, "measured").number == 40);
+    CHECK(member(calibration, "untold").number == 0);
+    CHECK(member(calibration, "above").number == 0);
+    CHECK(member(calibration, "worst").number >= member(calibration, "error").number);
+    CHECK_THAT(member(calibration, "how").text, Catch::Contains("4 by the reference, 36 by "));
+    CHECK_THAT(first.err, Catch::Contains(" at worst of 40 molecules"));
     CHECK(member(calibration, "candidates").items.size() >= 7);
     CHECK_THAT(runShoal({"explain", scene, "--error", "1e-3"}, cacheIn(scratch)).out,
                Catch::Contains("as found before") && Catch::Contains("gets there"));

@@ -6,7 +6,9 @@
 
 #include "compile/plan.h"
 #include "measure/accuracy_tables.h"
+#include "measure/accuracy_times.h"
 #include "measure/pareto.h"
+#include "measure/sample.h"
 #include "reference/fields.h"
 #include "support/catch.h"
 
@@ -97,6 +99,50 @@ TEST_CASE("what an error costs is interpolated between logarithms", "[accuracy]"
     CHECK(std::isfinite(costAt(curveOf(exact, exact[0].method), 1e-3)->time));
 }
 
+TEST_CASE("a method is left out only when it is dearer each time that both are timed in turn", "[accuracy]") {
+    int timed = 0;
+    const auto always = [&](double seconds) {
+        return [&timed, seconds] {
+            ++timed;
+            return seconds;
+        };
+    };
+    // 50 times as dear at first sight, because something else ran
+    double challenger = 50, best = 1;
+    CHECK_FALSE(losesAgain(challenger, best, always(0.9), always(1)));
+    CHECK(challenger == 0.9);
+    // noise twice in a row
+    int call = 0;
+    challenger = 50;
+    CHECK_FALSE(losesAgain(
+        challenger, best, [&] { return ++call < 3 ? 2 : 0.9; }, always(1)));
+    // the best one's time was too good... and one that is really dearer stays so, without much ado
+    challenger = 50;
+    timed = 0;
+    CHECK(losesAgain(challenger, best, always(50), always(1)));
+    CHECK(timed == 2);
+    challenger = 1.2;
+    CHECK(losesAgain(challenger, best, always(1.2), always(1)));
+    // nothing is timed where it wins
+    timed = 0;
+    challenger = 0.5;
+    CHECK_FALSE(losesAgain(challenger, best, always(9), always(9)));
+    CHECK(timed == 0);
+}
+
+TEST_CASE("an error is claimed of a sample that shows what one of a hundred molecules does", "[accuracy]") {
+    CHECK(1 - std::pow(0.99, sampleMolecules) > 0.95);
+    CHECK(SampleError{.rms = 5e-5, .worst = 1e-4, .measured = 300}.holds(1e-3));
+    CHECK_FALSE(SampleError{}.holds(1e-3));
+    // 12 of 400 end elsewhere
+    CHECK_FALSE(SampleError{.rms = 3.9e-2, .worst = 0.36, .measured = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 9}.holds(1e-3));
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 1.2e-2, .measured = 300, .above = 1}.holds(1e-3));
+    CHECK(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 300, .above = 3}.holds(1e-3));
+    // of few molecules none may be above
+    CHECK_FALSE(SampleError{.rms = 9e-4, .worst = 2e-3, .measured = 20, .above = 1}.holds(1e-3));
+}
+
 TEST_CASE("the best field sampling of a solver", "[accuracy]") {
     std::vector<AccuracyPoint> points = twoCurves();
     points.push_back(point(SolverKind::leapfrog, 1, 1.5, 1e-4, FieldSampling::vertexFrame));
@@ -119,6 +165,32 @@ TEST_CASE("the ladder of steps", "[accuracy]") {
         CHECK(fine[i].perFrame() > fine[i - 1].perFrame());
     CHECK(fine[3] == Step{4, 1});
     CHECK(fine[4] == Step{6, 1});
+}
+
+TEST_CASE("times end when their seconds are over, and say by the first round what has none", "[accuracy]") {
+    // a clock of its own: each visit takes `slow` times what was expected of it
+    const std::vector<double> cost = {0.01, 0.02, 0.1, 0.5, 1, 4};
+    CHECK(thoseThatFit(cost, 0.2) == std::vector<bool>{true, true, true, false, false, false});
+    CHECK(thoseThatFit({4, 0.5, 1}, 2) == std::vector<bool>{false, true, true});
+    CHECK(thoseThatFit(cost, {}) == std::vector<bool>(6, true));
+    for (const double slow : {0.5, 1.0, 5.0}) {
+        for (const double seconds : {0.3, 6.0, 60.0}) {
+            CAPTURE(slow, seconds);
+            double clock = 100;
+            std::vector<int> visits(cost.size());
+            visitInTurn(
+                cost, seconds, [&] { return clock; },
+                [&](size_t i) {
+                    clock += slow * cost[i];
+                    ++visits[i];
+                });
+            // at most the first visit of one that is slower than expected goes beyond
+            CHECK(clock - 100 <= seconds + std::max(0.0, slow - 1) * cost.back());
+            CHECK(visits[0] > 0);
+            if (slow <= 1 && seconds >= 6)
+                CHECK(std::all_of(visits.begin(), visits.end(), [](int n) { return n > 0; }));
+        }
+    }
 }
 
 TEST_CASE("field samplings that differ", "[accuracy]") {

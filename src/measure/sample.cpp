@@ -1,0 +1,182 @@
+#include "measure/sample.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace shoal::measure {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double nearEnough = 0.3, roughlyNear = 3;  // of the error wanted: a change when the step is halved
+constexpr double floatNoise = 1e-4;                  // below it two runs in float agree
+constexpr double secondsARun = 6;                    // of all molecules by one method at one step
+constexpr double secondsAMolecule = 3;               // of the reference
+constexpr int mostAsked = 6;
+constexpr int mostWorst = 10;  // times the error wanted
+
+}  // namespace
+
+bool SampleError::holds(double error) const {
+    return measured > 0 && rms < error && 100 * above <= measured && worst < mostWorst * error;
+}
+
+MoleculeSample::MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
+                               const AccuracyDevice& device)
+    : scene_(scene), error_(error), frames_(frames), core_(core), device_(device) {}
+
+std::vector<double> MoleculeSample::distances(const std::vector<Snapshot>& a,
+                                              const std::vector<Snapshot>& b) const {
+    std::vector<double> out;
+    for (const One& one : molecules_)
+        out.push_back(reference::relativeError(ExactEnds::stateOf(a[one.group], one.index),
+                                               ExactEnds::stateOf(b[one.group], one.index), one.size));
+    return out;
+}
+
+bool MoleculeSample::told(const One& one) const {
+    return one.change <= std::max(roughlyNear * error_, floatNoise);
+}
+
+bool MoleculeSample::settled() const {
+    const auto untold =
+        std::count_if(molecules_.begin(), molecules_.end(), [&](const One& one) { return !told(one); });
+    return 100 * untold <= int(molecules_.size());
+}
+
+void MoleculeSample::settle() {
+    // another method where one does not settle them: what is stiff stays to the implicit ones
+    for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::bdf2Corotated, SolverKind::bdf2Xpbd})
+        if (settleBy(kind)) break;
+    for (One& one : molecules_)
+        if (!told(one)) ask(one);
+}
+
+// Whether it did. What an earlier method settled better stays.
+bool MoleculeSample::settleBy(SolverKind kind) {
+    auto runner = std::make_unique<MethodRunner>(scene_, Method{kind, {}}, device_);
+    int substeps = 16;
+    while (substeps < maxSubsteps && !runner->refusal({substeps, 1}).empty())
+        substeps *= 2;
+    try {
+        if (2 * substeps <= maxSubsteps) runner->set({substeps, 1});
+    } catch (const Error&) {
+        return false;  // the path or the driver refuses the method
+    }
+    if (2 * substeps > maxSubsteps) return false;
+    runner->restart();
+    if (!runner_) {
+        starts_ = runner->snapshots();
+        const Plan& plan = runner->simulation().plan();
+        for (size_t g = 0; g < starts_.size(); ++g) {
+            for (int m = 0; m < starts_[g].count; ++m) {
+                One& one = molecules_.emplace_back();
+                one.group = g;
+                one.index = m;
+                const double size = scene_.groups[plan.groups[g].index].molecule.size() *
+                                    double(plan.groups[g].constants.scales[size_t(m)]);
+                one.size = size > 0 ? size : 1;
+                one.inCore = core_.placeOf(g, m);
+                one.given = one.inCore.has_value();
+                if (one.given) one.change = 0;
+            }
+        }
+        runner_ = std::move(runner);
+        if (settled()) return true;
+    }
+    MethodRunner& by = runner ? *runner : *runner_;
+    std::vector<Snapshot> coarse;
+    for (; substeps <= maxSubsteps; substeps *= 2) {
+        const Clock::time_point start = Clock::now();
+        by.set({substeps, 1});
+        by.run(frames_);
+        const std::vector<Snapshot> fine = by.snapshots();
+        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        if (!coarse.empty() && core_.errorOf(fine).worst <= std::max(error_, floatNoise)) {
+            const std::vector<double> change = distances(coarse, fine);
+            const auto sum = [&](const auto& of) {
+                double out = 0;
+                for (size_t i = 0; i < molecules_.size(); ++i)
+                    if (!molecules_[i].given) out += std::isfinite(of(i)) ? std::min(of(i), 1.0) : 1;
+                return out;
+            };
+            if (sum([&](size_t i) { return change[i]; }) <
+                sum([&](size_t i) { return molecules_[i].change; })) {
+                for (size_t i = 0; i < molecules_.size(); ++i)
+                    if (!molecules_[i].given)
+                        molecules_[i].change = std::isfinite(change[i]) ? change[i] : 1e30;
+                ends_ = fine;
+                by_ = concat(shoal::name(kind), " with ", substeps, " substeps");
+            }
+            const auto rough = std::count_if(molecules_.begin(), molecules_.end(), [&](const One& one) {
+                return one.change > nearEnough * error_;
+            });
+            if (100 * rough <= int(molecules_.size())) return true;
+        }
+        if (2 * seconds > secondsARun) break;
+        coarse = fine;
+    }
+    return settled();
+}
+
+void MoleculeSample::ask(One& one) {
+    if (one.given || asked_ >= mostAsked) return;
+    one.given = true;
+    ++asked_;
+    const std::vector<std::pair<size_t, int>> which = {{one.group, one.index}};
+    auto own = std::make_unique<ExactEnds>(scene_, runner_->simulation().plan(), starts_,
+                                           frames_ / scene_.frameRate, device_.cores, which);
+    const Settled settled = own->solve(0.01 * error_, secondsAMolecule);
+    if (settled == Settled::yes || (settled == Settled::roughly && own->error() <= nearEnough * error_)) {
+        one.own = std::move(own);
+        one.change = 0;
+    } else {
+        one.change = 1e30;
+    }
+}
+
+std::string MoleculeSample::how() const {
+    const auto exact = std::count_if(molecules_.begin(), molecules_.end(),
+                                     [](const One& one) { return one.inCore || one.own; });
+    const auto others = std::count_if(molecules_.begin(), molecules_.end(),
+                                      [&](const One& one) { return !one.inCore && !one.own && told(one); });
+    if (others == 0) return concat(exact, " by the reference");
+    return concat(exact, " by the reference, ", others, " by ", by_);
+}
+
+SampleError MoleculeSample::errorOf(const std::vector<Snapshot>& ends) {
+    const std::vector<double> inCore = core_.eachOf(ends);
+    const std::vector<double> apart = ends_.empty() ? std::vector<double>() : distances(ends, ends_);
+    const auto of = [&](size_t i) {
+        const One& one = molecules_[i];
+        return one.inCore ? inCore[*one.inCore] : one.own ? one.own->errorOf(ends).worst : apart[i];
+    };
+    std::vector<size_t> far;
+    for (size_t i = 0; i < molecules_.size(); ++i)
+        if (!molecules_[i].given && told(molecules_[i]) && of(i) > mostWorst * error_) far.push_back(i);
+    if (int(far.size()) + asked_ <= mostAsked)
+        for (const size_t i : far)
+            ask(molecules_[i]);
+    SampleError out;
+    for (size_t i = 0; i < molecules_.size(); ++i) {
+        const One& one = molecules_[i];
+        if (!told(one)) {
+            ++out.untold;
+            continue;
+        }
+        ++out.compared;
+        const bool measured = one.change <= nearEnough * error_;
+        const double error = measured ? of(i) : std::max(0.0, of(i) - one.change);
+        out.worst = std::max(out.worst, error);
+        if (!measured) continue;
+        ++out.measured;
+        out.rms += error * error;
+        out.above += error > error_;
+    }
+    out.rms = std::sqrt(out.rms / std::max(1, out.measured));
+    return out;
+}
+
+}  // namespace shoal::measure
