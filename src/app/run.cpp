@@ -188,10 +188,12 @@ class HeadlessRun {
         if (!signal) return;
         std::cerr << "shoal: stopped by signal " << signal << " (" << ::strsignal(signal) << ") after frame "
                   << simulation_.frames() << " of " << last_;
-        const size_t count = report_.written.size();
-        if (count > 0) std::cerr << "; whole: " << printable(report_.written.front());
-        if (count > 1) std::cerr << (count > 2 ? " to " : ", ") << printable(report_.written.back());
-        if (count > 2) std::cerr << ", " << count << " files";
+        const std::vector<std::string>& files = report_.written;
+        constexpr size_t most = 4;  // to be named
+        for (size_t i = 0; i < std::min(files.size(), most); ++i)
+            std::cerr << (i ? ", " : "; whole: ") << printable(files[i]);
+        if (files.size() > most)
+            std::cerr << " and so on to " << printable(files.back()) << ", " << files.size() << " files";
         std::cerr << "\n";
     }
     std::vector<gpu::PassTime> passTimes() {

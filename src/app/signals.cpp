@@ -20,6 +20,8 @@ std::atomic<int> asked = 0;
 std::atomic<bool> finishes = false;
 static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
+bool onTerminal = false;  // there the line has begun, with a bar and ^C
+
 void say(std::string_view line) {
     if (::write(STDERR_FILENO, line.data(), line.size()) < 0) return;  // nobody reads it: no matter
 }
@@ -28,6 +30,7 @@ void onSignal(int signal) {
     const int before = errno;
     int none = 0;
     if (!finishes || !asked.compare_exchange_strong(none, signal)) endBySignal(signal);
+    if (onTerminal) say("\n");
     say("shoal: stops after this frame; a second signal ends it at once\n");
     errno = before;
 }
@@ -35,6 +38,7 @@ void onSignal(int signal) {
 }  // namespace
 
 void catchSignals() {
+    onTerminal = ::isatty(STDERR_FILENO) != 0;
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction now {};
         ::sigaction(signal, nullptr, &now);
