@@ -327,8 +327,14 @@ static void checkPlace(const Placement& place, const std::vector<Model>& models,
 }
 
 static void checkGroup(const Group& group, const std::vector<Model>& models, const Where& where) {
-    checkMolecule(group.molecule, where.in("molecule"));
-    if (group.particle) checkParticle(*group.particle, where.in("particle"));
+    if (group.particle) {
+        checkParticle(*group.particle, where.in("particle"));
+        Molecule point = group.molecule;
+        point.material = Material();  // follows from the type, whose colours may glow
+        checkMolecule(point, where.in("molecule"));
+    } else {
+        checkMolecule(group.molecule, where.in("molecule"));
+    }
     if (group.count != 0 || !group.life) {
         checkPlace(group.place, models, where.in("place"));
         checkCount(group.count, group.place, where);

@@ -58,7 +58,7 @@ const std::string sceneText = json(R"({
     {'name': 'listed', 'molecule': '../../molecules/quad.json',
      'place': {'on': 'list', 'items': [{'scale': 1}]}},
     {'name': 'dust', 'particle': {'mass': 1, 'size': 0.02, 'growth': [1, 0],
-                                  'colors': [{'age': 0}, {'age': 1, 'opacity': 0.5}]},
+                                  'colors': [{'age': 0, 'color': [40, 1, 1]}, {'age': 1, 'opacity': 0.5}]},
      'life': {'span': 2, 'capacity': 100, 'dies': {'outside': {'low': [0, 0, 0], 'high': [1, 1, 1]}}},
      'emitters': [{'from': 'sphere', 'radius': 0.5, 'rate': 10, 'begin': 0, 'until': 5, 'speed': [1, 2],
                    'spread': 0.1, 'bursts': [{'count': 5}]}]},
