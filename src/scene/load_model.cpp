@@ -181,6 +181,7 @@ class ModelFiles : public Assimp::DefaultIOSystem {
 
 // Assimp's messages quote the file, whatever it holds.
 std::string oneLine(std::string text) {
+    if (text.empty()) return "Assimp does not say why";
     for (char& c : text)
         if (static_cast<unsigned char>(c) < ' ' || c == 127) c = ' ';
     constexpr size_t longest = 300;
