@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 #include <utility>
 
 #include "support/catch.h"
@@ -54,6 +55,11 @@ Words environmentOf(const Surroundings& surroundings) {
     }
     for (const auto& [name, value] : surroundings.environment)
         if (value) out.push_back(name + "=" + *value);
+    // Mesa takes no program that it compiled for another number of cores, as under taskset, and we tell of
+    // that.
+    for (std::string& entry : out)
+        if (entry.rfind("SHOAL_CACHE=/", 0) == 0 && !surroundings.environment.contains("SHOAL_CACHE"))
+            entry += "/" + std::to_string(std::thread::hardware_concurrency());
     return out;
 }
 
