@@ -237,7 +237,15 @@ bool JsonReader::choose(const std::string& key, const std::vector<std::string>& 
 }
 
 void JsonReader::require(const std::string& key) {
-    if (!has(key)) throw Error(here(), "missing key \"" + key + "\"");
+    if (has(key)) return;
+    // What is misspelt is missing as well: the place of the mistake says more. Short keys are all near one
+    // another.
+    for (const auto& [other, value] : object_->members)
+        if (key.size() > 3 && std::find(known_.begin(), known_.end(), other) == known_.end() &&
+            nearest(other, {key}) == key)
+            throw Error({file_, value.keyLine, value.keyColumn, path_ + "." + other},
+                        "unknown key \"" + other + "\"" + suggestion(other, {key}));
+    throw Error(here(), "missing key \"" + key + "\"");
 }
 
 std::optional<JsonReader> JsonReader::object(const std::string& key) {
