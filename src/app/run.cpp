@@ -210,7 +210,7 @@ class HeadlessRun {
         addTo(report_.outside, context_.traffic() - before);
     }
     static void addTo(gpu::Traffic& sum, const gpu::Traffic& part) {
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < gpu::Traffic::kinds; ++i) {
             sum.uploaded[i] += part.uploaded[i];
             sum.readBack[i] += part.readBack[i];
         }

@@ -71,22 +71,6 @@ void Renderer::resize(int width, int height) {
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
 
-namespace {
-
-// Ended also where a program is refused, which is made when it is needed first.
-class TimedFrame {
-  public:
-    explicit TimedFrame(gpu::PassTimers& timers) : timers_(timers) { timers_.beginFrame(); }
-    ~TimedFrame() { timers_.endFrame(); }
-    TimedFrame(const TimedFrame&) = delete;
-    TimedFrame& operator=(const TimedFrame&) = delete;
-
-  private:
-    gpu::PassTimers& timers_;
-};
-
-}  // namespace
-
 void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) {
     const Eye eye(view, width(), height());
     const DrawInputs inputs{eye, lighting_, sceneDepth_ ? &sceneDepth_ : nullptr, samples_.samples() > 1};
@@ -96,7 +80,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthFunc(GL_LEQUAL);
 
-    const TimedFrame frame(timers_);
+    const gpu::TimedFrame frame(timers_);
     if (groups_.blends()) {
         const auto timer = timers_.time("order");
         groups_.order(state, eye);

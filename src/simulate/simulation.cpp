@@ -111,10 +111,11 @@ void Simulation::frame() {
     const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};
     lastStep_ = step;
     lastParameters_ = parameters;
-    timers_.beginFrame();
-    if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
-    if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
-    timers_.endFrame();
+    {
+        const gpu::TimedFrame timed(timers_);
+        if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
+        if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
+    }
     time_ = frame.end;
     ++frames_;
 }

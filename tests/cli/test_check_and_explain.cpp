@@ -145,8 +145,9 @@ TEST_CASE("the smallest scene that ships warns of nothing", "[cli]") {
 TEST_CASE("check warns of how a scene starts", "[cli]") {
     const Scratch scratch;
     const auto check = [&](const std::string& keys, const std::string& place, const std::string& group = "") {
-        scratch.write("dot.json",
-                      R"({"format": "shoal-molecule-1", "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
+        scratch.write(
+            "dot.json",
+            R"({"format": "shoal-molecule-1", "name": "dot", "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
         const std::string scene =
             scratch.write("s.scene.json", concat(R"({"format": "shoal-scene-1", )", keys,
                                                  R"("groups": [{"molecule": "dot.json", )", group,
@@ -159,8 +160,7 @@ TEST_CASE("check warns of how a scene starts", "[cli]") {
     const std::string plane = R"("colliders": [{"type": "plane"}], )";
     CHECK_THAT(check("", there), !Catch::Contains("warning"));
     CHECK_THAT(check(plane, there), !Catch::Contains("warning"));
-    CHECK_THAT(check(plane, below),
-               Catch::Contains("1 of 2 molecules of \"molecule\" start inside the plane"));
+    CHECK_THAT(check(plane, below), Catch::Contains("1 of 2 molecules of \"dot\" start inside the plane"));
     CHECK_THAT(check(plane, below, R"("collide": false, )"), !Catch::Contains("warning"));
     CHECK_THAT(check(R"("camera": {"eye": [0, 1, 5], "target": [0, 1, 9]}, )", there),
                Catch::Contains("the camera sees no molecule"));

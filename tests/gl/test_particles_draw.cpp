@@ -429,6 +429,7 @@ TEST_CASE("whatever the sliders say, no pixel is lost", "[render][particles]") {
         type.blend = Blend(random() % 4);
         type.size = glm::dvec2(pick(sizes));
         type.growth = {pick({0, 1, 1e6}), pick({0, 1, 1e6})};
+        if (type.growth == glm::dvec2(0)) type.growth.y = 1;  // never to be seen is refused
         type.turn = glm::dvec2(pick(turns));
         type.spin = glm::dvec2(pick(turns));
         type.stretch = pick({0, 1, 1e6});

@@ -56,7 +56,7 @@ TEST_CASE("frames are numbered in a folder or where the name says", "[picture]")
     CHECK(frameFile("out", 7, true, 123456) == "out/frame-000007.png");
     CHECK(frameFile("a/%d.png", 7, true, 123456) == "a/7.png");
     CHECK_THROWS_AS(frameFile("a/%05d.png", 7, true, 123456), Error);
-    CHECK(frameFile("a/b-%04d.png", 12) == "a/b-0012.png");
+    CHECK(frameFile("a/b-%04d.png", 12, true, 9999) == "a/b-0012.png");
     CHECK(frameFile("a/%d.png", 12) == "a/12.png");
     CHECK(frameFile("one.png", 12, false) == "one.png");
     CHECK(frameFile("one.png", 12, true) == "one-00012.png");

@@ -153,7 +153,7 @@ TEST_CASE("the message says who, when and what may help", "[watchdog]") {
         message = runaway.what();
     }
     for (const char* part : {"group \"many\", molecule 17, vertex ", " s: ", "m/s", "--substeps", "--solver",
-                             "field, drag", "stopped at frame "})
+                             "a field, a force, drag", "stopped at frame "})
         CHECK_THAT(message, Catch::Contains(part));
 }
 

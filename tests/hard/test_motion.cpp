@@ -94,10 +94,10 @@ TEST_CASE("hard: Stokes terminal velocity", "[hard][motion]") {
             scene.gravity = gravity;
             scene.fields.push_back(test::field(UniformField{wind}));
             scene.groups[0].drag = {product / h, product / h};
-            setSteps(scene, 1000 * h, 1000);
+            setSteps(scene, 240 * h, 240);
             Simulation simulation = test::hardSimulation(scene);
-            // from rest, until e^-13 = 2e-6 of the difference is left; at gamma h = 1e-3 in 13 frames
-            test::runChecked(simulation, std::max(1, int(std::ceil(13 / (1000 * product)))));
+            // from rest, until e^-13 = 2e-6 of the difference is left; at gamma h = 1e-3 in 55 frames of a second
+            test::runChecked(simulation, std::max(1, int(std::ceil(13 / (240 * product)))));
             const glm::dvec3 terminal = wind + gravity * h / product;
             const glm::dvec3 off = simulation.snapshot(0).velocities[0] - terminal;
             // a velocity stops when its change in a step is less than half a rounding: 6e-8 v / (gamma h)
