@@ -16,7 +16,8 @@ constexpr const char* still = R"({
   "format": "shoal-scene-1", "name": "still",
   "fields": [{"type": "uniform", "velocity": [2, 0, 0]}],
   "groups": [
-    {"name": "sail", "molecule": "sail.json", "count": 1, "place": {"on": "list", "items": [{"position": [0, 0, 0]}]}}
+    {"name": "sail", "molecule": "sail.json", "count": 1, "place": {"on": "list", "items": [{"position": [0, 0, 0]}]},
+     "drag": 1e-6}
   ],
   "camera": {"eye": [0, 0, 3], "target": [0, 0, 0]}
 }
