@@ -644,7 +644,8 @@ class EditorWindow {
             return tell("file", "the file was changed by another program; what you changed is not in it");
         fileChanged_ = false;
         if (document.changedOnDisk()) return reload();
-        if (editor_.troubles.end("file")) std::cout << "as before: " << printable(document.file()) << std::endl;
+        if (editor_.troubles.end("file"))
+            std::cout << "as before: " << printable(document.file()) << std::endl;
     }
 
     std::string fileName() const {

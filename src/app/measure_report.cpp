@@ -247,16 +247,17 @@ std::string oneLine(const Calibration& one) {
 
 std::string asText(const Calibration& one) {
     std::ostringstream out;
-    out << oneLine(one) << ": " << printable(one.why) << "\n  " << std::left << std::setw(30) << "method" << std::right
-        << std::setw(5) << "steps" << std::setw(10) << "RMS" << std::setw(10) << "worst" << std::setw(9)
-        << "ns"
+    out << oneLine(one) << ": " << printable(one.why) << "\n  " << std::left << std::setw(30) << "method"
+        << std::right << std::setw(5) << "steps" << std::setw(10) << "RMS" << std::setw(10) << "worst"
+        << std::setw(9) << "ns"
         << "\n";
     for (const Candidate& candidate : one.candidates) {
         out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
             << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")
             << std::setw(10) << (candidate.error ? exponent(*candidate.error) : "-") << std::setw(10)
             << (candidate.worst ? exponent(*candidate.worst) : "-") << std::setw(9)
-            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why) << "\n";
+            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why)
+            << "\n";
     }
     return out.str();
 }

@@ -1,7 +1,8 @@
 // From any mesh to a molecule: few vertices that are simulated, springs that hold their shape, and the mesh
 // itself as a skin that moves with them.
 //
-//   mesh -> coarse mesh (coarse.h, rings.cpp or lattice.h) -> springs -> masses -> pins -> braces -> stiffness
+//   mesh -> coarse mesh (coarse.h, rings.cpp or lattice.h) -> springs -> masses -> pins -> braces ->
+//   stiffness
 //        -> skin (molecule/bind_skin.h)
 #pragma once
 

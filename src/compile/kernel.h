@@ -24,7 +24,8 @@ struct KernelText {
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
 
 // What the kernel reads of each spring where its numbers are live, two a spring:
-//   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's start
+//   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's
+//   start
 // That angle is 0 here, and renewed every frame from the springs' frequencies, Hz.
 std::vector<glm::vec4> springNumbers(const Molecule& molecule);
 std::vector<double> springFrequencies(const Molecule& molecule);

@@ -123,7 +123,8 @@ PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks
     const fs::path folder = target_.parent_path();
     if (!folder.empty()) fs::create_directories(folder, code);
     if (code) throw Error(Location{folder.string(), 0, 0, {}}, "cannot make this folder: " + code.message());
-    struct stat status {}, output {};
+    struct stat status {
+    }, output{};
     if (::stat(target_.c_str(), &status) == 0) {
         if (!S_ISREG(status.st_mode))
             throw Error(location, concat("is ", kindOf(status.st_mode), ", expected a file to write"));

@@ -101,7 +101,8 @@ class PassTimers {
     int callsLastFrame_ = 0, windowStart_ = 0;
 };
 
-// A frame of the timers until the end of the block: ended also where a program is refused, which is made when it is needed first.
+// A frame of the timers until the end of the block: ended also where a program is refused, which is made when
+// it is needed first.
 class TimedFrame {
   public:
     explicit TimedFrame(PassTimers& timers) : timers_(timers) { timers_.beginFrame(); }

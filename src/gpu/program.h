@@ -61,7 +61,8 @@ class Program {
     void texture(const char* sampler, int unit, const BufferTexture& texture) const;
     void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
     // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
-    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a contract).
+    // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a
+    // contract).
     void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX) const;

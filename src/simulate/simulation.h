@@ -37,7 +37,8 @@ struct SavedState {
     double time = 0;  // s
     int frames = 0;
     std::vector<GroupState> groups;
-    // s, of the last substep; 0: none, or forces have jumped since. A solver with history goes on only with the same.
+    // s, of the last substep; 0: none, or forces have jumped since. A solver with history goes on only with
+    // the same.
     double step = 0;
 };
 
@@ -126,7 +127,8 @@ class Simulation {
     std::variant<std::monostate, PingPong, Fused> path_;
     double time_ = 0;  // s
     int frames_ = 0;
-    double lastStep_ = 0;  // s, a substep of the last frame; 0: none yet, or what it left behind does not count
+    double lastStep_ =
+        0;  // s, a substep of the last frame; 0: none yet, or what it left behind does not count
     std::optional<Parameters> lastParameters_;  // of the last frame; none yet since the start or a load
     struct Moment {
         double time = 0, step = 0;  // s

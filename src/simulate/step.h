@@ -14,7 +14,8 @@ struct Frame {
     double h = 0;     // s, a substep
     int number = 0;   // from 0
     Parameters parameters;
-    bool restarts = false;  // the substep or the forces are not the last one's: solvers with history start anew
+    bool restarts =
+        false;  // the substep or the forces are not the last one's: solvers with history start anew
 };
 
 // Contact step i of a frame that contact between molecules cuts into `steps`.

@@ -143,7 +143,8 @@ TEST_CASE("the report counts births and what found no place", "[cli]") {
     const Scratch scratch;
     const Outcome told = runShoal({"run", fountain, "--headless", "--frames", "2", "--count", "400",
                                    "--export", scratch.path("x.csv")});
-    CHECK_THAT(told.out, Catch::Contains("drops: 400 of 400 places taken, 400 born, 100 lost (no place was free"));
+    CHECK_THAT(told.out,
+               Catch::Contains("drops: 400 of 400 places taken, 400 born, 100 lost (no place was free"));
     CHECK_THAT(told.out, Catch::Contains("splashes: 0 of 400 places taken, 0 born\n"));
     const Outcome plain = runShoal(runWords({"--export", scratch.path("plain.csv")}));
     CHECK_THAT(plain.out, !Catch::Contains("born"));

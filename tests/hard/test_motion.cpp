@@ -96,7 +96,8 @@ TEST_CASE("hard: Stokes terminal velocity", "[hard][motion]") {
             scene.groups[0].drag = {product / h, product / h};
             setSteps(scene, 240 * h, 240);
             Simulation simulation = test::hardSimulation(scene);
-            // from rest, until e^-13 = 2e-6 of the difference is left; at gamma h = 1e-3 in 55 frames of a second
+            // from rest, until e^-13 = 2e-6 of the difference is left; at gamma h = 1e-3 in 55 frames of a
+            // second
             test::runChecked(simulation, std::max(1, int(std::ceil(13 / (240 * product)))));
             const glm::dvec3 terminal = wind + gravity * h / product;
             const glm::dvec3 off = simulation.snapshot(0).velocities[0] - terminal;
