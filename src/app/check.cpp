@@ -6,6 +6,7 @@
 #include "app/data_paths.h"
 #include "app/field_watch.h"
 #include "core/json.h"
+#include "core/many.h"
 #include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
@@ -50,10 +51,6 @@ void warnOfCapacity(const Plan& plan, std::vector<Warning>& out) {
     }
 }
 
-std::string many(size_t count, const char* thing) {
-    return concat(count, " ", thing, count == 1 ? "" : "s");
-}
-
 // A texture is read by the renderer only: here it is looked for, so that `check` finds it missing.
 void checkTexture(const Molecule& molecule) {
     if (!molecule.material.texture.empty()) readTexture(molecule);
@@ -75,21 +72,22 @@ Verdict checkMolecule(const std::string& file) {
         .add("zeroModes", JsonValue::makeNumber(free.zeroModes))
         .add("lowestFrequency", JsonValue::makeNumber(free.lowestFrequency))
         .add("highestFrequency", JsonValue::makeNumber(free.highestFrequency));
-    out.summary =
-        concat("molecule \"", printable(molecule.name), "\": ", molecule.vertices.size(),
-               molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
-               many(molecule.springs.size(), "spring"), ", ", many(molecule.triangles.size(), "triangle"),
-               ", mass ", free.totalMass, " kg, rest energy ", free.restEnergy, " J");
+    out.summary = concat("molecule \"", printable(molecule.name), "\": ", molecule.vertices.size(),
+                         molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
+                         many(int64_t(molecule.springs.size()), "spring", "springs"), ", ",
+                         many(int64_t(molecule.triangles.size()), "triangle", "triangles"), ", mass ",
+                         free.totalMass, " kg, rest energy ", free.restEnergy, " J");
     if (!molecule.skin.empty()) {
         out.summary += concat("\n  skin: ", molecule.skin.vertices.size(), " vertices, ",
-                              many(molecule.skin.triangles.size(), "triangle"));
+                              many(int64_t(molecule.skin.triangles.size()), "triangle", "triangles"));
         out.facts.add("skinVertices", JsonValue::makeNumber(double(molecule.skin.vertices.size())))
             .add("skinTriangles", JsonValue::makeNumber(double(molecule.skin.triangles.size())));
     }
     if (molecule.springs.empty()) return out;
     out.summary += concat("\n  frequencies ", free.lowestFrequency, " to ", free.highestFrequency, " rad/s, ",
-                          many(size_t(free.zeroModes), "zero-stiffness mode"), "\n  stable steps: euler ",
-                          free.stableStepEuler, " s, leapfrog ", free.stableStepLeapfrog, " s");
+                          many(free.zeroModes, "zero-stiffness mode", "zero-stiffness modes"),
+                          "\n  stable steps: euler ", free.stableStepEuler, " s, leapfrog ",
+                          free.stableStepLeapfrog, " s");
     out.facts.add("stableStepEuler", JsonValue::makeNumber(free.stableStepEuler))
         .add("stableStepLeapfrog", JsonValue::makeNumber(free.stableStepLeapfrog));
     return out;
@@ -115,9 +113,11 @@ Verdict checkScene(const std::string& file) {
     for (const Warning& warning : checkStart(scene, plan))
         out.warnings.push_back(warning);
     warnOfCapacity(plan, out.warnings);
-    for (const Group& group : scene.groups)
+    for (const Group& group : scene.groups) {
+        if (isShipped(group.molecule)) continue;
         for (const Warning& warning : check(group.molecule))
-            if (!isShipped(group.molecule)) out.warnings.push_back(warning);
+            out.warnings.push_back(warning);
+    }
     int molecules = 0;
     for (const GroupPlan& group : plan.groups)
         molecules += group.count;
@@ -137,9 +137,10 @@ Verdict checkScene(const std::string& file) {
             gap.triangle < 0 ? "no gap" : concat("largest gap ", gap.radius, " m in triangle ", gap.triangle);
     }
     if (plan.contact.any()) out.facts.add("contactGaps", std::move(gaps));
-    out.summary = concat("scene \"", printable(scene.name), "\": ", many(plan.groups.size(), "group"), ", ",
-                         many(size_t(molecules), "molecule"), ", ", many(scene.fields.size(), "field"), ", ",
-                         many(scene.colliders.size(), "collider"), gapText);
+    out.summary = concat(
+        "scene \"", printable(scene.name), "\": ", many(int64_t(plan.groups.size()), "group", "groups"), ", ",
+        many(molecules, "molecule", "molecules"), ", ", many(int64_t(scene.fields.size()), "field", "fields"),
+        ", ", many(int64_t(scene.colliders.size()), "collider", "colliders"), gapText);
     return out;
 }
 
