@@ -1,5 +1,5 @@
 # shoal_room(NAME [ROOMS ...] [LIBRARIES ...] [PRIVATE_LIBRARIES ...])
-# Makes the library shoal_NAME (alias Shoal::NAME) of every src/NAME/*.cpp.
+# Makes the library shoal_NAME (alias Shoal::NAME) of every source in src/NAME and its folders.
 # Files named forward*.cpp define symbols that other shared libraries look up (OpenGL forwarding): they
 # become an object library, so that the linker cannot leave them out of whoever links the room.
 
@@ -25,8 +25,8 @@ set(SHOAL_ROOMS "" CACHE INTERNAL "")
 function(shoal_room name)
   cmake_parse_arguments(ROOM "" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(directory ${CMAKE_CURRENT_SOURCE_DIR}/src/${name})
-  file(GLOB sources CONFIGURE_DEPENDS ${directory}/*.cpp)
-  file(GLOB headers CONFIGURE_DEPENDS ${directory}/*.h)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${directory}/*.cpp)
+  file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${directory}/*.h)
   set(forwarders ${sources})
   list(FILTER forwarders INCLUDE REGEX "/forward[^/]*\\.cpp$")
   list(FILTER sources EXCLUDE REGEX "/forward[^/]*\\.cpp$")

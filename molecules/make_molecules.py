@@ -128,7 +128,7 @@ def cross():
 
 
 def up(x, y, z):
-    """From z up, in which the yardsticks are defined, to y up."""
+    """From z up, in which the baselines are defined, to y up."""
     return (x, z, -y)
 
 
@@ -143,7 +143,7 @@ def cross_braced():
         triangles += [(0, i, 5 + i), (0, 5 + i, 5)]
     for layer in (0, 5):
         pairs += [(layer + i, layer + i % 4 + 1) for i in range(1, 5)]
-    write("cross-braced", "Four panels about an axis, braced by 29 springs: a yardstick, 1 m high and every mass 1 kg. "
+    write("cross-braced", "Four panels about an axis, braced by 29 springs: a baseline, 1 m high and every mass 1 kg. "
           "To hold it, pin the two centres (vertices 0 and 5).", {"mass": 1, "stiffness": 100, "damping": 0.5},
           vertices, springs(pairs), triangles,
           {"color": [0.6, 0.45, 0.2], "translucency": 0.1, "roughness": 0.7})
@@ -164,7 +164,7 @@ def fish():
                 pairs += [(here, here + 4), (here, beside + 4), (beside, here + 4)]
                 triangles += [(here, here + 4, beside), (beside, here + 4, beside + 4)]
     triangles += [(0, 1, 2), (0, 2, 3), (20, 22, 21), (20, 23, 22)]  # snout and tail are closed
-    write("fish", "Six rings of four vertices, 96 springs: a yardstick, 2 m long and every mass 1 kg. Swims along +Z. "
+    write("fish", "Six rings of four vertices, 96 springs: a baseline, 2 m long and every mass 1 kg. Swims along +Z. "
           "To hold it, pin vertices 0 and 2.", {"mass": 1, "stiffness": 100, "damping": 0.5},
           vertices, springs(pairs), triangles,
           {"color": [0.35, 0.45, 0.55], "secondColor": [0.55, 0.5, 0.3], "roughness": 0.35})

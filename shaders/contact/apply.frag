@@ -1,5 +1,5 @@
 // apply: a texel a vertex of one group, into the state: what its sphere's contacts do.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "contact/reading.glsl"
 
 uniform UINTS slots;      // of a sphere

@@ -3,7 +3,7 @@
 //   of a triangle   xyz its corners
 // Behind them `around`: the spheres of the triangles around a vertex, one texel each (x).
 // Set by C++: VERTICES, SPHERES, BLOCK, POSITION_ELEMENTS, STATE_ELEMENTS.
-#include "lib/packed.glsl"
+#include "state/packed.glsl"
 
 layout(local_size_x = 64) in;
 

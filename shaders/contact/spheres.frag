@@ -1,5 +1,5 @@
 // spheres: a texel a sphere, of one group: from the state to records in the spheres' own order (contact/records.glsl).
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "contact/reading.glsl"
 #include "physics/cells.glsl"
 

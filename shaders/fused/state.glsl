@@ -12,7 +12,7 @@
 // positions and of the velocities, or where those are full the x and y of one more. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
 // Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
-#include "lib/packed.glsl"
+#include "state/packed.glsl"
 
 layout(local_size_x = LANES) in;
 

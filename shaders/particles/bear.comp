@@ -15,7 +15,7 @@ vec3 dv[VERTICES];
 #include "physics/random.glsl"
 #include "particles/control.glsl"
 #include "particles/emit.glsl"
-#include "lib/samples.glsl"
+#include "state/samples.glsl"
 
 #ifdef LISTED
 layout(std430, binding = 3) readonly buffer Places { uint places[]; };

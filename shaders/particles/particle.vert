@@ -7,9 +7,9 @@
 //
 // Variants, each only where the type needs it: SIZES (random), GROWS, TURNS (about the line of sight, or free quads
 // about their axis), COLORS (keyframes), IMAGE with TILES (random), FLIP_ONCE or FLIP_AGAIN, FADES (between
-// frames); LIT; and those of lib/molecule.glsl and render/drawn.glsl.
+// frames); LIT; and those of state/molecule.glsl and render/drawn.glsl.
 
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #include "particles/attributes.glsl"
 #ifdef COLOR_BY

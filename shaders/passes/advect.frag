@@ -4,7 +4,7 @@
 //   leapfrog   v += a h/2;  x += v h/2;  v += exact drag and gravity at that x;  x += v h/2
 // The scene's forces join gravity, a wind among them the fields.
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "physics/anchor.glsl"
 #include "physics/drag.glsl"
 #ifdef FIELDS

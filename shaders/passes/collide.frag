@@ -1,7 +1,7 @@
 // collide: vertices that entered a collider bounce, slide or rest on its surface.
 // Leapfrog's velocity here still lacks the springs' second half kick: contact acts on the velocity that will have
 // it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "generated/colliders.glsl"
 #ifdef FORCES
 #include "generated/scene_forces.glsl"

@@ -1,6 +1,6 @@
 // normals: each vertex sums the area vectors of its triangles (Decker, section 3.5).
 // For directional drag the shape is taken where advect will need it: after leapfrog's first half drift.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "physics/normal.glsl"
 
 uniform float aheadTime;  // s: h/2 before leapfrog's advect, else 0

@@ -1,9 +1,9 @@
 // records: once a frame, per molecule: the anchor follows the molecule, and pins may let go.
 // Positions are moved to the new anchor by the frame's first advect, from the same shift.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "physics/anchor.glsl"
 #ifdef RELEASE
-#include "lib/springs.glsl"
+#include "passes/springs.glsl"
 #include "physics/random.glsl"
 #endif
 

@@ -1,7 +1,7 @@
 // restore: the springs pull every vertex back into shape (Decker, section 3.4).
 //   euler      v += h a, and verlet
 //   leapfrog   a = F(x, v + a_old h/2) / m;  v += a h/2   (at the start of a frame only a, from v itself)
-#include "lib/springs.glsl"
+#include "passes/springs.glsl"
 
 uniform float kickTime;  // s: h for euler and verlet, h/2 for leapfrog
 

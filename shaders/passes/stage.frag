@@ -1,6 +1,6 @@
 // stage: one of the four evaluations of a Runge-Kutta step (rk4). positions and velocities are the stage's; its rates
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
-#include "lib/springs.glsl"
+#include "passes/springs.glsl"
 #include "physics/anchor.glsl"
 #ifdef FIELDS
 #include "generated/fields.glsl"

@@ -1,5 +1,5 @@
 // thrust: what propels itself gains along its molecule's mean velocity, or loses. Exact, over a substep or half of one.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "generated/scene_forces.glsl"
 
 uniform int whole;  // 1: over a whole substep

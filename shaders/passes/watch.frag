@@ -1,6 +1,6 @@
 // watch: once a frame, last. What is fine is discarded and nothing is written: a query tells whether anything was
 // left.
-#include "lib/state.glsl"
+#include "state/textures.glsl"
 #include "physics/runaway.glsl"
 
 void main()

@@ -1,4 +1,4 @@
-// A molecule's colour by its speed (src/scene/color_scale.h). Needs lib/molecule.glsl.
+// A molecule's colour by its speed (src/scene/color_scale.h). Needs state/molecule.glsl.
 
 const int mostColors = 8;          // src/scene/color_scale.h
 const int mostVerticesRead = 64;   // evenly chosen from those of a larger molecule

@@ -1,6 +1,6 @@
 // Which molecule an instance is. Variants: ORDERED (not as they are numbered), SLABS (only those of one slab of
 // depth), SLAB_DRAWS (the same, where each slab has a draw of its own), BATCH (so many molecules an instance, of CORNERS
-// vertices each). Needs lib/molecule.glsl.
+// vertices each). Needs state/molecule.glsl.
 #ifdef BATCH
 uniform int drawnCount;  // molecules; the last instance may be left with fewer
 

@@ -1,5 +1,5 @@
 // Where a vertex is drawn: with GROWS, of a molecule that grows out of its first vertex at birth and shrinks into it
-// before its end. Needs lib/molecule.glsl.
+// before its end. Needs state/molecule.glsl.
 #ifdef GROWS
 uniform vec2 growTimes;  // s, above 0: after birth, before the end
 

@@ -1,7 +1,7 @@
 // A molecule's corner, straight from the state: gl_InstanceID is the molecule, gl_VertexID its vertex.
 // Variants: TEXTURED, DEPTH_ONLY, COLOR_BY (by speed), and those of render/drawn.glsl and render/grown.glsl.
 
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #include "render/grown.glsl"
 #ifdef COLOR_BY

@@ -1,6 +1,6 @@
 // The key of a molecule in the order from back to front: its middle's depth along the view, the farthest first, as a
 // whole number that grows as -depth does. What is dead comes last.
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 
 uniform vec3 forward;  // unit, where the eye looks
 uniform int vertexCount, moleculeCount;

@@ -1,7 +1,7 @@
 // Molecules without triangles: every vertex a round sprite. Variants: DEPTH_ONLY, COLOR_BY (by speed), and those of
 // render/drawn.glsl.
 
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #ifdef COLOR_BY
 #include "render/color_scale.glsl"

@@ -3,7 +3,7 @@
 // normal turns and shears with the molecule.
 // Variants: SKIN_OFFSETS (offsets along the molecule's normal), and those of render/molecule.vert.
 
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #include "render/grown.glsl"
 #ifdef COLOR_BY

@@ -1,7 +1,7 @@
 // A molecule's springs as lines, straight from the state, coloured by their strain. Variants: SCALED (instances differ
 // in size).
 
-#include "lib/molecule.glsl"
+#include "state/molecule.glsl"
 
 layout(location = 0) in vec3 spring;  // x one end, y the other end (vertices), z rest length, m; alike at six corners
 

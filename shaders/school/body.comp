@@ -15,7 +15,7 @@ uniform vec3 origin;    // m
 
 layout(std430, binding = 0) writeonly buffer Bodies { vec4 bodies[]; };
 
-#include "lib/packed.glsl"
+#include "state/packed.glsl"
 #include "generated/body.glsl"
 #include "physics/random.glsl"
 

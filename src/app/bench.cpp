@@ -9,7 +9,7 @@
 #include "app/bench_draw.h"
 #include "app/bench_plot.h"
 #include "app/bench_report.h"
-#include "app/bullet_yardstick.h"
+#include "app/bullet_baseline.h"
 #include "app/commands.h"
 #include "app/data_paths.h"
 #include "app/machine.h"
@@ -20,7 +20,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -36,10 +36,10 @@ class BulletRunner : public BenchRunner {
         restart();
     }
     void restart() override {
-        bullet_ = std::make_unique<BulletYardstick>(molecule_, one_.count,
+        bullet_ = std::make_unique<BulletBaseline>(molecule_, one_.count,
                                                     one_.subject == Subject::bulletMerged
-                                                        ? BulletYardstick::Form::merged
-                                                        : BulletYardstick::Form::bodies);
+                                                        ? BulletBaseline::Form::merged
+                                                        : BulletBaseline::Form::bodies);
     }
     void frame() override {
         for (int i = 0; i < one_.substeps; ++i)
@@ -49,7 +49,7 @@ class BulletRunner : public BenchRunner {
   private:
     BenchCase one_;
     const Molecule& molecule_;
-    std::unique_ptr<BulletYardstick> bullet_;
+    std::unique_ptr<BulletBaseline> bullet_;
 };
 
 // Everything is asked for by its name: cases, and these beside them.
@@ -114,7 +114,7 @@ BenchReport describe(const Options& options, const gpu::Context& context) {
     BenchReport out;
     out.processor = processorName();
     out.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    out.pinned = pinRasteriserThreads();
+    out.pinned = measure::pinRasteriserThreads();
     out.context = context.info();
     out.quick = options.quick;
     out.whole = options.only.empty();
@@ -147,7 +147,7 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
     WholeRun run(expectedSeconds(wanted, report));
     std::cerr << "This takes about " << roughly(run.expected()) << ".\n";
     const auto share = [&](double done) { run.tellShare(done); };
-    BenchSchedule schedule;
+    measure::Schedule schedule;
     schedule.seconds = report.secondsAGroup;
     for (const std::vector<BenchCase>& group : wanted.groups) {
         const auto progress = [&](const std::string&, double left) { run.tell(left); };

@@ -1,4 +1,4 @@
-// `shoal bench collide`: contact between molecules against a CPU yardstick, UberFlow's experiments, and what
+// `shoal bench collide`: contact between molecules against a CPU baseline, UberFlow's experiments, and what
 // each search finds.
 #include <algorithm>
 #include <iostream>
@@ -16,7 +16,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -61,7 +61,7 @@ void measureAll(const Wanted& wanted, const Options& options, const BenchDevice&
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
     const int groups = wanted.groups(options.quick);
     std::cerr << "This takes about " << roughly(groups * (report.secondsAGroup * 1.2 + 2)) << ".\n";
-    BenchSchedule schedule;
+    measure::Schedule schedule;
     schedule.seconds = report.secondsAGroup;
     Bar bar(groups);
     const auto progress = [&](double share) { bar.tell(share); };
@@ -94,7 +94,7 @@ int benchCollideCommand(const Options& options) {
     report.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 20);
     const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     measureAll(wanted, options, device, report);
-    report.machine.pinned = pinRasteriserThreads();  // all of them run by now
+    report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));

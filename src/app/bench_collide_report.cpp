@@ -5,7 +5,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -35,7 +35,7 @@ const ContactTimes* find(const CollideReport& report, int quads) {
 std::vector<Verdict> verdicts(const CollideReport& report) {
     const ContactTimes *small = find(report, 16384), *large = find(report, 131072);
     std::vector<Verdict> out = {
-        {"contact of 16,384 quads of moderate density, over the yardstick", 2, {}},
+        {"contact of 16,384 quads of moderate density, over the baseline", 2, {}},
         {"contact of 131,072 quads over 16,384, a quad", 1.3, {}},
     };
     if (small) out[0].measured = small->ratio();
@@ -52,14 +52,14 @@ std::string contactText(const std::vector<ContactTimes>& all) {
                          density.c_str(), t.one.room, ContactCase::radius);
             out +=
                 "    quads  contacts            grid          search        response         contact"
-                "       yardstick  ratio  ns/quad  ns/contact     fused\n";
+                "       baseline  ratio  ns/quad  ns/contact     fused\n";
         }
         if (!t.leftOut.empty()) {
             out += print("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
             continue;
         }
         out += print("%9s%10s", grouped(t.one.quads).c_str(), grouped(int(t.contacts)).c_str());
-        for (const Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.yardstick})
+        for (const measure::Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.baseline})
             out += print("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
         out += print("%7.2f%9.0f%12.0f%10.2f\n", t.ratio(), t.perQuad() * 1e9,
                      t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3);
@@ -93,7 +93,7 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
             out += " left out: " + t.leftOut + "\n";
             continue;
         }
-        for (const Spread* spread : {&t.motion, &t.contact, &t.sort, &t.draw, &t.frame})
+        for (const measure::Spread* spread : {&t.motion, &t.contact, &t.sort, &t.draw, &t.frame})
             out += spread->min > 0 ? print("%9.2f", spread->min * 1e3) : print("%9s", "-");
         out += print("%9.3g%11.4g", t.framesPerSecond(), t.undrawnFramesPerSecond());
         if (!t.published.empty()) out += print("%11g", t.published[placeOf(side)]);
@@ -137,7 +137,7 @@ JsonValue number(double value) {
     return JsonValue::makeNumber(value);
 }
 
-JsonValue asJson(const Spread& spread) {
+JsonValue asJson(const measure::Spread& spread) {
     JsonValue out = JsonValue::makeObject();
     return out.add("minSeconds", number(spread.min))
         .add("medianSeconds", number(spread.median))
@@ -152,17 +152,17 @@ JsonValue asJson(const ContactTimes& t) {
     if (!t.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(t.leftOut));
     return out.add("spheres", number(double(t.spheres)))
         .add("contacts", number(double(t.contacts)))
-        .add("yardstickContacts", number(double(t.yardstickContacts)))
+        .add("baselineContacts", number(double(t.baselineContacts)))
         .add("dropped", number(t.dropped))
         .add("bytes", number(double(t.bytes)))
         .add("grid", asJson(t.grid))
         .add("search", asJson(t.search))
         .add("response", asJson(t.response))
         .add("contact", asJson(t.contact))
-        .add("yardstick", asJson(t.yardstick))
+        .add("baseline", asJson(t.baseline))
         .add("fusedStep", asJson(t.fused))
         .add("nanosecondsPerQuad", number(t.perQuad() * 1e9))
-        .add("overYardstick", number(t.ratio()));
+        .add("overBaseline", number(t.ratio()));
 }
 
 JsonValue asJson(const UberFlowTimes& t) {

@@ -7,18 +7,18 @@
 
 #include "app/machine.h"
 #include "core/json.h"
-#include "measure/bench_collide.h"
-#include "measure/bench_search.h"
-#include "measure/bench_uberflow.h"
+#include "bench/collide.h"
+#include "bench/search.h"
+#include "bench/uberflow.h"
 
 namespace shoal::app {
 
 struct CollideReport {
     MeasuredOn machine;
     double secondsAGroup = 0;
-    std::vector<measure::ContactTimes> contact;
-    std::vector<measure::UberFlowTimes> uberFlow;
-    std::optional<measure::SearchReport> searches;
+    std::vector<bench::ContactTimes> contact;
+    std::vector<bench::UberFlowTimes> uberFlow;
+    std::optional<bench::SearchReport> searches;
 };
 
 std::string asText(const CollideReport& report);

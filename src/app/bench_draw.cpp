@@ -7,8 +7,8 @@
 
 namespace shoal::app {
 
-measure::DrawMaker drawMaker(gpu::Context& context) {
-    return [&context](const Scene& scene, const Plan& plan) -> measure::Draw {
+bench::DrawMaker drawMaker(gpu::Context& context) {
+    return [&context](const Scene& scene, const Plan& plan) -> bench::Draw {
         RenderOptions options;
         options.width = pictureWidth;
         options.height = pictureHeight;

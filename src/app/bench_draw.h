@@ -1,13 +1,13 @@
 // The pictures that `shoal bench` draws.
 #pragma once
 
-#include "measure/bench_runner.h"
+#include "bench/runner.h"
 
 namespace shoal::app {
 
 constexpr int pictureWidth = 640, pictureHeight = 360;
 
 // Borrows the context.
-measure::DrawMaker drawMaker(gpu::Context& context);
+bench::DrawMaker drawMaker(gpu::Context& context);
 
 }  // namespace shoal::app

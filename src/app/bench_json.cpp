@@ -3,7 +3,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 

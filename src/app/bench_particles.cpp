@@ -15,7 +15,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -56,7 +56,7 @@ int benchParticlesCommand(const Options& options) {
     const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     std::cerr << "This takes about " << roughly(double(groups.size()) * (report.secondsAGroup * 1.2 + 3))
               << ".\n";
-    BenchSchedule schedule;
+    measure::Schedule schedule;
     schedule.seconds = report.secondsAGroup;
     Progress bar("groups", int(groups.size()));
     for (const std::vector<ParticleCase>& group : groups) {
@@ -64,7 +64,7 @@ int benchParticlesCommand(const Options& options) {
             report.times.push_back(std::move(times));
         bar.step();
     }
-    report.machine.pinned = pinRasteriserThreads();  // all of them run by now
+    report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));

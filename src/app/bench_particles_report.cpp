@@ -7,7 +7,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 

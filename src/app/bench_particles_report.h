@@ -6,14 +6,14 @@
 
 #include "app/machine.h"
 #include "core/json.h"
-#include "measure/bench_particles.h"
+#include "bench/particles.h"
 
 namespace shoal::app {
 
 struct ParticleReport {
     MeasuredOn machine;
     double secondsAGroup = 0;
-    std::vector<measure::ParticleTimes> times;
+    std::vector<bench::ParticleTimes> times;
 };
 
 std::string asText(const ParticleReport& report);

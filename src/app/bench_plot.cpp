@@ -11,7 +11,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -44,7 +44,7 @@ void addData(std::ostringstream& out, Subject subject, const std::vector<BenchRe
 
 void checkPlot(const std::string& file, const std::vector<BenchCase>& cases) {
     if (std::none_of(cases.begin(), cases.end(), plotted))
-        throw WrongUse("--plot draws the quads on each path and yardstick: --only leaves none of them");
+        throw WrongUse("--plot draws the quads on each path and baseline: --only leaves none of them");
     needGnuplot(file);
 }
 

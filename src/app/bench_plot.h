@@ -4,15 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "measure/bench.h"
+#include "bench/bench.h"
 
 namespace shoal::app {
 
 // Before anything is measured. Error: needGnuplot's; none of the cases is one that is plotted.
-void checkPlot(const std::string& file, const std::vector<measure::BenchCase>& cases);
+void checkPlot(const std::string& file, const std::vector<bench::BenchCase>& cases);
 
 // `file`: .svg or .png. Error: gnuplot fails, the file cannot be written.
 void plot(const std::string& file, const std::string& title,
-          const std::vector<measure::BenchResult>& results);
+          const std::vector<bench::BenchResult>& results);
 
 }  // namespace shoal::app

@@ -7,7 +7,7 @@
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -174,7 +174,7 @@ std::string asText(const BenchReport& report) {
         << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
         << " x " << report.height << ".\n"
         << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
-           "yardstick.\n"
+           "baseline.\n"
         << "vs p-p: times as fast as ping-pong. state, moved: bytes of a molecule, kept on the device and "
            "read\n"
         << "and written in a frame. GB/s: moved over time; copy: as a share of the fastest copy's.\n";

@@ -6,11 +6,11 @@
 
 #include "core/json.h"
 #include "gpu/context.h"
-#include "measure/bench.h"
-#include "measure/bench_error.h"
-#include "measure/bench_passes.h"
-#include "measure/bench_start.h"
-#include "measure/bench_verdict.h"
+#include "bench/bench.h"
+#include "bench/error.h"
+#include "bench/passes.h"
+#include "bench/start.h"
+#include "bench/verdict.h"
 
 namespace shoal::app {
 
@@ -24,10 +24,10 @@ struct BenchReport {
     int width = 0, height = 0;  // of the pictures
     double seconds = 0;         // the whole run
     double contextSeconds = 0;  // to make the context
-    std::vector<measure::BenchResult> results;
-    std::vector<measure::BenchError> errors;
-    std::vector<measure::StartTime> starts;
-    std::vector<measure::PassTable> passes;
+    std::vector<bench::BenchResult> results;
+    std::vector<bench::BenchError> errors;
+    std::vector<bench::StartTime> starts;
+    std::vector<bench::PassTable> passes;
 };
 
 std::string asText(const BenchReport& report);

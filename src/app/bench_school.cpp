@@ -8,13 +8,13 @@
 #include "app/machine.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "measure/bench_school.h"
+#include "bench/school.h"
 #include "measure/pin_threads.h"
 #include "molecule/molecule_file.h"
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -67,7 +67,7 @@ int benchSchoolCommand(const Options& options) {
     const BenchDevice device{&context, shaderRoot(), &cache, {}, machine.cores, {}};
     const double seconds = options.seconds.value_or(options.quick ? 1 : 20);
     const std::vector<SchoolTimes> times = measureSchools(schoolCases(options.quick), fry, device, seconds);
-    machine.pinned = pinRasteriserThreads();
+    machine.pinned = measure::pinRasteriserThreads();
     for (const Warning& warning : cache.takeWarnings())
         std::cerr << "shoal: warning: " << text(warning) << "\n";
     std::cout << (options.json ? writeJson(asJson(machine, times)) : asText(machine, times));

@@ -10,12 +10,12 @@
 #include "app/progress.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "measure/bench_sort.h"
+#include "bench/sort.h"
 #include "measure/pin_threads.h"
 
 namespace shoal::app {
 
-using namespace measure;
+using namespace bench;
 
 namespace {
 
@@ -172,9 +172,9 @@ int benchSortCommand(const Options& options) {
     gpu::ProgramCache cache(context, cacheFolder());
     Report report;
     report.machine = measuredOn(context);
-    report.machine.pinned = pinRasteriserThreads();
+    report.machine.pinned = measure::pinRasteriserThreads();
     report.secondsASize = options.seconds.value_or(options.quick ? 1 : 8);
-    BenchSchedule schedule;
+    measure::Schedule schedule;
     schedule.seconds = report.secondsASize;
     std::vector<int> sides = {128, 256, 512, 1024};
     if (options.quick) sides.resize(2);

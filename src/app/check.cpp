@@ -11,7 +11,7 @@
 #include "molecule/analysis.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal::app {
 

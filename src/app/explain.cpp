@@ -6,7 +6,7 @@
 #include "app/measure.h"
 #include "core/json.h"
 #include "measure/calibration_store.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "simulate/fused_kernel.h"
 
 namespace shoal::app {

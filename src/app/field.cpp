@@ -7,8 +7,8 @@
 #include "core/file.h"
 #include "core/json.h"
 #include "core/printable.h"
-#include "scene/load_model.h"
-#include "scene/scene_file.h"
+#include "geometry/load_model.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal::app {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/image.h"
-#include "scene/distance_field.h"
+#include "geometry/distance_field.h"
 
 namespace shoal::app {
 

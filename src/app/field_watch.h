@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/progress.h"
-#include "scene/distance_field_cache.h"
+#include "geometry/distance_field_cache.h"
 
 namespace shoal::app {
 

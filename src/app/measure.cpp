@@ -14,7 +14,7 @@
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal::app {
 

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "core/printable.h"
-#include "measure/bench_case.h"
+#include "bench/case.h"
 #include "measure/calibration_store.h"
 #include "measure/pareto.h"
 
@@ -47,7 +47,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         out << "  " << printable(group.name) << ": " << many(group.vertices, "vertex", "vertices") << ", "
             << many(group.springs, "spring", "springs") << ", up to "
             << number("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured << ", time of "
-            << grouped(group.timed) << "\n";
+            << bench::grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
         out << "too stiff, so that no errors are given: " << printable(a.tooStiff) << "\n";
     else if (!a.chaotic.empty())
@@ -68,7 +68,7 @@ void addRow(std::ostringstream& out, const std::vector<std::string>& cells) {
 }
 
 void addPoint(std::ostringstream& out, const AccuracyPoint& point, const MeasureReport& report) {
-    std::vector<std::string> cells = {steps(point), grouped(int(point.stepsPerSecond + 0.5))};
+    std::vector<std::string> cells = {steps(point), bench::grouped(int(point.stepsPerSecond + 0.5))};
     const auto orDash = [](const auto& value, auto&& text) -> std::string {
         return value ? text(*value) : "-";
     };
@@ -146,7 +146,7 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
         out << "  " << std::left << std::setw(16) << solver.name << std::right << std::setw(10)
             << nanoseconds(one->cost.time) << "   " << name(one->method.sampling) << ", "
             << (one->cost.atLargestStep ? "at the largest step, " : "")
-            << grouped(int(one->cost.stepsPerSecond + 0.5)) << " steps a second";
+            << bench::grouped(int(one->cost.stepsPerSecond + 0.5)) << " steps a second";
         if (euler && solver.kind != SolverKind::euler)
             out << "; " << number("%.2g", euler->cost.time / one->cost.time) << " times as fast as euler";
         out << "\n";

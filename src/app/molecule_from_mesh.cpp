@@ -12,7 +12,7 @@
 #include "core/printable.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
-#include "scene/load_model.h"
+#include "geometry/load_model.h"
 
 namespace shoal::app {
 

@@ -12,7 +12,7 @@
 #include "app/options_field.h"
 #include "app/options_measure.h"
 #include "core/file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal::app {
 

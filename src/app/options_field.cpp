@@ -1,7 +1,7 @@
 #include "app/options_field.h"
 
 #include "core/file.h"
-#include "scene/distance_field.h"
+#include "geometry/distance_field.h"
 
 namespace shoal::app {
 

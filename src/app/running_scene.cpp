@@ -8,9 +8,9 @@
 #include "app/run.h"
 #include "core/file.h"
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
-#include "scene/scene_files.h"
-#include "scene/scene_saver.h"
+#include "scene/json/scene_file.h"
+#include "scene/json/scene_files.h"
+#include "scene/json/saver.h"
 #include "simulate/carry_over.h"
 
 namespace shoal::app {

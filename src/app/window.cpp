@@ -30,7 +30,7 @@
 #include "core/many.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
-#include "scene/scene_files.h"
+#include "scene/json/scene_files.h"
 
 namespace shoal::app {
 

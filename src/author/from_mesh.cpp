@@ -16,8 +16,8 @@
 #include "compile/path.h"
 #include "core/error.h"
 #include "molecule/bind_skin.h"
-#include "scene/closed_surface.h"
-#include "scene/load_model.h"
+#include "geometry/closed_surface.h"
+#include "geometry/load_model.h"
 
 namespace shoal {
 

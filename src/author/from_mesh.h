@@ -13,7 +13,7 @@
 #include "author/pins.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule.h"
-#include "scene/mesh.h"
+#include "geometry/mesh.h"
 
 namespace shoal {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/parallel.h"
+#include "core/parallel.h"
 
 namespace shoal {
 

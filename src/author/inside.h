@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scene/winding_numbers.h"
+#include "geometry/winding_numbers.h"
 
 namespace shoal {
 

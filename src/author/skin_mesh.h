@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "molecule/bind_skin.h"
-#include "scene/mesh.h"
+#include "geometry/mesh.h"
 
 namespace shoal {
 

@@ -6,7 +6,7 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/distance_field.h"
+#include "geometry/distance_field.h"
 
 namespace shoal {
 

@@ -45,7 +45,7 @@ struct GeneratedColliders : Generated {
 // velocity, vec3 gravity, Drift drift) and float clearance(vec3 anchor, vec3 position): negative where
 // collideAll would respond; and their parts, vec4 surfaceAt(vec3 anchor, vec3 position) and Contact
 // answerTo(vec4 surface, vec3 position, vec3 velocity, vec3 gravity, Drift drift). For all else, with
-// JOINT_CONTACT defined, those of shaders/lib/joint_contact.glsl; what uniforms have no room for goes into
+// JOINT_CONTACT defined, those of shaders/step/joint_contact.glsl; what uniforms have no room for goes into
 // the samples (compile/collider_table.h).
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
@@ -56,7 +56,6 @@ std::string parameterArray(const std::string& name, size_t count);
 // A name as part of a comment in the text: whatever could end or continue the line is replaced.
 std::string inComment(const std::string& name);
 
-const char* kindName(const FieldShape& shape);
 const char* kindName(const ColliderShape& shape);
 
 }  // namespace shoal

@@ -1,9 +1,9 @@
 // Adding a collider: its struct in scene/scene.h, its distance in shaders/physics/solid.glsl, one overload of
-// `emit` here, its reader in scene/scene_colliders.cpp, its double-precision twin in reference/colliders.cpp,
+// `emit` here, its reader in scene/json/colliders.cpp, its double-precision twin in reference/colliders.cpp,
 // one test.
 //
 // A scene with a single plane or height field that stands still asks for it at the end of every substep. Any
-// other has contact with all at once (shaders/lib/joint_contact.glsl).
+// other has contact with all at once (shaders/step/joint_contact.glsl).
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -263,8 +263,8 @@ class Joint {
         return concat(
             "#define JOINT_CONTACT\n", swept_ ? "#define SWEPT\n" : "",
             out.moving.empty() ? "" : "#define MOVING_COLLIDERS\n", table_.empty() ? "" : "#define TABLED\n",
-            "#include \"physics/collide.glsl\"\n#include \"lib/surfaces.glsl\"\n",
-            "#include \"lib/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
+            "#include \"physics/collide.glsl\"\n#include \"step/surfaces.glsl\"\n",
+            "#include \"step/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
             "#ifdef TABLED\nvec2 materialAt(int index)\n{\n#ifdef FUSED\n",
             "    return givenColliderParameters[index].xy;\n#else\n    return "
             "colliderParameters[index].xy;\n",
@@ -280,7 +280,7 @@ class Joint {
             "// Nearest and first: of all but those whose numbers are skip.xy.\n",
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
-            survey_, "    return s;\n}\n\n#include \"lib/joint_contact.glsl\"\n");
+            survey_, "    return s;\n}\n\n#include \"step/joint_contact.glsl\"\n");
     }
 
     const std::vector<Collider>* colliders_;
@@ -305,7 +305,7 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
     GeneratedColliders out = std::move(writer.result);
     const bool dear = !colliders.empty() && std::holds_alternative<HeightFieldCollider>(colliders[0].shape);
     out.source = concat(dear ? "#define KEEP_SURFACE\n" : "", "#include \"physics/collide.glsl\"\n",
-                        "#include \"lib/surfaces.glsl\"\n",
+                        "#include \"step/surfaces.glsl\"\n",
                         parameterArray("colliderParameters", out.parameters.size()), body);
     return out;
 }

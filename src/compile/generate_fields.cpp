@@ -185,7 +185,7 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
     GeneratedFields out = std::move(writer.result);
     setClocks(out.parameters, out.clocks, 0);
     out.source =
-        concat("#include \"physics/field.glsl\"\n#include \"lib/samples.glsl\"\n",
+        concat("#include \"physics/field.glsl\"\n#include \"state/samples.glsl\"\n",
                parameterArray("fieldParameters", out.parameters.size()),
                "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                out.source, "    return u;\n}\n");
@@ -225,12 +225,6 @@ std::string inComment(const std::string& name) {
     std::replace_if(
         out.begin(), out.end(), [](char c) { return c < ' ' || c > '~' || c == '\\'; }, '?');
     return out;
-}
-
-const char* kindName(const FieldShape& shape) {
-    static constexpr const char* names[] = {"uniform",     "oscillating", "gust", "shear", "vortex",   "abc",
-                                            "taylorGreen", "curlNoise",   "grid", "waves", "hurricane"};
-    return names[shape.index()];
 }
 
 }  // namespace shoal

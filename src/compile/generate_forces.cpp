@@ -1,5 +1,5 @@
 // Adding a force: its struct in scene/force.h, its formula in shaders/physics/force.glsl, one overload of
-// `emit` here, its numbers in simulate/force_parameters.cpp, its reader in scene/scene_forces.cpp, its
+// `emit` here, its numbers in simulate/force_parameters.cpp, its reader in scene/json/forces.cpp, its
 // double-precision twin in reference/forces.cpp, one test.
 #include "compile/generate_forces.h"
 
@@ -89,11 +89,6 @@ GroupForces generateForces(const std::vector<Force>& forces, const std::string& 
                    writer.anyThrusts, "    return velocity;\n}\n");
     out.source += wind;
     return out;
-}
-
-const char* kindName(const ForceShape& shape) {
-    static constexpr const char* names[] = {"attract", "vortexLine", "thrust", "wind"};
-    return names[shape.index()];
 }
 
 }  // namespace shoal

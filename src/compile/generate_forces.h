@@ -35,6 +35,4 @@ constexpr size_t maxForceParameters = 32;
 // `dragged`: wind moves the group.
 GroupForces generateForces(const std::vector<Force>& forces, const std::string& group, bool dragged);
 
-const char* kindName(const ForceShape& shape);
-
 }  // namespace shoal

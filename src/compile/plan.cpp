@@ -10,7 +10,7 @@
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
 #include "core/random.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal {
 

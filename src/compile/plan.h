@@ -136,7 +136,7 @@ struct CompileOptions {
     bool liveSprings = false;
 };
 
-// Error: what checkScene() refuses (scene/scene_file.h); fields or colliders take more uniforms than
+// Error: what checkScene() refuses (scene/json/scene_file.h); fields or colliders take more uniforms than
 // OpenGL 3.3 promises; or the substep is beyond what the explicit solver holds stable (located at the solver,
 // else at the group), and how many substeps would do.
 Plan compile(const Scene& scene, const CompileOptions& options = {});

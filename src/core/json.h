@@ -100,6 +100,7 @@ class JsonReader {
     Location here() const;
     const std::string& file() const { return file_; }
     const std::string& path() const { return path_; }
+    const JsonValue& value() const { return *object_; }
 
     bool get(const std::string& key, double& out, Range range = {});
     bool get(const std::string& key, int& out, Range range = {});
@@ -125,7 +126,7 @@ class JsonReader {
         require(key);
         get(key, out, range);
     }
-    void require(const std::string& key);  // Error when the key is absent
+    void require(const std::string& key) const;  // Error when the key is absent
 
     // The value of a key as an object or as the objects of an array; marks the key as used.
     std::optional<JsonReader> object(const std::string& key);

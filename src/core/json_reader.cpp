@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "core/json.h"
-#include "core/members.h"
+#include "core/where.h"
 
 namespace shoal {
 
@@ -236,7 +236,7 @@ bool JsonReader::choose(const std::string& key, const std::vector<std::string>& 
     return true;
 }
 
-void JsonReader::require(const std::string& key) {
+void JsonReader::require(const std::string& key) const {
     if (has(key)) return;
     // What is misspelt is missing as well: the place of the mistake says more. Short keys are all near one
     // another.

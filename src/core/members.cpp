@@ -4,24 +4,6 @@
 
 namespace shoal {
 
-std::string Where::path() const {
-    if (parent_ == nullptr) return "$";
-    return concat(parent_->path(), ".", key_, index_ == none ? "" : concat("[", index_, "]"));
-}
-
-Location Where::at(const std::string& key) const {
-    return reader_ ? reader_->at(key) : Location{{}, 0, 0, path() + "." + key};
-}
-
-Location Where::here() const {
-    return reader_ ? reader_->here() : Location{{}, 0, 0, path()};
-}
-
-void needAtMost(const Where& where, const std::string& key, size_t count, size_t most) {
-    if (count > most)
-        throw Error(where.at(key), concat("expected at most ", most, " ", key, ", found ", count));
-}
-
 bool CheckMembers::fine(double value, Range range) const {
     return std::abs(value) <= largest_ && contains(range, value);
 }

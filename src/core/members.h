@@ -16,43 +16,13 @@
 
 #include <glm/glm.hpp>
 
-#include "core/json.h"
+#include "core/where.h"
 
 namespace shoal {
 
 // A struct to be filled, or one to be looked at.
 template <typename T, typename Struct>
 concept Either = std::same_as<std::remove_const_t<T>, Struct>;
-
-// Where the keys of an object stand: in its file, or, of what was made in code, their path. Paths are put
-// together only when something is wrong; an object within another borrows that one's.
-class Where {
-  public:
-    Where(const JsonReader& reader) : reader_(&reader) {}
-    Where() = default;                                             // made in code: the whole
-    Where in(const char* key) const { return {this, key, none}; }  // made in code only
-    Where in(const char* key, size_t index) const { return {this, key, index}; }
-
-    Location at(const std::string& key) const;
-    Location here() const;
-
-  private:
-    static constexpr size_t none = size_t(-1);
-    Where(const Where* parent, const char* key, size_t index) : parent_(parent), key_(key), index_(index) {}
-    std::string path() const;
-
-    const JsonReader* reader_ = nullptr;
-    const Where* parent_ = nullptr;
-    const char* key_ = "";
-    size_t index_ = none;
-};
-
-bool contains(Range range, double number);  // and it is finite
-// Error: it does not.
-void needWithin(const Location& where, double number, Range range);
-void needWithin(const Location& where, int number, Range range);
-// Error: too many.
-void needAtMost(const Where& where, const std::string& key, size_t count, size_t most);
 
 class ReadMembers {
   public:

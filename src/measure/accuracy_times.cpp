@@ -4,7 +4,7 @@
 #include <chrono>
 #include <numeric>
 
-#include "measure/bench.h"
+#include "measure/visits.h"
 
 namespace shoal::measure {
 
@@ -61,7 +61,7 @@ std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<do
 
 void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
                  const std::function<double()>& now, const std::function<void(size_t)>& visit) {
-    BenchSchedule schedule;
+    Schedule schedule;
     schedule.seconds = seconds.value_or(usualSeconds);
     schedule.leastSamples = seconds ? 1 : leastSamples;
     schedule.mostSamples = mostSamples;

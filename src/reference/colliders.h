@@ -1,5 +1,5 @@
 // Signed distance and normal of a scene's colliders in double precision: the same definitions as
-// shaders/lib/surfaces.glsl.
+// shaders/step/surfaces.glsl.
 #pragma once
 
 #include <cstddef>

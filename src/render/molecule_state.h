@@ -1,4 +1,4 @@
-// How programs that draw or order molecules reach the state of either path (shaders/lib/molecule.glsl).
+// How programs that draw or order molecules reach the state of either path (shaders/state/molecule.glsl).
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace shoal {
 
-// What a program that includes lib/molecule.glsl is compiled with.
+// What a program that includes state/molecule.glsl is compiled with.
 std::vector<std::string> stateDefines(const StateView& state, const BufferLayout& layout);
 
 // Of the group at `index`, with texture rows `rows` (first state row, rows of a slab, first record row).

@@ -29,7 +29,7 @@ struct Origin {
     glm::vec3 lattice{0}, rest{0};
 
     explicit Origin(const glm::dvec3& point = glm::dvec3(0));
-    void apply(const gpu::Program& program) const;  // shaders/lib/molecule.glsl
+    void apply(const gpu::Program& program) const;  // shaders/state/molecule.glsl
 };
 
 // A view of a picture of some size, in the terms of the shaders.

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal {
 

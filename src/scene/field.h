@@ -14,6 +14,8 @@
 
 namespace shoal {
 
+class Description;
+
 struct UniformField {
     glm::dvec3 velocity{0};  // m/s
 };
@@ -147,5 +149,21 @@ struct Field {
     double weight = 1;
     std::optional<Box> box;  // no effect outside
 };
+
+const Description& describe(const UniformField*);
+const Description& describe(const OscillatingField*);
+const Description& describe(const GustField*);
+const Description& describe(const ShearField*);
+const Description& describe(const VortexField*);
+const Description& describe(const AbcField*);
+const Description& describe(const TaylorGreenField*);
+const Description& describe(const CurlNoiseField*);
+const Description& describe(const GridField*);  // scene/json/fields.cpp: its values are in files
+const Description& describe(const WaveTrain*);
+const Description& describe(const WavesField*);
+const Description& describe(const HurricaneField*);
+const Description& describe(const Field*);
+
+const char* kindName(const FieldShape& shape);  // its word in files
 
 }  // namespace shoal

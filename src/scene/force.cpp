@@ -3,7 +3,151 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/description.h"
+#include "scene/keyframes.h"
+
 namespace shoal {
+
+// ---- What a file says of forces
+
+const Description& describe(const AttractForce*) {
+    using Falloff = AttractForce::Falloff;
+    static const auto rule = [](const AttractForce& force, const Where& where) {
+        const bool square = force.falloff == Falloff::inverseSquare;
+        const char* key = square ? "most" : "radius";
+        where.require(key);
+        if (!square && where.given("most"))
+            throw Error(where.at("most"), "\"most\" bounds an inverse square: a constant falloff has none");
+        needWithin(where.at(key), square ? force.most : force.radius, aboveZero());
+    };
+    static const Description it =
+        Describe<AttractForce>("attract",
+                               "Pulls towards a point, or away from it where the strength is negative.")
+            .key("position", &AttractForce::position, {"m", "The point."})
+            .word("falloff", &AttractForce::falloff, {"inverseSquare", "constant"},
+                  {"", "How the pull depends on the distance d: strength / d², or the same everywhere."})
+            .key("strength", &AttractForce::strength, {"m³/s² or m/s²", "The pull; a negative one pushes."})
+            .needed()
+            .key("most", &AttractForce::most,
+                 {"m/s²", "The bound of an inverse square near the point.", aboveZero()})
+            .unlessZero()
+            .key("radius", &AttractForce::radius,
+                 {"m", "There is no force beyond this distance; without it there is no end.", aboveZero()})
+            .unlessZero()
+            .rule(rule, R"({"if": {"properties": {"falloff": {"const": "constant"}}, "required": ["falloff"]},
+                            "then": {"required": ["radius"], "not": {"required": ["most"]}},
+                            "else": {"required": ["most"]}})");
+    return it;
+}
+
+const Description& describe(const VortexLineForce*) {
+    static const Description it =
+        Describe<VortexLineForce>("vortexLine", "Pulls towards a line and around it [Latta 2004].")
+            .key("position", &VortexLineForce::position, {"m", "A point of the line."})
+            .direction("axis", &VortexLineForce::axis, {"", "The direction of the line."})
+            .key("pull", &VortexLineForce::pull, {"m/s²", "The acceleration towards the line at the core."})
+            .key("turn", &VortexLineForce::turn,
+                 {"m/s²", "The acceleration around it at the core, by the right-hand rule."})
+            .key("core", &VortexLineForce::core,
+                 {"m", "The force grows with the distance up to here, and falls off beyond.", aboveZero()})
+            .key("radius", &VortexLineForce::radius,
+                 {"m", "There is no force beyond this distance; without it there is no end.", aboveZero()})
+            .unlessZero();
+    return it;
+}
+
+const Description& describe(const ThrustForce*) {
+    static const auto rule = [](const ThrustForce& force, const Where& where) {
+        if (force.rate > 0) where.require("limit");
+    };
+    static const Description it =
+        Describe<ThrustForce>("thrust", "Accelerates along the velocity: what propels itself [Latta 2004].")
+            .key("rate", &ThrustForce::rate,
+                 {"1/s", "The rate of growth of the speed; a negative one damps."})
+            .needed()
+            .key("limit", &ThrustForce::limit,
+                 {"m/s", "The speed that a growing one does not pass.", aboveZero()})
+            .rule(
+                rule,
+                R"({"if": {"properties": {"rate": {"exclusiveMinimum": 0}}}, "then": {"required": ["limit"]}})");
+    return it;
+}
+
+const Description& describe(const WindForce*) {
+    static const Description it =
+        Describe<WindForce>("wind", "Adds to the fluid's velocity: it moves what has drag.")
+            .key("velocity", &WindForce::velocity, {"m/s", "The velocity that it adds."})
+            .needed();
+    return it;
+}
+
+const Description& describe(const ForcePath::Keyframe*) {
+    using Keyframe = ForcePath::Keyframe;
+    static const Description it =
+        Describe<Keyframe>("keyframe", "A moment of a force's path.")
+            .key("time", &Keyframe::time, {"s", "The time, after that of the keyframe before."})
+            .needed()
+            .key("offset", &Keyframe::offset, {"m", "What is added to the position."})
+            .key("factor", &Keyframe::factor,
+                 {"", "What multiplies the strength, pull and turn, rate, or velocity."});
+    return it;
+}
+
+const Description& describe(const ForcePath*) {
+    static const auto rule = [](const ForcePath& path, const Where& where) {
+        const std::vector<ForcePath::Keyframe>& keys = path.keyframes;
+        needTwoKeyframes(keys.size(), where.at("keyframes"));
+        for (size_t i = 1; i < keys.size(); ++i)
+            checkRises(keys[i].time, keys[i - 1].time, where.in("keyframes", i).at("time"));
+    };
+    static const Description it =
+        Describe<ForcePath>("path",
+                            "How a force moves and changes: in a straight line from keyframe to keyframe.")
+            .key("repeats", &ForcePath::repeats, {"", "Whether it starts over after the last keyframe."})
+            .key("keyframes", &ForcePath::keyframes, {"", "At least two moments, in order."})
+            .needed()
+            .rule(rule, R"({"properties": {"keyframes": {"minItems": 2}}})");
+    return it;
+}
+
+const Description& describe(const Force*) {
+    static const auto rule = [](const Force& force, const Where& where) {
+        if (hasPlace(force.shape)) return;
+        if (force.mouse)
+            throw Error(where.at("mouse"),
+                        "thrust and wind act alike everywhere: they cannot follow the mouse");
+        for (size_t i = 0; force.path && i < force.path->keyframes.size(); ++i) {
+            const Where path = where.in("path"), frame = path.in("keyframes", i);
+            if (frame.given("offset") || force.path->keyframes[i].offset != glm::dvec3(0))
+                throw Error(frame.at("offset"),
+                            "thrust and wind act alike everywhere: they have no place to move");
+        }
+    };
+    static const Description it =
+        Describe<Force>("force",
+                        "Accelerates molecules, beside the fields, gravity and springs. Forces add up.")
+            .location(&Force::location)
+            .key("name", &Force::name, {"", "Its name in messages and in the panel; no two have the same."})
+            .alternatives("type", &Force::shape, {"", "What it does."})
+            .key("groups", &Force::groups, {"", "The names of the groups that it acts on; all without it."})
+            .key("path", &Force::path, {"", "How it moves and changes."})
+            .key("mouse", &Force::mouse,
+                 {"",
+                  "Whether it acts in the window only, where the pointer is while Shift and the left button "
+                  "are "
+                  "held."})
+            .rule(rule, R"({"if": {"properties": {"type": {"enum": ["thrust", "wind"]}}},
+                            "then": {"not": {"required": ["mouse"]},
+                                     "properties": {"path": {"properties": {"keyframes": {
+                                       "items": {"not": {"required": ["offset"]}}}}}}}})");
+    return it;
+}
+
+bool hasPlace(const ForceShape& shape) {
+    return std::holds_alternative<AttractForce>(shape) || std::holds_alternative<VortexLineForce>(shape);
+}
+
+// ---- What forces do
 
 ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
     if (!path) return {};
@@ -45,6 +189,10 @@ double fastestRate(const Force& force) {
 bool actsOn(const Force& force, const std::string& group) {
     return force.groups.empty() ||
            std::find(force.groups.begin(), force.groups.end(), group) != force.groups.end();
+}
+
+const char* kindName(const ForceShape& shape) {
+    return std::visit([](const auto& kind) { return describe(&kind).name().c_str(); }, shape);
 }
 
 }  // namespace shoal

@@ -1,5 +1,5 @@
-// Forces beside the fields: accelerations that hang on place and velocity (GLSL: shaders/physics/force.glsl).
-// They add up.
+// Forces beside the fields: accelerations that depend on place and velocity (GLSL:
+// shaders/physics/force.glsl). They add up.
 #pragma once
 
 #include <optional>
@@ -12,6 +12,8 @@
 #include "core/error.h"
 
 namespace shoal {
+
+class Description;
 
 // Towards a point, or away from it where the strength is negative. With d the distance:
 //   inverseSquare   strength / d^2 (m^3/s^2), at most `most`       constant   strength (m/s^2)
@@ -84,7 +86,20 @@ ForceMoment momentOf(const std::optional<ForcePath>& path, double time);
 // rate of a thrust; 0 of a wind. What it acts on neither turns nor grows faster.
 double fastestRate(const Force& force);
 
+const Description& describe(const AttractForce*);
+const Description& describe(const VortexLineForce*);
+const Description& describe(const ThrustForce*);
+const Description& describe(const WindForce*);
+const Description& describe(const ForcePath::Keyframe*);
+const Description& describe(const ForcePath*);
+const Description& describe(const Force*);
+
+// Whether it stands somewhere; the others act alike everywhere.
+bool hasPlace(const ForceShape& shape);
+
 // Whether it is for the groups of that name.
 bool actsOn(const Force& force, const std::string& group);
+
+const char* kindName(const ForceShape& shape);  // its word in files
 
 }  // namespace shoal

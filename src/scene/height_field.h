@@ -4,7 +4,7 @@
 #include <string>
 
 #include "core/image.h"
-#include "scene/mesh.h"
+#include "geometry/mesh.h"
 #include "scene/scene.h"
 
 namespace shoal {

@@ -8,11 +8,9 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
-namespace shoal {
+#include "core/box.h"
 
-struct Box {
-    glm::dvec3 low{-1}, high{1};  // m
-};
+namespace shoal {
 
 // Which vertices or triangles of a model may carry molecules. All conditions that are given must hold.
 struct Selection {

@@ -15,6 +15,7 @@
 
 namespace shoal {
 
+class Description;
 struct Group;
 
 // Others that are fled from, or hunted.
@@ -62,8 +63,10 @@ struct School {
 
 constexpr size_t mostSchoolTargets = 8;  // of a group
 
-// Error, located where it was read: a number that makes no sense beside another.
-void checkSchool(const School& school);
+const Description& describe(const SchoolTarget*);
+const Description& describe(const SchoolHome*);
+const Description& describe(const School*);
+
 // Of all groups. Error, located at the target: a group that there is not, its own, more than
 // mostSchoolTargets.
 void checkSchools(const std::vector<Group>& groups);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <functional>
 
-#include "scene/thickness.h"
+#include "geometry/thickness.h"
 
 namespace shoal {
 

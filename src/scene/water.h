@@ -20,4 +20,7 @@ struct Water {
     double rays = 0.5;                        // strength of beams through the water, in [0, 1]
 };
 
+class Description;
+const Description& describe(const Water*);
+
 }  // namespace shoal

@@ -39,7 +39,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
     return out;
 }
 
-static_assert(stateWidth == 1024, "shaders/lib and shaders/passes address rows of 1024 texels");
+static_assert(stateWidth == 1024, "shaders/state and shaders/passes address rows of 1024 texels");
 
 // Passes write every texel of their rows as it is, whatever a renderer left switched on.
 void drawPlainly() {

@@ -22,7 +22,7 @@ struct Tables {
     Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
 };
 
-// For shaders that read the buffer (shaders/lib/samples.glsl).
+// For shaders that read the buffer (shaders/state/samples.glsl).
 constexpr const char* samplesInBuffer = "SAMPLES_IN_BUFFER";
 
 }  // namespace shoal

@@ -132,7 +132,7 @@ void TextureContact::drawAll(TextureState& state, const Into& into) const {
     draw(state, into, 0, rowsOf(contact_->spheres));
 }
 
-// What shaders/lib/state.glsl reads.
+// What shaders/state/textures.glsl reads.
 void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
     const GroupPlan& plan = plan_->groups[group.group];
     program.use();

@@ -20,7 +20,7 @@ constexpr SortMethodRow methods[] = {
     {SortMethod::radix, "radix", true, 4, 3, false, false, "compute shaders",
      "Zagha, Blelloch 1991; Satish, Harris, Garland 2009"},
     {SortMethod::cpu, "cpu", true, 3, 3, false, false, "read back, std::stable_sort, uploaded",
-     "the yardstick"},
+     "the baseline"},
 };
 
 NetworkSort::Kind networkKind(SortMethod method) {

@@ -173,7 +173,7 @@ TEST_CASE("bench sort prints a table, without radix below OpenGL 4.3", "[cli]") 
                             Catch::Contains("times as fast as bitonic at 256 x 256: not measured"));
 }
 
-TEST_CASE("bench collide reports contact beside the yardstick as JSON", "[cli]") {
+TEST_CASE("bench collide reports contact beside the baseline as JSON", "[cli]") {
     const Outcome outcome =
         runShoal({"bench", "collide", "--quick", "--only", "molecules", "--seconds", "0.05", "--json"});
     INFO(outcome.err);
@@ -192,9 +192,9 @@ TEST_CASE("bench collide reports contact beside the yardstick as JSON", "[cli]")
             sum += member(member(row, pass), "minSeconds").number;
         CHECK(sum > 0);
         CHECK(member(member(row, "contact"), "minSeconds").number >= sum * 0.999);
-        CHECK(member(row, "overYardstick").number ==
+        CHECK(member(row, "overBaseline").number ==
               Approx(member(member(row, "contact"), "minSeconds").number /
-                     member(member(row, "yardstick"), "minSeconds").number));
+                     member(member(row, "baseline"), "minSeconds").number));
     }
     CHECK(member(report, "targets").items.size() == 2);
 }

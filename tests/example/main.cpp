@@ -1,7 +1,7 @@
 // Runs a scene for ten frames with the installed libraries and prints where its first vertex went.
 #include <compile/plan.h>
 #include <gpu/context.h>
-#include <scene/scene_file.h>
+#include <scene/json/scene_file.h>
 #include <simulate/simulation.h>
 
 #include <cstdio>

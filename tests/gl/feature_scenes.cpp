@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal::test {
 

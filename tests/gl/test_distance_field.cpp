@@ -136,7 +136,7 @@ TEST_CASE("distance field: points come to rest, on flat and round places, and st
                 INFO(name(kind) << " round " << round << " point " << m << " at " << later.positions[m].y);
                 CHECK(glm::length(later.velocities[m]) < 1e-6);
                 CHECK(glm::length(later.positions[m] - rest.positions[m]) < 1e-6);
-                // what is looked for along the way is touched from 1e-5 m on (lib/joint_contact.glsl)
+                // what is looked for along the way is touched from 1e-5 m on (step/joint_contact.glsl)
                 if (!round) CHECK(later.positions[m].y == Approx(thickness).margin(1.2e-5));
                 const reference::Surface s =
                     reference::surfaceAt(scene.colliders[0].shape, later.positions[m]);

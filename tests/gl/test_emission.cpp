@@ -8,7 +8,7 @@
 
 #include "compile/birth_schedule.h"
 #include "gl/births.h"
-#include "scene/load_model.h"
+#include "geometry/load_model.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 

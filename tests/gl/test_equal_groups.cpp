@@ -7,7 +7,7 @@
 #include "gpu/program_cache.h"
 #include "gpu/texture.h"
 #include "render/renderer.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "simulate/simulation.h"
 #include "support/catch.h"
 #include "support/scratch.h"

@@ -9,7 +9,7 @@
 #include <cstdlib>
 
 #include "gl/render_scene.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 
 using namespace shoal;

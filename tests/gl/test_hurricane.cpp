@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "gl/births.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -1,7 +1,7 @@
 // The GPU keeps the state: after start-up a frame moves no byte of it, and at most 256 bytes of control.
 #include "gl/gl_test.h"
 #include "render/renderer.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "simulate/simulation.h"
 #include "support/catch.h"
 

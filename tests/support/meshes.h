@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "scene/load_model.h"
+#include "geometry/load_model.h"
 
 namespace shoal::test {
 

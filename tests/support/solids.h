@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/load_model.h"
+#include "geometry/load_model.h"
 
 namespace shoal::test {
 

@@ -3,7 +3,7 @@
 
 #include "core/image.h"
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/small_scene.h"
 

@@ -3,11 +3,11 @@
 #include <numeric>
 #include <set>
 
-#include "measure/bench.h"
-#include "measure/bench_verdict.h"
+#include "bench/bench.h"
+#include "bench/verdict.h"
 #include "support/catch.h"
 
-namespace shoal::measure {
+namespace shoal::bench {
 
 namespace {
 
@@ -44,11 +44,11 @@ const Target& named(const std::vector<Target>& all, const std::string& what) {
 }  // namespace
 
 TEST_CASE("minimum and median of times", "[bench]") {
-    CHECK(spreadOf({}).samples == 0);
-    CHECK(spreadOf({}).median == 0);
-    const Spread odd = spreadOf({3, 1, 9});
+    CHECK(measure::spreadOf({}).samples == 0);
+    CHECK(measure::spreadOf({}).median == 0);
+    const measure::Spread odd = measure::spreadOf({3, 1, 9});
     CHECK((odd.min == 1 && odd.median == 3 && odd.samples == 3));
-    CHECK(spreadOf({4, 1, 2, 9}).median == 3);
+    CHECK(measure::spreadOf({4, 1, 2, 9}).median == 3);
 }
 
 TEST_CASE("every case has a name of its own and those of a group share molecules", "[bench]") {
@@ -76,7 +76,7 @@ TEST_CASE("the benchmark's scenes compile at their step", "[bench]") {
         one.count = 3;
         const Molecule& molecule = molecules.of(one.molecule);
         CAPTURE(one.name());
-        CHECK(fitsYardstick(molecule));
+        CHECK(fitsBaseline(molecule));
         const Plan plan = compile(benchScene(one, molecule));
         CHECK(plan.substeps == one.substeps);
         CHECK(plan.groups.at(0).start.positions.size() == 3 * molecule.vertices.size());
@@ -84,11 +84,11 @@ TEST_CASE("the benchmark's scenes compile at their step", "[bench]") {
     }
 }
 
-TEST_CASE("the yardstick's step is the scene's", "[bench]") {
+TEST_CASE("the baseline's step is the scene's", "[bench]") {
     BenchCase one;
     one.substeps = 16;
     const Scene scene = benchScene(one, cloth(2));
-    const YardstickStep step = yardstickStep(scene);
+    const BaselineStep step = baselineStep(scene);
     CHECK(step.substeps == 16);
     CHECK(step.h == Approx(1.0 / 960));
     CHECK(step.wind == glm::vec3(2, 0, 0.5f));
@@ -116,11 +116,11 @@ TEST_CASE("all begin in the same place, some of them on the ground", "[bench]") 
 }
 
 TEST_CASE("slow cases sit out rounds, evenly, and never too often", "[bench]") {
-    BenchSchedule schedule;
+    measure::Schedule schedule;
     schedule.seconds = 3;
     schedule.leastSamples = 3;
     schedule.mostSamples = 40;
-    const VisitPlan plan = planVisits({0.001, 0.1, 5}, schedule);
+    const measure::VisitPlan plan = measure::planVisits({0.001, 0.1, 5}, schedule);
     CHECK(plan.samples == std::vector<int>{40, 10, 3});
     CHECK(plan.rounds == 40);
     CHECK(plan.seconds == Approx(0.04 + 1 + 15));
@@ -209,7 +209,7 @@ TEST_CASE("arithmetic is compared with multiply-adds, and disturbances are count
     CHECK(disturbed(all) == 1);
     CHECK(ratiosOf(all[0], all).arithmetic.value() == Approx(1e12));
     CHECK(ratiosOf(all[0], all).shareOfPeak.value() == Approx(1));
-    CHECK_FALSE(ratiosOf(all[2], all).shareOfPeak);  // the yardstick is on another device
+    CHECK_FALSE(ratiosOf(all[2], all).shareOfPeak);  // the baseline is on another device
     CHECK_FALSE(ratiosOf(all.back(), all).avx512);
     REQUIRE(distances(all).size() == 1);
     CHECK_THAT(distances(all)[0], Catch::Contains("1e+03 Gflop/s, 100% of multiply-adds alone"));
@@ -231,4 +231,4 @@ TEST_CASE("an error finds the case that says how fast it is", "[bench]") {
     CHECK(speedOf(error, 131072, all) == nullptr);
 }
 
-}  // namespace shoal::measure
+}  // namespace shoal::bench

@@ -9,7 +9,7 @@
 #include <sys/resource.h>
 
 #include "core/file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "simulate/checkpoint.h"
 #include "support/catch.h"
 #include "support/message_of.h"

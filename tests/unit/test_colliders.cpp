@@ -4,7 +4,7 @@
 
 #include "compile/surface_pair.h"
 #include "reference/colliders.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/shader_physics.h"

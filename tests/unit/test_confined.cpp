@@ -14,9 +14,9 @@
 
 #include "core/file.h"
 #include "core/image.h"
-#include "scene/confined.h"
-#include "scene/load_model.h"
-#include "scene/scene_file.h"
+#include "core/confined.h"
+#include "geometry/load_model.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

@@ -10,7 +10,7 @@
 #include "support/shapes.h"
 #include "support/small_scene.h"
 
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 
 namespace shoal {
 

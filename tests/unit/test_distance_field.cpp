@@ -3,9 +3,9 @@
 
 #include <glm/gtc/quaternion.hpp>
 
-#include "scene/closest_point.h"
-#include "scene/distance_field.h"
-#include "scene/field_error.h"
+#include "geometry/closest_point.h"
+#include "geometry/distance_field.h"
+#include "geometry/distance_field_error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/solids.h"

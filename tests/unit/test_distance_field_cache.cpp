@@ -1,8 +1,8 @@
 // Fields that are kept, and those that a scene asks for.
 #include <cstring>
 
-#include "scene/distance_field_cache.h"
-#include "scene/scene_file.h"
+#include "geometry/distance_field_cache.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

@@ -1,5 +1,5 @@
 #include "core/error.h"
-#include "scene/read_fga.h"
+#include "scene/field_files/read_fga.h"
 #include "support/catch.h"
 
 using namespace shoal;

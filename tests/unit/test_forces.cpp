@@ -5,7 +5,7 @@
 #include "compile/path.h"
 #include "core/json.h"
 #include "reference/forces.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "simulate/force_parameters.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/watchdog.h"

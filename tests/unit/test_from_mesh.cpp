@@ -8,7 +8,7 @@
 #include "molecule/bind_skin.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
-#include "scene/closed_surface.h"
+#include "geometry/closed_surface.h"
 #include "support/bent.h"
 #include "support/catch.h"
 #include "support/meshes.h"

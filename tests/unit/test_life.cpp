@@ -1,6 +1,6 @@
 // "life" and "emitters": read, and refused with the place of what is wrong.
 #include "compile/plan.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

@@ -7,9 +7,9 @@
 
 #include "core/file.h"
 #include "core/random.h"
-#include "scene/life_writer.h"
-#include "scene/scene_file.h"
-#include "scene/scene_saver.h"
+#include "scene/json/life_writer.h"
+#include "scene/json/scene_file.h"
+#include "scene/json/saver.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/small_scene.h"

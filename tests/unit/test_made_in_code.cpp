@@ -5,7 +5,7 @@
 
 #include "compile/plan.h"
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -1,9 +1,9 @@
 // A file that changed on disk while edits of it are not saved: both are kept, or the conflict is said.
+#include "core/description.h"
 #include "core/json_edit.h"
 #include "core/json_merge.h"
-#include "scene/scene_file.h"
-#include "scene/scene_saver.h"
-#include "scene/school_writer.h"
+#include "scene/json/saver.h"
+#include "scene/json/scene_file.h"
 #include "simulate/carry_over.h"
 #include "support/catch.h"
 #include "support/small_scene.h"
@@ -109,6 +109,7 @@ TEST_CASE("a school that is written reads back the same", "[merge]") {
             R"(, "school": )", school, R"(}, {"name": "shark", "molecule": "blade.json", )", place, "}]}");
         return *parseScene(text, writeSmallScene(scratch, text)).groups[0].school;
     };
+    const auto write = [](const School& school) { return describe(&school).write(school); };
     for (const char* text :
          {R"({})",
           R"({"radius": 0.1})",  // the separation radius is no larger
@@ -119,12 +120,12 @@ TEST_CASE("a school that is written reads back the same", "[merge]") {
               "flees": [{"group": "shark", "radius": 3, "strength": 5}]})",
           R"({"home": {"box": {"low": [0, 0, 0], "high": [1, 1, 1]}}, "hunts": [{"group": "shark"}]})"}) {
         const School school = readBack(text);
-        const std::string written = writeJsonLine(writeSchool(school));
+        const std::string written = writeJsonLine(write(school));
         INFO(written);
-        CHECK(sameJson(writeSchool(readBack(written)), writeSchool(school)));
+        CHECK(sameJson(write(readBack(written)), write(school)));
         CHECK(readBack(written).separationRadius == school.separationRadius);
     }
-    CHECK(sameJson(writeSchool(readBack(R"({"radius": 0.7, "blind": 0.3, "look": 0.6})")),
+    CHECK(sameJson(write(readBack(R"({"radius": 0.7, "blind": 0.3, "look": 0.6})")),
                    parseJson(R"({"radius": 0.7, "blind": 0.3, "look": 0.6})", "test")));
 }
 

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "scene/load_model.h"
+#include "geometry/load_model.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

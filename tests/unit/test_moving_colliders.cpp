@@ -4,7 +4,7 @@
 
 #include "compile/generate.h"
 #include "compile/plan.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/shapes.h"

@@ -1,7 +1,7 @@
 // Particle types: read, refused, and written back.
 #include "core/image.h"
-#include "scene/particle_writer.h"
-#include "scene/scene_file.h"
+#include "scene/json/particle_writer.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

@@ -1,7 +1,7 @@
 #include <filesystem>
 #include <numbers>
 
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/small_scene.h"
 

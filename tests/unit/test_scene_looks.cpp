@@ -1,5 +1,5 @@
 // "colorBy" of a group and "water" of a scene: what is read, what is refused and where.
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/small_scene.h"

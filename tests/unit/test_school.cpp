@@ -6,7 +6,7 @@
 #include "compile/path.h"
 #include "compile/plan.h"
 #include "molecule/molecule_file.h"
-#include "scene/scene_file.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

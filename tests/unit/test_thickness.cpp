@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "scene/selection.h"
-#include "scene/thickness.h"
+#include "geometry/thickness.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 

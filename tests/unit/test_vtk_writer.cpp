@@ -1,8 +1,8 @@
 // Files that VTK itself wrote, in every encoding it has.
 #include <cstdlib>
 
-#include "scene/field_file.h"
-#include "scene/read_vti.h"
+#include "scene/field_files/field_file.h"
+#include "scene/field_files/read_vti.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"

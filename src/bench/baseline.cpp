@@ -1,0 +1,254 @@
+#include "bench/baseline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+
+#include "core/contract.h"
+#include "bench/baseline_kernels.h"
+#include "bench/baseline_scalar.h"
+#include "bench/baseline_threads.h"
+#include "bench/baseline_topologies.h"
+
+namespace shoal::bench {
+
+using glm::vec3;
+
+namespace {
+
+// A cache line, and an AVX-512 vector.
+constexpr size_t alignment = 64;
+
+class Floats {
+  public:
+    Floats() = default;
+    explicit Floats(size_t count) : data_(new (std::align_val_t(alignment)) float[count]()) {}
+    float* data() const { return data_.get(); }
+
+  private:
+    struct Free {
+        void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
+    };
+    std::unique_ptr<float[], Free> data_;
+};
+
+const KernelSet* kernelsOf(Simd simd) {
+    return simd == Simd::avx512 ? avx512Kernels : simd == Simd::avx2 ? avx2Kernels : nullptr;
+}
+
+bool processorHas(Simd simd) {
+#if defined(__x86_64__)
+    if (simd == Simd::avx2) return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    if (simd == Simd::avx512) {
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+               __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("fma");
+    }
+#endif
+    return simd == Simd::scalar;
+}
+
+template <class Topology>
+bool matches(const Molecule& molecule) {
+    const auto weighsAsMuch = [&](const Vertex& v) { return v.mass == molecule.vertices[0].mass; };
+    return molecule.vertices.size() == Topology::vertices &&
+           std::all_of(molecule.vertices.begin(), molecule.vertices.end(), weighsAsMuch) &&
+           std::equal(molecule.springs.begin(), molecule.springs.end(), std::begin(Topology::ends),
+                      std::end(Topology::ends),
+                      [](const Spring& s, const SpringEnds& e) { return s.a == e.a && s.b == e.b; });
+}
+
+Kernel kernelFor(const KernelSet& set, const Molecule& molecule) {
+    if (matches<Quad>(molecule)) return set.quad;
+    if (matches<Cross>(molecule)) return set.cross;
+    if (matches<Fish>(molecule)) return set.fish;
+    return set.any;
+}
+
+// The lattice point nearest to where the molecule's first vertex is.
+vec3 anchorOf(vec3 p) {
+    return glm::floor(p * 16.0f + 0.5f) * 0.0625f;
+}
+
+}  // namespace
+
+const char* name(Simd simd) {
+    static constexpr const char* names[] = {"scalar", "avx2", "avx512"};
+    return names[size_t(simd)];
+}
+
+bool available(Simd simd) {
+    return processorHas(simd) && (simd == Simd::scalar || kernelsOf(simd) != nullptr);
+}
+
+bool fitsBaseline(const Molecule& molecule) {
+    return !molecule.vertices.empty() && !molecule.hasPins() &&
+           std::none_of(molecule.springs.begin(), molecule.springs.end(),
+                        [](const Spring& spring) { return spring.actuation.has_value(); });
+}
+
+struct Baseline::Data {
+    Data(const Molecule& molecule, int count_, Simd simd, int threads_)
+        : count(count_), vertexCount(int(molecule.vertices.size())), threads(threads_) {
+        scalar.vertexCount = vertexCount;
+        for (const Spring& spring : molecule.springs) {
+            scalar.springs.push_back({spring.a, spring.b, float(spring.stiffness), float(spring.damping),
+                                      float(molecule.restLength(spring))});
+        }
+        for (const Vertex& vertex : molecule.vertices)
+            scalar.inverseMass.push_back(float(1 / vertex.mass));
+        if (simd == Simd::scalar) {
+            scalar.vertices.resize(size_t(count) * size_t(vertexCount));
+            scalar.anchors.resize(size_t(count));
+            force.resize(size_t(threads_), std::vector<vec3>(size_t(vertexCount)));
+            return;
+        }
+        kernels = kernelsOf(simd);
+        kernel = kernelFor(*kernels, molecule);
+        blockCount = (count + kernels->lanes - 1) / kernels->lanes;
+        blocks = Floats(size_t(blockCount) * blockFloats());
+        for (int i = 0; i < threads_; ++i)
+            scratch.emplace_back(size_t(3 * vertexCount * kernels->lanes));
+        for (const ScalarSpring& spring : scalar.springs)
+            ends.insert(ends.end(), {spring.a, spring.b});
+    }
+
+    size_t blockFloats() const { return size_t(6 * vertexCount + 3) * size_t(kernels->lanes); }
+    // Of component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
+    float& at(int molecule, int vertex, int component) const {
+        const int lanes = kernels->lanes;
+        return blocks.data()[size_t(molecule / lanes) * blockFloats() +
+                             size_t((6 * vertex + component) * lanes + molecule % lanes)];
+    }
+    void frameInLanes(const BaselineStep& step);
+
+    int count, vertexCount;
+    PinnedThreads threads;
+
+    ScalarMolecules scalar;  // its vertices only where there are no kernels
+    std::vector<std::vector<vec3>> force;
+
+    const KernelSet* kernels = nullptr;
+    Kernel kernel = nullptr;
+    int blockCount = 0;
+    Floats blocks;
+    std::vector<Floats> scratch;
+    std::vector<int> ends;
+};
+
+Baseline::Baseline(const Molecule& molecule, int count, Simd simd, int threads) {
+    EXPECTS(fitsBaseline(molecule) && count > 0 && threads > 0 && available(simd));
+    data_ = std::make_unique<Data>(molecule, count, simd, threads);
+}
+
+Baseline::~Baseline() = default;
+Baseline::Baseline(Baseline&&) noexcept = default;
+Baseline& Baseline::operator=(Baseline&&) noexcept = default;
+
+void Baseline::set(std::span<const vec3> positions, std::span<const vec3> velocities) {
+    Data& d = *data_;
+    EXPECTS(positions.size() == size_t(d.count) * size_t(d.vertexCount) &&
+            velocities.size() == positions.size());
+    const auto first = [&](int molecule) { return size_t(molecule) * size_t(d.vertexCount); };
+    if (!d.kernels) {
+        for (int m = 0; m < d.count; ++m) {
+            d.scalar.anchors[size_t(m)] = anchorOf(positions[first(m)]);
+            for (size_t i = first(m); i < first(m + 1); ++i)
+                d.scalar.vertices[i] = {positions[i] - d.scalar.anchors[size_t(m)], velocities[i]};
+        }
+        return;
+    }
+    for (int lane = 0; lane < d.blockCount * d.kernels->lanes; ++lane) {
+        const int m = std::min(lane, d.count - 1);  // the last block is filled up with copies
+        const vec3 anchor = anchorOf(positions[first(m)]);
+        for (int i = 0; i < d.vertexCount; ++i) {
+            for (int k = 0; k < 3; ++k) {
+                d.at(lane, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
+                d.at(lane, i, 3 + k) = velocities[first(m) + size_t(i)][k];
+            }
+        }
+        for (int k = 0; k < 3; ++k)
+            d.at(lane, d.vertexCount, k) = anchor[k];
+    }
+}
+
+void Baseline::get(std::vector<vec3>& positions, std::vector<vec3>& velocities) const {
+    const Data& d = *data_;
+    positions.clear();
+    velocities.clear();
+    for (int m = 0; m < d.count; ++m) {
+        for (int i = 0; i < d.vertexCount; ++i) {
+            if (!d.kernels) {
+                const ScalarVertex& vertex = d.scalar.vertices[size_t(m) * size_t(d.vertexCount) + size_t(i)];
+                positions.push_back(d.scalar.anchors[size_t(m)] + vertex.position);
+                velocities.push_back(vertex.velocity);
+                continue;
+            }
+            const int a = d.vertexCount;
+            positions.push_back(vec3(d.at(m, a, 0), d.at(m, a, 1), d.at(m, a, 2)) +
+                                vec3(d.at(m, i, 0), d.at(m, i, 1), d.at(m, i, 2)));
+            velocities.emplace_back(d.at(m, i, 3), d.at(m, i, 4), d.at(m, i, 5));
+        }
+    }
+}
+
+void Baseline::Data::frameInLanes(const BaselineStep& step) {
+    KernelStep out{};
+    out.substeps = step.substeps;
+    out.h = step.h;
+    out.decay = step.decay;
+    for (int k = 0; k < 3; ++k) {
+        out.push[k] = step.wind[k] * step.decay + step.gravity[k] * step.phi;
+        out.gravity[k] = step.gravity[k];
+        out.normal[k] = step.planeNormal[k];
+        out.point[k] = step.planePoint[k];
+    }
+    out.thickness = step.thickness;
+    out.restitution = step.restitution;
+    out.friction = step.friction;
+    out.vertices = vertexCount;
+    out.springs = int(scalar.springs.size());
+    // what is left of a kick of h f / m after the drag, for the first vertex
+    const float kick = step.h * (1 - step.decay) * scalar.inverseMass[0];
+    std::vector<KernelSpring> constants;
+    for (const ScalarSpring& spring : scalar.springs) {
+        const float stiffness = kick * spring.stiffness * step.stiffness;
+        constants.push_back({stiffness, stiffness * spring.restLength, kick * spring.damping * step.damping});
+    }
+    std::vector<float> shares;
+    for (const float inverse : scalar.inverseMass)
+        shares.push_back(inverse / scalar.inverseMass[0]);
+    out.ends = ends.data();
+    out.constants = constants.data();
+    out.kick = shares.data();
+    threads.run([&](int index) {
+        const int first = int(int64_t(blockCount) * index / threads.count());
+        const int last = int(int64_t(blockCount) * (index + 1) / threads.count());
+        kernel(blocks.data() + size_t(first) * blockFloats(), last - first, out,
+               scratch[size_t(index)].data());
+    });
+}
+
+void Baseline::frame(const BaselineStep& step) {
+    Data& d = *data_;
+    if (d.kernels) return d.frameInLanes(step);
+    d.threads.run([&](int index) {
+        const int first = int(int64_t(d.count) * index / d.threads.count());
+        const int last = int(int64_t(d.count) * (index + 1) / d.threads.count());
+        frameScalar(d.scalar, first, last, step, d.force[size_t(index)]);
+    });
+}
+
+double Baseline::processorTime() const {
+    return data_->threads.slowest();
+}
+
+bool Baseline::unrolled() const {
+    return data_->kernels != nullptr && data_->kernel != data_->kernels->any;
+}
+
+size_t Baseline::bytesPerMolecule() const {
+    return size_t(6 * data_->vertexCount + 3) * sizeof(float);
+}
+
+}  // namespace shoal::bench

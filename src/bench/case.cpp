@@ -1,0 +1,268 @@
+#include "bench/case.h"
+
+#include <cmath>
+
+#include "core/contract.h"
+
+namespace shoal::bench {
+
+namespace {
+
+void addBaselines(std::vector<BenchCase>& out, BenchCase one) {
+    for (const Subject subject : {Subject::avx512, Subject::avx2, Subject::scalar}) {
+        one.subject = subject;
+        one.label = name(subject);
+        out.push_back(one);
+    }
+}
+
+BenchCase grouped(const char* molecule, const char* many, int count) {
+    BenchCase out;
+    out.group = bench::grouped(count) + " " + many;
+    out.molecule = molecule;
+    out.count = count;
+    return out;
+}
+
+// One size of one molecule on everything that can run it.
+void addSize(std::vector<BenchCase>& out, const BenchCase& base, bool pictures) {
+    BenchCase one = base;
+    const auto add = [&](const char* label) {
+        one.label = label;
+        out.push_back(one);
+    };
+    add("fused");
+    one.inPlace = true;
+    add("fused, in place");
+    one = base;
+    one.subject = Subject::pingPong;
+    add("ping-pong");
+    addBaselines(out, base);
+    one = base;
+    one.drawn = pictures;
+    if (pictures) {
+        add("fused, drawn");
+        one.subject = Subject::pingPong;
+        add("ping-pong, drawn");
+    }
+    one = base;
+    for (const Subject subject : {Subject::bufferCopy, Subject::kernelCopy, Subject::memoryCopy}) {
+        one.subject = subject;
+        add(name(subject));
+    }
+}
+
+void addLeapfrog(std::vector<BenchCase>& out, const BenchCase& base) {
+    BenchCase one = base;
+    one.solver = SolverKind::leapfrog;
+    one.label = "fused, leapfrog";
+    out.push_back(one);
+    one.subject = Subject::pingPong;
+    one.label = "ping-pong, leapfrog";
+    out.push_back(one);
+}
+
+void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
+    BenchCase one = base;
+    one.substeps = 16;
+    for (const Subject subject : {Subject::fused, Subject::avx512, Subject::avx2}) {
+        one.subject = subject;
+        one.label = std::string(name(subject)) + ", 16 substeps";
+        out.push_back(one);
+    }
+    one = base;
+    one.subject = Subject::multiplyAdd;
+    one.label = name(one.subject);
+    out.push_back(one);
+}
+
+void addSamplings(std::vector<BenchCase>& out, int count) {
+    BenchCase one = grouped("quad", "quads in wind", count);
+    for (const Wind wind : {Wind::uniform, Wind::gusts}) {
+        one.wind = wind;
+        const std::string what = name(wind);
+        one.subject = Subject::fused;
+        for (const FieldSampling sampling :
+             {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+            one.sampling = sampling;
+            one.label = "fused, " + what + ", " + shoal::name(sampling);
+            out.push_back(one);
+        }
+        one.sampling = FieldSampling::vertexSubstep;
+        one.subject = Subject::pingPong;
+        one.label = "ping-pong, " + what + ", " + shoal::name(one.sampling);
+        out.push_back(one);
+    }
+    one.solver = SolverKind::leapfrog;
+    one.subject = Subject::fused;
+    for (const FieldSampling sampling :
+         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+        one.sampling = sampling;
+        one.label = std::string("fused, leapfrog, gusts, ") + shoal::name(sampling);
+        out.push_back(one);
+    }
+}
+
+// Large molecules: how a molecule is spread over the device.
+void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* many, int count) {
+    BenchCase one = grouped(molecule, many, count);
+    for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
+        one.lanes = lanes;
+        one.label = std::string("fused, a lane a ") + shoal::name(lanes);
+        out.push_back(one);
+    }
+    one.lanes = Lanes::automatic;
+    addBaselines(out, one);
+}
+
+}  // namespace
+
+const char* name(Subject subject) {
+    static constexpr const char* names[] = {
+        "fused",         "ping-pong",           "AVX-512",       "AVX2",
+        "scalar",        "copy, buffer",        "copy, kernel",  "copy, memory",
+        "multiply-adds", "Bullet, soft bodies", "Bullet, merged"};
+    return names[size_t(subject)];
+}
+const char* name(Wind wind) {
+    return wind == Wind::uniform ? "uniform" : "gusts";
+}
+bool isPath(Subject subject) {
+    return subject == Subject::fused || subject == Subject::pingPong;
+}
+bool isBaseline(Subject subject) {
+    return subject == Subject::avx512 || subject == Subject::avx2 || subject == Subject::scalar;
+}
+bool isCopy(Subject subject) {
+    return subject == Subject::bufferCopy || subject == Subject::kernelCopy || subject == Subject::memoryCopy;
+}
+bool needsCompute(Subject subject) {
+    return subject == Subject::fused || subject == Subject::kernelCopy || subject == Subject::multiplyAdd;
+}
+bool isBullet(Subject subject) {
+    return subject == Subject::bulletBodies || subject == Subject::bulletMerged;
+}
+Simd simdOf(Subject subject) {
+    EXPECTS(isBaseline(subject));
+    return subject == Subject::avx512 ? Simd::avx512 : subject == Subject::avx2 ? Simd::avx2 : Simd::scalar;
+}
+
+std::string grouped(int count) {
+    std::string out = std::to_string(count);
+    for (int at = int(out.size()) - 3; at > 0; at -= 3)
+        out.insert(size_t(at), ",");
+    return out;
+}
+
+std::vector<BenchCase> benchCases(bool quick) {
+    std::vector<BenchCase> out;
+    BenchCase base = grouped("quad", "quads", 1024);
+    addSize(out, base, true);
+    for (const Subject subject : {Subject::bulletBodies, Subject::bulletMerged}) {
+        base.subject = subject;
+        base.label = name(subject);
+        out.push_back(base);
+    }
+    base = grouped("quad", "quads", 16384);
+    addSize(out, base, true);
+    addLeapfrog(out, base);
+    base = grouped("quad", "quads", 131072);
+    addSize(out, base, !quick);
+    if (!quick) addLeapfrog(out, base);
+    if (!quick) addManySubsteps(out, base);
+    base = grouped("quad", "quads", 1048576);
+    if (!quick) addSize(out, base, true);
+    if (!quick) addManySubsteps(out, base);
+    addSize(out, grouped("cross", "crosses", 16384), !quick);
+    addSize(out, grouped("fish", "fish", 16384), !quick);
+    if (quick) return out;
+    addSamplings(out, 16384);
+    addLanes(out, "fish", "fish in lanes", 4096);
+    addLanes(out, "cloth", "cloths of 64 vertices in lanes", 1024);
+    return out;
+}
+
+Molecule cloth(int side) {
+    Molecule out;
+    out.name = "cloth";
+    const auto at = [side](int row, int column) { return row * side + column; };
+    const auto spring = [&](int a, int b) {
+        Spring one;
+        one.a = a;
+        one.b = b;
+        one.stiffness = 10;
+        one.damping = 0.002;
+        out.springs.push_back(one);
+    };
+    for (int row = 0; row < side; ++row) {
+        for (int column = 0; column < side; ++column) {
+            Vertex vertex;
+            vertex.position = glm::dvec3(column, 0, row) * 0.05;
+            vertex.mass = 0.01;
+            out.vertices.push_back(vertex);
+            const bool right = column + 1 < side, down = row + 1 < side;
+            if (right) spring(at(row, column), at(row, column + 1));
+            if (down) spring(at(row, column), at(row + 1, column));
+            if (!right || !down) continue;
+            spring(at(row, column), at(row + 1, column + 1));
+            spring(at(row, column + 1), at(row + 1, column));
+            out.triangles.push_back({at(row, column), at(row + 1, column), at(row, column + 1)});
+            out.triangles.push_back({at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
+        }
+    }
+    return out;
+}
+
+Scene benchScene(const BenchCase& one, const Molecule& molecule) {
+    Scene scene;
+    scene.name = one.name();
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.kind = one.solver;
+    scene.solver.substeps = one.substeps;
+    scene.solver.fieldSampling = one.sampling;
+    if (one.wind == Wind::uniform) {
+        scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
+    } else {
+        GustField gust;
+        gust.direction = {2, 0, 0.5};
+        gust.speed = 2;
+        scene.fields.emplace_back().shape = gust;
+        CurlNoiseField noise;
+        noise.octaves = 2;
+        scene.fields.emplace_back().shape = noise;
+    }
+    scene.colliders.emplace_back();  // a plane, y = 0
+    Group group;
+    group.name = one.molecule;
+    group.molecule = molecule;
+    group.count = one.count;
+    group.place.box = {{-20, 0.2, -20}, {20, 6, 20}};
+    group.place.turn = Placement::Turn::any;
+    group.drag = {1, 1};
+    scene.groups.push_back(group);
+    scene.camera.eye = {0, 8, 34};
+    scene.camera.target = {0, 2, 0};
+    return scene;
+}
+
+BaselineStep baselineStep(const Scene& scene) {
+    const double h = 1 / scene.frameRate / scene.solver.substeps;
+    const double gamma = scene.groups[0].drag.tangent;
+    const Collider& ground = scene.colliders[0];
+    const auto& plane = std::get<PlaneCollider>(ground.shape);
+    BaselineStep out;
+    out.h = float(h);
+    out.substeps = scene.solver.substeps;
+    out.gravity = scene.gravity;
+    out.wind = std::get<UniformField>(scene.fields[0].shape).velocity;
+    out.decay = float(-std::expm1(-gamma * h));
+    out.phi = float(-std::expm1(-gamma * h) / gamma);
+    out.planePoint = plane.point;
+    out.planeNormal = glm::normalize(plane.normal);
+    out.restitution = float(ground.restitution);
+    out.friction = float(ground.friction);
+    out.thickness = float(ground.thickness);
+    return out;
+}
+
+}  // namespace shoal::bench

@@ -1,0 +1,206 @@
+#include "bench/particle_baseline.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <new>
+
+#include "core/contract.h"
+#include "bench/baseline_simd.h"
+#include "bench/baseline_threads.h"
+
+namespace shoal::bench {
+
+using glm::vec3;
+
+namespace {
+
+// Vectors of one, for processors without.
+struct V1 {
+    static constexpr int lanes = 1;
+    using Mask = bool;
+    float v;
+
+    friend V1 operator+(V1 a, V1 b) { return {a.v + b.v}; }
+    friend V1 operator-(V1 a, V1 b) { return {a.v - b.v}; }
+    friend V1 operator*(V1 a, V1 b) { return {a.v * b.v}; }
+    static V1 broadcast(const float* p) { return {*p}; }
+    static V1 load(const float* p) { return {*p}; }
+    static void store(float* p, V1 a) { *p = a.v; }
+    static V1 fma(V1 a, V1 b, V1 c) { return {a.v * b.v + c.v}; }
+    static V1 fnma(V1 a, V1 b, V1 c) { return {c.v - a.v * b.v}; }
+    static V1 minimum(V1 a, V1 b) { return {std::min(a.v, b.v)}; }
+    static V1 maximum(V1 a, V1 b) { return {std::max(a.v, b.v)}; }
+    static V1 floored(V1 a) { return {std::floor(a.v)}; }
+    static V1 inverseRoot(V1 a) { return {1 / std::sqrt(a.v)}; }
+    static bool less(V1 a, V1 b) { return a.v < b.v; }
+    static bool both(bool a, bool b) { return a && b; }
+    static bool any(bool a) { return a; }
+    static V1 select(bool mask, V1 a, V1 b) { return mask ? a : b; }
+    static V1 gather(const float* p, V1 at) { return {p[size_t(at.v)]}; }
+    static void leave() {}
+};
+
+// A thread's own.
+struct Part {
+    enum Component { x, y, z, vx, vy, vz, age, life, components };
+    static constexpr size_t alignment = 64;
+
+    Part(size_t room_, uint32_t seed)
+        : room(room_),
+          stride((room_ + 15) / 16 * 16),
+          random(seed),
+          data(new (std::align_val_t(alignment)) float[components * stride]()) {}
+    ~Part() { operator delete[](data, std::align_val_t(alignment)); }
+    Part(const Part&) = delete;
+    Part& operator=(const Part&) = delete;
+
+    float* of(int component) const { return data + size_t(component) * stride; }
+    float uniform() {  // in [0, 1), xorshift (Marsaglia 2003)
+        random ^= random << 13;
+        random ^= random >> 17;
+        random ^= random << 5;
+        return float(random >> 8) * 0x1p-24f;
+    }
+    void letDie() {
+        const float *ages = of(age), *lives = of(life);
+        for (size_t i = 0; i < count;) {
+            if (ages[i] < lives[i]) {
+                ++i;
+                continue;
+            }
+            --count;
+            for (int c = 0; c < components; ++c)
+                of(c)[i] = of(c)[count];
+        }
+    }
+    void bear(int births, const ParticleStep& step) {
+        const vec3 low(step.from.low), size(step.from.high - step.from.low), velocity(step.velocity);
+        const auto shortest = float(step.life.x), range = float(step.life.y - step.life.x);
+        for (int n = 0; n < births && count < room; ++n, ++count) {
+            const float since = uniform() * float(step.h);
+            for (int k = 0; k < 3; ++k) {
+                of(x + k)[count] = low[k] + size[k] * uniform() + velocity[k] * since;
+                of(vx + k)[count] = velocity[k];
+            }
+            of(age)[count] = since;
+            of(life)[count] = shortest + range * uniform();
+        }
+    }
+
+    size_t room, stride, count = 0;
+    uint32_t random;
+    float* data;
+};
+
+ParticleKernelStep kernelStep(const ParticleStep& step) {
+    ParticleKernelStep out{};
+    out.h = float(step.h);
+    out.halfStep = float(step.h / 2);
+    const double decay = -std::expm1(-step.drag * step.h), phi = step.drag > 0 ? decay / step.drag : step.h;
+    out.decay = float(decay);
+    for (int k = 0; k < 3; ++k)
+        out.push[k] = float(step.wind[k] * decay + step.gravity[k] * phi);
+    if (!step.heights) return out;
+    const HeightFieldCollider& field = *step.heights;
+    out.heights = field.heights.data();
+    out.columns = float(field.columns);
+    const glm::dvec2 last(field.columns - 1, field.rows - 1);
+    for (int k = 0; k < 2; ++k) {
+        out.low[k] = float(field.low[k]);
+        out.last[k] = float(last[k]);
+        out.perMetre[k] = float(last[k] / (field.high[k] - field.low[k]));
+    }
+    out.highest = *std::max_element(field.heights.begin(), field.heights.end());
+    out.restitution = float(step.restitution);
+    out.kept = float(1 - step.friction);
+    return out;
+}
+
+}  // namespace
+
+struct ParticleBaseline::Data {
+    Data(size_t capacity, Simd simd, int count) : threads(count) {
+        if (simd == Simd::scalar) kernel = moveParticles<V1>;
+        if (simd == Simd::avx2) kernel = avx2Kernels->particles;
+        if (simd == Simd::avx512) kernel = avx512Kernels->particles;
+        for (int i = 0; i < count; ++i) {
+            const size_t room =
+                capacity * size_t(i + 1) / size_t(count) - capacity * size_t(i) / size_t(count);
+            parts.push_back(std::make_unique<Part>(room, 2463534242u + uint32_t(i)));
+        }
+    }
+    PinnedThreads threads;
+    ParticleKernel kernel = nullptr;
+    std::vector<std::unique_ptr<Part>> parts;
+};
+
+ParticleBaseline::ParticleBaseline(size_t capacity, Simd simd, int threads) {
+    EXPECTS(available(simd) && capacity > 0 && threads > 0);
+    data_ = std::make_unique<Data>(capacity, simd, threads);
+}
+
+ParticleBaseline::~ParticleBaseline() = default;
+
+void ParticleBaseline::set(std::span<const vec3> positions, std::span<const vec3> velocities) {
+    EXPECTS(positions.size() == velocities.size());
+    size_t next = 0;
+    for (const std::unique_ptr<Part>& part : data_->parts) {
+        part->count = std::min(part->room, positions.size() - next);
+        for (size_t i = 0; i < part->count; ++i, ++next) {
+            for (int k = 0; k < 3; ++k) {
+                part->of(Part::x + k)[i] = positions[next][k];
+                part->of(Part::vx + k)[i] = velocities[next][k];
+            }
+            part->of(Part::age)[i] = 0;
+            part->of(Part::life)[i] = std::numeric_limits<float>::infinity();
+        }
+    }
+    EXPECTS(next == positions.size());
+}
+
+void ParticleBaseline::step(const ParticleStep& step) {
+    Data& d = *data_;
+    const ParticleKernelStep constants = kernelStep(step);
+    d.threads.run([&](int index) {
+        Part& part = *d.parts[size_t(index)];
+        float* const ages = step.births > 0 ? part.of(Part::age) : nullptr;
+        d.kernel({part.of(Part::x), part.of(Part::y), part.of(Part::z), part.of(Part::vx), part.of(Part::vy),
+                  part.of(Part::vz), ages},
+                 int(part.count), constants);
+        if (step.births == 0) return;
+        part.letDie();
+        const int threads = d.threads.count();
+        part.bear(int(int64_t(step.births) * (index + 1) / threads - int64_t(step.births) * index / threads),
+                  step);
+    });
+}
+
+size_t ParticleBaseline::count() const {
+    size_t out = 0;
+    for (const std::unique_ptr<Part>& part : data_->parts)
+        out += part->count;
+    return out;
+}
+
+std::vector<ParticleBaseline::Particle> ParticleBaseline::get() const {
+    std::vector<Particle> out;
+    for (const std::unique_ptr<Part>& part : data_->parts) {
+        const auto at = [&](int component, size_t i) { return part->of(component)[i]; };
+        for (size_t i = 0; i < part->count; ++i)
+            out.push_back({vec3(at(Part::x, i), at(Part::y, i), at(Part::z, i)),
+                           vec3(at(Part::vx, i), at(Part::vy, i), at(Part::vz, i)), at(Part::age, i),
+                           at(Part::life, i)});
+    }
+    return out;
+}
+
+std::vector<std::span<const float>> ParticleBaseline::positions() const {
+    std::vector<std::span<const float>> out;
+    for (const std::unique_ptr<Part>& part : data_->parts)
+        for (const int component : {Part::x, Part::y, Part::z})
+            out.emplace_back(part->of(component), part->count);
+    return out;
+}
+
+}  // namespace shoal::bench

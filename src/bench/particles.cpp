@@ -1,0 +1,349 @@
+#include "bench/particles.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <random>
+
+#include "gpu/gl.h"
+#include "bench/particle_baseline.h"
+#include "measure/pin_threads.h"
+#include "simulate/simulation.h"
+
+namespace shoal::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using What = ParticleCase::What;
+
+constexpr int framesBefore = 30, framesTimed = 8;
+constexpr double slowFrameSeconds = 0.1;  // such frames are timed one by one
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// Frames until as many die as are born.
+int framesToSteady(const ParticleCase& one) {
+    return one.turnover > 0 ? int(2 / one.turnover) + 2 : framesBefore;
+}
+
+Simulation makeSimulation(const ParticleCase& one, const Scene& scene, const BenchDevice& device) {
+    SimulationOptions options;
+    options.path = Path::fused;
+    options.inPlace = one.inPlace;
+    options.drawn = one.drawn.has_value();
+    options.cache = device.cache;
+    return Simulation(*device.context, device.shaderRoot, compile(scene), options);
+}
+
+class StepRunner : public BenchRunner {
+  public:
+    StepRunner(const ParticleCase& one, const Scene& scene, const BenchDevice& device)
+        : one_(one), simulation_(makeSimulation(one, scene, device)) {
+        if (one.drawn) draw_ = device.makeDraw(scene, simulation_.plan());
+        if (one.sort) makeSorter(device);
+        if (!one.sort && !one.contact && !one.drawn && !one.allocator)
+            movedBytes = fusedBytesPerFrame(simulation_.plan(), false);
+        for (int i = 0; i < framesToSteady(one); ++i)
+            simulation_.frame();
+        if (!one.allocator) start_ = simulation_.save();
+    }
+    void restart() override {
+        if (start_) simulation_.load(*start_);
+    }
+    void frame() override {
+        simulation_.frame();
+        if (sorter_) sort();
+        if (draw_) draw_(simulation_.state());
+    }
+    void finish() override { glFinish(); }
+    const Simulation& simulation() const { return simulation_; }
+
+  private:
+    void makeSorter(const BenchDevice& device) {
+        const size_t pairs = size_t(one_.count());
+        const int row = one_.sort == SortMethod::radix ? 0 : one_.side;
+        sorter_ = std::make_unique<Sorter>(*device.context, device.shaderRoot, *one_.sort, pairs, row,
+                                           device.cache);
+        std::mt19937 random(1);
+        std::vector<KeyIndex> keys(pairs);
+        for (size_t i = 0; i < pairs; ++i)
+            keys[i] = {uint32_t(random()), uint32_t(i)};
+        sorter_->upload(keys);
+    }
+    void sort() {
+        if (one_.spreadFrames == 0) return sorter_->sort();
+        if (spread_++ % one_.spreadFrames == 0) sorter_->beginSpread(one_.spreadFrames);
+        sorter_->advance();
+    }
+
+    ParticleCase one_;
+    Simulation simulation_;
+    std::optional<SavedState> start_;
+    std::unique_ptr<Sorter> sorter_;
+    int spread_ = 0;
+    Draw draw_;
+};
+
+Simd bestSimd() {
+    Simd out = Simd::scalar;
+    for (const Simd better : {Simd::avx2, Simd::avx512})
+        if (available(better)) out = better;
+    return out;
+}
+
+ParticleStep loopStep(const ParticleCase& one, const Scene& scene) {
+    const Group& group = scene.groups[0];
+    ParticleStep out;
+    out.h = 1 / scene.frameRate / scene.solver.substeps;
+    out.gravity = scene.gravity;
+    out.wind = std::get<UniformField>(scene.fields[0].shape).velocity;
+    out.drag = group.drag.tangent;
+    if (one.heights) out.heights = &std::get<HeightFieldCollider>(scene.colliders[0].shape);
+    if (one.turnover == 0) return out;
+    out.births = int(one.turnover * one.count());
+    out.life = glm::dvec2(0.5, 1.5) / one.turnover / one.frameRate;
+    out.from = group.place.box;
+    return out;
+}
+
+void worldStart(const Scene& scene, std::vector<glm::vec3>& positions, std::vector<glm::vec3>& velocities) {
+    const GroupState start = compile(scene).groups[0].start;
+    for (size_t i = 0; i < start.anchors.size(); ++i)
+        positions.push_back(start.anchors[i] + start.positions[i]);
+    velocities = start.velocities;
+}
+
+// The step, and its positions to a buffer that a renderer would read.
+class LoopRunner : public BenchRunner {
+  public:
+    LoopRunner(const ParticleCase& one, const Scene& scene, const BenchDevice& device)
+        : one_(one),
+          scene_(scene),
+          step_(loopStep(one, scene_)),
+          loop_(size_t(one.count()) + size_t(one.count()) / 4, bestSimd(), device.cores) {
+        const size_t bytes = 4 * sizeof(float) * (size_t(one.count()) + size_t(one.count()) / 4);
+        buffer_ = gpu::Buffer(*device.context, gpu::Buffer::Use::vertex, nullptr, bytes, "uploaded");
+        if (one.turnover == 0) worldStart(scene_, positions_, velocities_);
+        toStart();
+    }
+    void restart() override {
+        if (one_.turnover == 0) toStart();
+    }
+    void frame() override {
+        loop_.step(step_);
+        if (one_.sort) return sortAndUpload();
+        size_t offset = 0;
+        for (const std::span<const float> part : loop_.positions()) {
+            if (part.empty()) continue;
+            buffer_.update(gpu::Traffic::Kind::state, offset, part.data(), part.size_bytes());
+            offset += part.size_bytes();
+        }
+    }
+    void finish() override { glFinish(); }
+
+  private:
+    void toStart() {
+        if (one_.turnover == 0) loop_.set(positions_, velocities_);
+        for (int i = 0; i < framesToSteady(one_); ++i)
+            loop_.step(step_);
+    }
+    // From back to front along z.
+    void sortAndUpload() {
+        const auto parts = loop_.positions();
+        order_.clear();
+        sorted_.clear();
+        for (size_t p = 0; p < parts.size(); p += 3)
+            for (size_t i = 0; i < parts[p].size(); ++i)
+                order_.push_back(uint64_t(std::bit_cast<uint32_t>(100 + parts[p + 2][i])) << 32 | p << 28 |
+                                 i);
+        std::sort(order_.begin(), order_.end());
+        for (const uint64_t key : order_) {
+            const size_t p = (key >> 28) & 15, i = key & 0xFFFFFFF;
+            for (size_t k = 0; k < 3; ++k)
+                sorted_.push_back(parts[p + k][i]);
+        }
+        buffer_.update(gpu::Traffic::Kind::state, 0, sorted_.data(), sorted_.size() * sizeof(float));
+    }
+
+    ParticleCase one_;
+    Scene scene_;
+    ParticleStep step_;
+    ParticleBaseline loop_;
+    std::vector<glm::vec3> positions_, velocities_;
+    std::vector<uint64_t> order_;
+    std::vector<float> sorted_;
+    gpu::Buffer buffer_;
+};
+
+std::unique_ptr<BenchRunner> makeParticleRunner(const ParticleCase& one, const Molecule& point,
+                                                const Molecule& quad, const BenchDevice& device) {
+    const Scene scene = particleScene(one, point, quad);
+    if (one.what == What::step) return std::make_unique<StepRunner>(one, scene, device);
+    if (one.what == What::cpuLoop) return std::make_unique<LoopRunner>(one, scene, device);
+    BenchCase copy;
+    copy.subject = Subject::kernelCopy;
+    copy.count = 64;
+    const BenchStart none(copy, point, 1);
+    copy.count = one.count();
+    return makeRunner(copy, point, none, device);
+}
+
+std::string reasonToLeaveOut(const ParticleCase& one, const BenchDevice& device) {
+    const gpu::ContextInfo& info = device.context->info();
+    if (!info.computeShaders && one.what != What::cpuLoop)
+        return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
+    if (one.drawn && !device.makeDraw) return "nothing to draw with";
+    return {};
+}
+
+class Entrant {
+  public:
+    Entrant(const ParticleCase& one, const Molecule& point, const Molecule& quad, const BenchDevice& device)
+        : runner_(makeParticleRunner(one, point, quad, device)), context_(*device.context) {
+        result.one = one;
+        result.movedBytes = runner_->movedBytes;
+        steps_ = dynamic_cast<const StepRunner*>(runner_.get());
+        if (!one.allocator) steps_ = nullptr;
+        if (steps_) before_ = steps_->simulation().lifeCounts(0);
+        if (steps_) framesAtStart_ = steps_->simulation().frames();
+    }
+
+    // Not counted: compiles and touches memory; then what a visit costs.
+    void warmUp() {
+        frames_ = 1;
+        visit();
+        if (samples_.back() < slowFrameSeconds) frames_ = framesTimed;
+        const Clock::time_point start = Clock::now();
+        visit();
+        seconds = since(start);
+        samples_.clear();
+        packing_.clear();
+        timedFrames_ = 0;
+        moved_ = {};
+    }
+
+    void visit() {
+        runner_->restart();
+        runner_->frame();
+        runner_->finish();
+        const gpu::Traffic before = context_.traffic();
+        const Clock::time_point start = Clock::now();
+        for (int i = 0; i < frames_; ++i)
+            runner_->frame();
+        runner_->finish();
+        samples_.push_back(since(start) / frames_);
+        const gpu::Traffic crossed = context_.traffic() - before;
+        moved_ +=
+            double(crossed.total(gpu::Traffic::Kind::state) + crossed.total(gpu::Traffic::Kind::births));
+        timedFrames_ += frames_;
+        if (!steps_) return;
+        const LifeCounts counts = steps_->simulation().lifeCounts(0);
+        result.live = counts.live;
+        packing_.push_back(double(counts.mark) / std::max(1, counts.live));
+    }
+
+    ParticleTimes finish() {
+        result.frame = measure::spreadOf(samples_);
+        result.busBytes = moved_ / std::max(1, timedFrames_);
+        if (!steps_) return result;
+        const LifeCounts counts = steps_->simulation().lifeCounts(0);
+        const double frames = steps_->simulation().frames() - framesAtStart_;
+        result.born = double(counts.born - before_.born) / frames;
+        result.lost = double(counts.lost - before_.lost) / frames;
+        result.packing = *std::max_element(packing_.begin(), packing_.end());
+        return result;
+    }
+
+    ParticleTimes result;
+    double seconds = 0;  // of a visit
+
+  private:
+    std::unique_ptr<BenchRunner> runner_;
+    gpu::Context& context_;
+    const StepRunner* steps_ = nullptr;  // where they are born
+    LifeCounts before_;
+    int frames_ = 1, timedFrames_ = 0, framesAtStart_ = 0;
+    double moved_ = 0;
+    std::vector<double> samples_, packing_;
+};
+
+// Of constant force and drag, t s after the start.
+glm::dvec3 exactAfter(const Scene& scene, const glm::dvec3& x, const glm::dvec3& v, double t) {
+    const double gamma = scene.groups[0].drag.tangent;
+    const glm::dvec3 last = std::get<UniformField>(scene.fields[0].shape).velocity + scene.gravity / gamma;
+    return x + last * t + (v - last) * (-std::expm1(-gamma * t) / gamma);
+}
+
+}  // namespace
+
+std::optional<double> positionError(const ParticleCase& given, const Molecule& point,
+                                    const BenchDevice& device) {
+    if (given.heights || given.contact || given.sort || given.drawn || given.turnover > 0 || given.quads ||
+        given.what == What::copy)
+        return std::nullopt;
+    ParticleCase one = given;
+    one.side = 64;
+    const Scene scene = particleScene(one, point, point);
+    const int frames = int(std::lround(scene.frameRate));
+    std::vector<glm::vec3> positions, velocities;
+    worldStart(scene, positions, velocities);
+    std::vector<glm::dvec3> ends;
+    if (one.what == What::cpuLoop) {
+        ParticleBaseline loop(positions.size(), bestSimd(), device.cores);
+        loop.set(positions, velocities);
+        for (int i = 0; i < frames; ++i)
+            loop.step(loopStep(one, scene));
+        for (const ParticleBaseline::Particle& particle : loop.get())
+            ends.emplace_back(particle.position);
+    } else {
+        Simulation simulation = makeSimulation(one, scene, device);
+        for (int i = 0; i < frames; ++i)
+            simulation.frame();
+        ends = simulation.snapshot(0).positions;
+    }
+    double sum = 0;
+    for (size_t i = 0; i < ends.size(); ++i) {
+        const glm::dvec3 exact =
+            exactAfter(scene, glm::dvec3(positions[i]), glm::dvec3(velocities[i]), frames / scene.frameRate);
+        sum += glm::dot(ends[i] - exact, ends[i] - exact) / double(ends.size());
+    }
+    return std::sqrt(sum);
+}
+
+std::vector<ParticleTimes> measureParticles(const std::vector<ParticleCase>& cases, const Molecule& point,
+                                            const Molecule& quad, const BenchDevice& device,
+                                            const measure::Schedule& schedule) {
+    std::vector<ParticleTimes> out;
+    std::vector<std::unique_ptr<Entrant>> entrants;
+    std::vector<size_t> places;  // of the entrants in `out`
+    std::vector<double> cost;
+    for (const ParticleCase& one : cases) {
+        ParticleTimes& times = out.emplace_back();
+        times.one = one;
+        times.leftOut = reasonToLeaveOut(one, device);
+        if (!times.leftOut.empty()) continue;
+        try {
+            entrants.push_back(std::make_unique<Entrant>(one, point, quad, device));
+        } catch (const gpu::OutOfMemory& error) {
+            times.leftOut = error.message();
+            continue;
+        }
+        entrants.back()->result.error = positionError(one, point, device);
+        measure::pinRasteriserThreads();
+        entrants.back()->warmUp();
+        places.push_back(out.size() - 1);
+        cost.push_back(entrants.back()->seconds);
+    }
+    measure::takeTurns(measure::planVisits(cost, schedule), [&](size_t i) { entrants[i]->visit(); });
+    for (size_t i = 0; i < entrants.size(); ++i)
+        out[places[i]] = entrants[i]->finish();
+    device.context->checkErrors("bench particles");
+    return out;
+}
+
+}  // namespace shoal::bench

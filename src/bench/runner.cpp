@@ -1,0 +1,266 @@
+#include "bench/runner.h"
+
+#include <cstring>
+
+#include "gpu/barrier.h"
+#include "gpu/buffer_texture.h"
+#include "gpu/gl.h"
+#include "gpu/program.h"
+#include "bench/baseline_threads.h"
+#include "simulate/simulation.h"
+
+namespace shoal::bench {
+
+using glm::vec3;
+
+namespace {
+
+class PathRunner : public BenchRunner {
+  public:
+    PathRunner(const BenchCase& one, const Molecule& molecule, const BenchStart& start,
+               const BenchDevice& device)
+        : scene_(benchScene(one, molecule)),
+          simulation_(*device.context, device.shaderRoot, planOf(start), optionsOf(one, device)) {
+        if (one.drawn) draw_ = device.makeDraw(scene_, simulation_.plan());
+        stateBytes = simulation_.stateBytes();
+        lanes = simulation_.lanes(0);
+        operations = one.drawn ? 0 : operationsPerFrame(one, molecule);
+        if (one.subject == Subject::fused) movedBytes = fusedBytesPerFrame(simulation_.plan(), one.drawn);
+    }
+    void restart() override { simulation_.restart(); }
+    void frame() override {
+        simulation_.frame();
+        if (draw_) draw_(simulation_.state());
+    }
+    void finish() override { glFinish(); }
+
+  private:
+    Plan planOf(const BenchStart& start) const {
+        Plan out = compile(scene_);
+        out.groups[0].start = start.packed;
+        return out;
+    }
+    static SimulationOptions optionsOf(const BenchCase& one, const BenchDevice& device) {
+        SimulationOptions out;
+        out.drawn = one.drawn;
+        out.path = one.subject == Subject::fused ? Path::fused : Path::pingPong;
+        out.inPlace = one.inPlace;
+        out.lanes = one.lanes;
+        out.cache = device.cache;
+        return out;
+    }
+
+    Scene scene_;
+    Simulation simulation_;
+    Draw draw_;
+};
+
+class BaselineRunner : public BenchRunner {
+  public:
+    BaselineRunner(const BenchCase& one, const Molecule& molecule, const BenchStart& start, int cores)
+        : start_(start),
+          step_(baselineStep(benchScene(one, molecule))),
+          baseline_(molecule, one.count, simdOf(one.subject), cores) {
+        stateBytes = baseline_.bytesPerMolecule() * size_t(one.count);
+        movedBytes = 2 * stateBytes;
+        operations = operationsPerFrame(one, molecule);
+        restart();
+    }
+    void restart() override { baseline_.set(start_.positions, start_.velocities); }
+    void frame() override { baseline_.frame(step_); }
+
+  private:
+    const BenchStart& start_;
+    BaselineStep step_;
+    Baseline baseline_;
+};
+
+// One side of the state into the other, there and back.
+class BufferCopy : public BenchRunner {
+  public:
+    BufferCopy(size_t bytes, const BenchDevice& device) {
+        const std::vector<std::byte> zeros(bytes);
+        for (gpu::Buffer& side : sides_)
+            side = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, zeros.data(), bytes, "copy");
+        stateBytes = movedBytes = 2 * bytes;
+    }
+    void restart() override {}
+    void frame() override {
+        sides_[current_].copyTo(sides_[1 - current_], sides_[0].bytes());
+        current_ = 1 - current_;
+    }
+    void finish() override { glFinish(); }
+
+  protected:
+    gpu::Buffer sides_[2];
+    size_t current_ = 0;
+};
+
+class KernelCopy : public BufferCopy {
+  public:
+    KernelCopy(size_t bytes, const BenchDevice& device) : BufferCopy(bytes, device) {
+        gpu::ProgramOptions options;
+        options.compute = "bench/copy.comp";
+        options.label = "copy";
+        options.defines = {concat("LANES ", lanesOfGroup)};
+        if (device.context->info().software) options.defines.emplace_back("PAIRED_STORES");
+        program_ = gpu::Program(*device.context, device.shaderRoot, options);
+        for (size_t i = 0; i < 2; ++i)
+            textures_[i] = gpu::BufferTexture(*device.context, sides_[i], "copy");
+    }
+    void frame() override {
+        const int elements = int(sides_[0].bytes() / sizeof(glm::vec4));
+        program_.use();
+        program_.texture("source", 0, textures_[current_]);
+        current_ = 1 - current_;
+        program_.storage("Target", 0, sides_[current_], 0, sides_[0].bytes());
+        program_.set("elements", elements);
+        program_.dispatch((elements + lanesOfGroup - 1) / lanesOfGroup);
+        gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+    }
+
+    static constexpr int lanesOfGroup = 128;
+
+  private:
+    gpu::Program program_;
+    gpu::BufferTexture textures_[2];
+};
+
+class MultiplyAdd : public BenchRunner {
+  public:
+    explicit MultiplyAdd(const BenchDevice& device) {
+        gpu::ProgramOptions options;
+        options.compute = "bench/multiply_add.comp";
+        options.label = "multiply-adds";
+        options.defines = {concat("LANES ", lanesOfGroup), concat("ROUNDS ", rounds)};
+        program_ = gpu::Program(*device.context, device.shaderRoot, options);
+        result_ = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, nullptr,
+                              size_t(groups * lanesOfGroup) * sizeof(float), "multiply-adds");
+        operations = 16.0 * rounds * groups * lanesOfGroup;
+    }
+    void restart() override {}
+    void frame() override {
+        program_.use();
+        program_.set("factor", glm::vec4(0.999f, 0.998f, 0.997f, 0.996f));
+        program_.set("addend", glm::vec4(0.1f, 0.2f, 0.3f, 0.4f));
+        program_.storage("Result", 0, result_, 0, result_.bytes());
+        program_.dispatch(groups);
+        gpu::barrier({gpu::Barrier::storage});
+    }
+    void finish() override { glFinish(); }
+
+  private:
+    static constexpr int lanesOfGroup = 128, groups = 2048, rounds = 1024;
+    gpu::Program program_;
+    gpu::Buffer result_;
+};
+
+class MemoryCopy : public BenchRunner {
+  public:
+    MemoryCopy(size_t bytes, int cores) : threads_(cores), from_(bytes, 'x'), to_(bytes, 'y') {
+        stateBytes = movedBytes = 2 * bytes;
+    }
+    void restart() override {}
+    void frame() override {
+        threads_.run([&](int index) {
+            const size_t n = size_t(threads_.count()), bytes = from_.size();
+            const size_t first = bytes * size_t(index) / n, last = bytes * size_t(index + 1) / n;
+            std::memcpy(to_.data() + first, from_.data() + first, last - first);
+        });
+        std::swap(from_, to_);
+    }
+
+  private:
+    PinnedThreads threads_;
+    std::vector<char> from_, to_;
+};
+
+// Of one side of the fused path's state.
+size_t sideBytes(const BenchCase& one, const Molecule& molecule) {
+    const BufferLayout layout{int(molecule.vertices.size())};
+    return layout.padded(size_t(one.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);
+}
+
+}  // namespace
+
+BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores) {
+    BenchCase plain = one;
+    plain.wind = Wind::uniform;
+    const Scene scene = benchScene(plain, molecule);
+    packed = compile(scene).groups[0].start;
+    const size_t vertices = molecule.vertices.size();
+    for (size_t i = 0; i < packed.positions.size(); ++i)
+        positions.push_back(packed.anchors[i / vertices] + packed.positions[i]);
+    velocities = packed.velocities;
+    Simd simd = Simd::scalar;
+    for (const Simd better : {Simd::avx2, Simd::avx512})
+        if (available(better)) simd = better;
+    Baseline baseline(molecule, one.count, simd, cores);
+    baseline.set(positions, velocities);
+    const BaselineStep step = baselineStep(scene);
+    for (int i = 0; i < framesBefore; ++i)
+        baseline.frame(step);
+    baseline.get(positions, velocities);
+    packed.velocities = velocities;
+    for (size_t m = 0; m < packed.anchors.size(); ++m) {
+        packed.anchors[m] = glm::floor(positions[m * vertices] * 16.0f + 0.5f) / 16.0f;
+        for (size_t i = m * vertices; i < (m + 1) * vertices; ++i)
+            packed.positions[i] = positions[i] - packed.anchors[m];
+    }
+}
+
+size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
+    size_t elements = 0;
+    for (const GroupPlan& group : plan.groups) {
+        const BufferLayout layout = group.layout();
+        const Needs& needs = group.needs;
+        const size_t state = 2 * size_t(layout.stateElements());
+        const size_t records = 1;  // read; written only when an anchor moves
+        const size_t normals = drawn && needs.normals ? size_t(layout.positionElements()) : 0;
+        const size_t constants = needs.scale || needs.phase ? 1 : 0;
+        elements += size_t(group.count) * (state + records + normals + constants);
+    }
+    return elements * sizeof(glm::vec4);
+}
+
+// A spring: 35 of them, its root counted as one; a vertex: drag and gravity 6, moving 6, the distance from
+// the ground 6.
+double operationsPerFrame(const BenchCase& one, const Molecule& molecule) {
+    if (one.solver != SolverKind::euler || one.wind != Wind::uniform) return 0;
+    const double substep = 35.0 * double(molecule.springs.size()) + 18.0 * double(molecule.vertices.size());
+    return substep * one.substeps * one.count;
+}
+
+std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, const BenchDevice& device) {
+    const gpu::ContextInfo& info = device.context->info();
+    if (needsCompute(one.subject) && !info.computeShaders)
+        return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
+    if (isBaseline(one.subject) && !available(simdOf(one.subject)))
+        return "this processor or build lacks the instructions";
+    if (isBullet(one.subject) && !device.makeBullet) return "not built with Bullet (apt: libbullet-dev)";
+    if (one.drawn && !device.makeDraw) return "nothing to draw with";
+    const auto bytes = int64_t(sideBytes(one, molecule));
+    const int64_t texels = bytes / int64_t(sizeof(glm::vec4));
+    const bool fits = bytes <= info.maxStorageBlockBytes && texels <= info.maxBufferTexels &&
+                      texels / KernelCopy::lanesOfGroup < info.maxWorkGroupsX;
+    if (one.subject == Subject::kernelCopy && !fits) return "more than one dispatch can copy here";
+    return {};
+}
+
+std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,
+                                        const BenchStart& start, const BenchDevice& device) {
+    if (isPath(one.subject)) return std::make_unique<PathRunner>(one, molecule, start, device);
+    if (isBaseline(one.subject))
+        return std::make_unique<BaselineRunner>(one, molecule, start, device.cores);
+    if (one.subject == Subject::memoryCopy) {
+        const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(one.count);
+        return std::make_unique<MemoryCopy>(bytes, device.cores);
+    }
+    if (isBullet(one.subject)) return device.makeBullet(one, molecule);
+    if (one.subject == Subject::multiplyAdd) return std::make_unique<MultiplyAdd>(device);
+    const size_t bytes = sideBytes(one, molecule);
+    if (one.subject == Subject::kernelCopy) return std::make_unique<KernelCopy>(bytes, device);
+    return std::make_unique<BufferCopy>(bytes, device);
+}
+
+}  // namespace shoal::bench

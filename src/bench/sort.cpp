@@ -1,0 +1,228 @@
+#include "bench/sort.h"
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <random>
+
+#include "core/contract.h"
+#include "core/error.h"
+#include "gpu/gl.h"
+
+namespace shoal::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Pairs = std::vector<KeyIndex>;
+
+// One case, made once and run in turn with the others.
+class SortRunner {
+  public:
+    virtual ~SortRunner() = default;
+    virtual void restart() = 0;
+    virtual void run() = 0;
+    virtual bool isSorted() = 0;
+    int passes = 0;
+};
+
+bool ascending(const Pairs& pairs, size_t first, size_t end) {
+    return std::is_sorted(pairs.begin() + ptrdiff_t(first), pairs.begin() + ptrdiff_t(end),
+                          [](const KeyIndex& a, const KeyIndex& b) { return a.key < b.key; });
+}
+
+class DeviceSort : public SortRunner {
+  public:
+    DeviceSort(const SortBenchDevice& device, SortMethod method, bool rowsOnly, int side, const Pairs& input)
+        : input_(input),
+          rowsOnly_(rowsOnly),
+          side_(size_t(side)),
+          sorter_(*device.context, device.shaderRoot, method, input.size(),
+                  method == SortMethod::radix || method == SortMethod::cpu ? 0 : side, device.cache) {
+        restart();
+        if (rowsOnly)
+            passes = int(bitonicPasses(side_).size());
+        else
+            passes = sorter_.passes();
+    }
+    void restart() override {
+        sorter_.upload(input_);
+        glFinish();
+    }
+    void run() override {
+        if (rowsOnly_)
+            sorter_.sortRows();
+        else
+            sorter_.sort();
+        glFinish();
+    }
+    bool isSorted() override {
+        const Pairs out = sorter_.download();
+        const size_t block = rowsOnly_ ? side_ : out.size();
+        for (size_t first = 0; first < out.size(); first += block)
+            if (!ascending(out, first, first + block)) return false;
+        return true;
+    }
+
+  private:
+    const Pairs& input_;
+    bool rowsOnly_;
+    size_t side_;
+    Sorter sorter_;
+};
+
+// In memory, one thread, as 64-bit numbers with the key above the index.
+class StdSort : public SortRunner {
+  public:
+    explicit StdSort(const Pairs& input) : input_(input), pairs_(input.size()) { restart(); }
+    void restart() override {
+        std::transform(input_.begin(), input_.end(), pairs_.begin(),
+                       [](const KeyIndex& pair) { return uint64_t(pair.key) << 32 | pair.index; });
+    }
+    void run() override { std::sort(pairs_.begin(), pairs_.end()); }
+    bool isSorted() override { return std::is_sorted(pairs_.begin(), pairs_.end()); }
+
+  private:
+    const Pairs& input_;
+    std::vector<uint64_t> pairs_;
+};
+
+class PairCopy : public SortRunner {
+  public:
+    PairCopy(const SortBenchDevice& device, const Pairs& input)
+        : from_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copied"),
+          to_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copy") {}
+    void restart() override {}
+    void run() override {
+        from_.copyTo(to_, to_.bytes());
+        glFinish();
+    }
+    bool isSorted() override { return true; }
+
+  private:
+    gpu::Buffer from_, to_;
+};
+
+struct Running {
+    SortTime time;
+    std::unique_ptr<SortRunner> runner;
+    std::vector<double> seconds;
+};
+
+std::vector<Running> runnersOf(int side, const SortBenchDevice& device, const Pairs& input) {
+    std::vector<Running> out;
+    const auto add = [&](SortTime time, std::unique_ptr<SortRunner> runner) {
+        if (runner) time.passes = runner->passes;
+        out.push_back({std::move(time), std::move(runner), {}});
+    };
+    const gpu::ContextInfo& info = device.context->info();
+    for (const SortMethodRow& method : sortMethods()) {
+        for (const bool rowsOnly : {false, true}) {
+            if (rowsOnly && !method.rowsOnly) continue;
+            SortTime time;
+            time.name = concat(method.name, rowsOnly ? ", rows only" : "");
+            time.method = method.method;
+            time.rowsOnly = rowsOnly;
+            if (!canRun(method.method, info)) {
+                time.leftOut = concat("needs OpenGL ", method.major, ".", method.minor, "; this context has ",
+                                      info.major, ".", info.minor);
+                add(time, nullptr);
+                continue;
+            }
+            add(time, std::make_unique<DeviceSort>(device, method.method, rowsOnly, side, input));
+        }
+    }
+    add({.name = "std::sort, one thread"}, std::make_unique<StdSort>(input));
+    add({.name = "copy", .copy = true}, std::make_unique<PairCopy>(device, input));
+    return out;
+}
+
+double timed(SortRunner& runner) {
+    const Clock::time_point start = Clock::now();
+    runner.run();
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+double secondsSince(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+// A first run of each, not counted: it finds what a visit costs, and whether the sort sorts.
+std::vector<double> costs(std::vector<Running>& all) {
+    std::vector<double> out;
+    for (Running& one : all) {
+        if (!one.runner) {
+            out.push_back(1);
+            continue;
+        }
+        one.runner->run();
+        if (!one.runner->isSorted()) throw Error(concat("bench sort: ", one.time.name, " did not sort"));
+        const Clock::time_point start = Clock::now();
+        one.runner->restart();
+        one.runner->run();
+        out.push_back(secondsSince(start));
+    }
+    return out;
+}
+
+}  // namespace
+
+const SortTime* SortTable::find(SortMethod method, bool rowsOnly) const {
+    for (const SortTime& time : times)
+        if (time.method == method && time.rowsOnly == rowsOnly && time.leftOut.empty()) return &time;
+    return nullptr;
+}
+
+const SortTime& SortTable::stdSort() const {
+    EXPECTS(times.size() >= 2);
+    return times[times.size() - 2];
+}
+
+const SortTime& SortTable::copy() const {
+    EXPECTS(!times.empty());
+    return times.back();
+}
+
+double SortTable::itemsPerSecond(const SortTime& time) const {
+    return time.seconds.min > 0 ? double(pairs()) / time.seconds.min : 0;
+}
+
+std::optional<double> SortTable::shareOfCopy(const SortTime& time) const {
+    if (time.method != SortMethod::radix || !time.leftOut.empty()) return {};
+    return time.passes * copy().seconds.min / time.seconds.min;
+}
+
+SortTable measureSorts(int side, const SortBenchDevice& device, const measure::Schedule& schedule) {
+    std::mt19937 random(1);
+    Pairs input(size_t(side) * size_t(side));
+    for (size_t i = 0; i < input.size(); ++i)
+        input[i] = {uint32_t(random()), uint32_t(i)};
+    std::vector<Running> all = runnersOf(side, device, input);
+    measure::takeTurns(measure::planVisits(costs(all), schedule), [&](size_t i) {
+        if (!all[i].runner) return;
+        all[i].runner->restart();
+        all[i].seconds.push_back(timed(*all[i].runner));
+    });
+    SortTable out;
+    out.side = side;
+    for (Running& one : all) {
+        one.time.seconds = measure::spreadOf(std::move(one.seconds));
+        out.times.push_back(std::move(one.time));
+    }
+    return out;
+}
+
+// Table 1 counts frames a second, keys and the moving of the particles included; the slides count items.
+std::vector<PublishedSort> publishedSorts() {
+    const auto fps = [](const char* where, double a, double b, double c, double d) {
+        return PublishedSort{where,
+                             {a * 128 * 128e-6, b * 256 * 256e-6, c * 512 * 512e-6, d * 1024 * 1024e-6}};
+    };
+    return {fps("UberFlow, table 1, FP, Radeon 9800 Pro", 22, 3.5, 1, 0.2),
+            fps("UberFlow, table 1, GP/FP", 40, 10, 3, 0.4),
+            fps("UberFlow, table 1, GP/FP packed", 148, 43, 10, 2),
+            {"UberFlow, slides, Radeon 9800 Pro", {2.8, 2.8, 2.4, 2.0}},
+            {"UberFlow, slides, Radeon X800 XT", {3.9, 7.2, 6.4, 5.1}}};
+}
+
+}  // namespace shoal::bench

@@ -1,0 +1,59 @@
+// The sorts of src/sort against each other, UberFlow's figures, std::sort and a copy of the same bytes:
+// UberFlow's table of sorts (Kipfer, Segal, Westermann, Graphics Hardware 2004, table 1), a square of pairs
+// at a time.
+//
+// All cases of a size take turns, round after round, like those of bench/bench.h. A sample: the unsorted
+// pairs back (not timed), one sort between two waits. Keys are random, all 32 bits of them.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gpu/context.h"
+#include "gpu/program_cache.h"
+#include "bench/bench.h"
+#include "measure/statistics.h"
+#include "sort/sorter.h"
+
+namespace shoal::bench {
+
+struct SortTime {
+    std::string name = {};
+    std::optional<SortMethod> method = {};  // none: std::sort, or the copy
+    bool rowsOnly = false;
+    bool copy = false;         // of the pairs, once, by the device
+    int passes = 0;            // over the pairs; 0: not of passes
+    std::string leftOut = {};  // why it was not measured; empty: it was
+    measure::Spread seconds = {};       // of one sort
+};
+
+struct SortTable {
+    int side = 0;  // side * side pairs, in rows of `side`
+    std::vector<SortTime> times;
+
+    size_t pairs() const { return size_t(side) * size_t(side); }
+    const SortTime* find(SortMethod method, bool rowsOnly = false) const;
+    const SortTime& stdSort() const;
+    const SortTime& copy() const;
+    double itemsPerSecond(const SortTime& time) const;  // by the shortest
+    // A pass of the radix sort against a copy, which moves as many bytes as a pass does at the least.
+    std::optional<double> shareOfCopy(const SortTime& time) const;
+};
+
+struct SortBenchDevice {
+    gpu::Context* context = nullptr;
+    std::string shaderRoot;
+    gpu::ProgramCache* cache = nullptr;
+};
+
+// Error: a sort did not sort; out of memory; the driver refuses a shader.
+SortTable measureSorts(int side, const SortBenchDevice& device, const measure::Schedule& schedule);
+// What others published.
+struct PublishedSort {
+    const char* where;
+    double millionItems[4];  // a second, for 128, 256, 512 and 1024 squared
+};
+std::vector<PublishedSort> publishedSorts();
+
+}  // namespace shoal::bench

@@ -1,0 +1,93 @@
+#include "bench/start.h"
+
+#include <stdlib.h>
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+
+#include "gpu/gl.h"
+#include "simulate/simulation.h"
+
+namespace shoal::bench {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+class ScratchFolder {
+  public:
+    ScratchFolder() {
+        std::string pattern = (std::filesystem::temp_directory_path() / "shoal-bench-XXXXXX").string();
+        if (!::mkdtemp(pattern.data())) throw Error(concat("cannot make a folder such as ", pattern));
+        path = pattern;
+    }
+    ~ScratchFolder() {
+        std::error_code ignored;
+        std::filesystem::remove_all(path, ignored);
+    }
+    ScratchFolder(const ScratchFolder&) = delete;
+    ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+    std::filesystem::path path;
+};
+
+double firstFrame(const Plan& plan, const BenchDevice& device, gpu::ProgramCache* cache) {
+    SimulationOptions options;
+    options.path = Path::fused;
+    options.drawn = false;
+    options.cache = cache;
+    Plan own = plan;
+    glFinish();
+    const Clock::time_point start = Clock::now();
+    Simulation simulation(*device.context, device.shaderRoot, std::move(own), options);
+    simulation.frame();
+    glFinish();
+    return since(start);
+}
+
+// A molecule of a slightly different shape, which no cache has seen: its rest lengths are the kernel's
+// constants.
+Molecule unseen(const Molecule& molecule) {
+    std::random_device random;
+    const double share = 1 + 1e-3 * double(random()) / double(std::random_device::max());
+    Molecule out = molecule;
+    for (Vertex& vertex : out.vertices)
+        vertex.position *= share;
+    return out;
+}
+
+}  // namespace
+
+std::vector<StartTime> measureStart(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
+                                    const std::function<void(double share)>& progress) {
+    std::vector<StartTime> out;
+    if (!device.context->info().computeShaders) return out;
+    for (const char* molecule : {"quad", "cross", "fish"})
+        for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
+            if (!quick || solver == SolverKind::euler) out.push_back({molecule, solver, 16384});
+    for (size_t i = 0; i < out.size(); ++i) {
+        progress(double(i) / double(out.size()));
+        StartTime& one = out[i];
+        BenchCase like;
+        like.molecule = one.molecule;
+        like.count = one.count;
+        like.solver = one.solver;
+        const Scene scene = benchScene(like, unseen(molecules.of(one.molecule)));
+        const Clock::time_point start = Clock::now();
+        const Plan plan = compile(scene);
+        one.compile = since(start);
+        const ScratchFolder folder;
+        gpu::ProgramCache cache(*device.context, folder.path.string());
+        one.cold = firstFrame(plan, device, &cache);
+        one.driver = firstFrame(plan, device, nullptr);
+        one.cached = firstFrame(plan, device, &cache);
+    }
+    return out;
+}
+
+}  // namespace shoal::bench

@@ -1,0 +1,12 @@
+// A box along the axes.
+#pragma once
+
+#include <glm/glm.hpp>
+
+namespace shoal {
+
+struct Box {
+    glm::dvec3 low{-1}, high{1};  // m
+};
+
+}  // namespace shoal

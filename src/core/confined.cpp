@@ -1,0 +1,255 @@
+#include "core/confined.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <new>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace shoal {
+
+namespace {
+
+constexpr int outOfMemory = 3;           // exit code
+constexpr size_t longestMessage = 1000;  // bytes
+constexpr bool limitsMemory =
+#if defined(__SANITIZE_ADDRESS__)
+    false;
+#else
+    true;
+#endif
+
+double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Bytes of address space that this process has; 0 where nothing says it.
+double addressSpace() {
+    std::ifstream in("/proc/self/statm");
+    double pages = 0;
+    in >> pages;
+    return pages * double(sysconf(_SC_PAGESIZE));
+}
+
+// Soft limits can be raised later, up to the hard one.
+void setLimit(decltype(RLIMIT_AS) what, double now, double most) {
+    rlimit limit{};
+    if (getrlimit(what, &limit) != 0) return;
+    limit.rlim_max = std::min(limit.rlim_max, rlim_t(most));
+    limit.rlim_cur = std::min(limit.rlim_max, rlim_t(now));
+    setrlimit(what, &limit);
+}
+
+// Handlers of the parent's (of crashes, of Ctrl-C) would act on what is not theirs here.
+void forgetSignals() {
+    for (int signal = 1; signal < NSIG; ++signal)
+        std::signal(signal, SIG_DFL);  // of those that cannot be caught it fails, and need not succeed
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
+// What a dying library prints is no message of ours, and no file of the parent's is any of its business.
+void keepOnly(int pipe) {
+    const int nothing = open("/dev/null", O_RDWR);
+    for (int stream = 0; stream < 3 && nothing >= 0; ++stream)
+        dup2(nothing, stream);
+#ifdef SYS_close_range
+    syscall(SYS_close_range, 3u, unsigned(pipe) - 1, 0u);
+    syscall(SYS_close_range, unsigned(pipe) + 1, ~0u, 0u);
+#endif
+}
+
+[[noreturn]] void workInChild(ToParent& parent, const std::function<void(ToParent&)>& work) {
+    try {
+        parent.limit();
+        work(parent);
+    } catch (const Error& error) {
+        parent.refuse(error.message());
+    } catch (const std::bad_alloc&) {
+        _exit(outOfMemory);
+    } catch (const std::length_error&) {
+        _exit(outOfMemory);
+    } catch (const std::exception& error) {
+        parent.refuse(concat("cannot be read: ", error.what()));
+    } catch (...) {
+        _exit(1);
+    }
+    _exit(0);
+}
+
+}  // namespace
+
+double ConfinedLimits::memoryFor(double fileBytes) const {
+    return std::min(memory + memoryPerByte * fileBytes, mostMemory);
+}
+
+double ConfinedLimits::secondsFor(double fileBytes) const {
+    return std::round(std::min(seconds + secondsPerByte * fileBytes, mostSeconds));
+}
+
+double ConfinedLimits::clockFor(double fileBytes) const {
+    return waiting + waitingBySeconds * secondsFor(fileBytes);
+}
+
+void ToParent::limit() const {
+    setLimit(RLIMIT_CPU, limits_.secondsFor(fileBytes_), limits_.mostSeconds);
+    if (limitsMemory && memoryBefore_ > 0)
+        setLimit(RLIMIT_AS, memoryBefore_ + limits_.memoryFor(fileBytes_),
+                 memoryBefore_ + limits_.mostMemory);
+}
+
+void ToParent::opened(uint64_t fileBytes) {
+    fileBytes_ += double(fileBytes);
+    record('F', nullptr, fileBytes);
+    limit();
+}
+
+void ToParent::refuse(const std::string& message) {
+    record('E', message.data(), std::min(message.size(), longestMessage));
+}
+
+void ToParent::record(char kind, const void* data, uint64_t bytes) {
+    write(&kind, 1);
+    write(&bytes, sizeof bytes);
+    if (data) write(data, size_t(bytes));
+}
+
+void ToParent::write(const void* data, size_t bytes) {
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t count = ::write(pipe_, from, bytes);
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) _exit(1);
+        from += count;
+        bytes -= size_t(count);
+    }
+}
+
+Confined::Confined(const Location& file, const ConfinedLimits& limits,
+                   const std::function<void(ToParent&)>& work)
+    : file_(file), limits_(limits), start_(now()) {
+    const double memoryBefore = addressSpace();
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) fail(concat("no pipe to a reader: ", std::strerror(errno)));
+    // No handler of the parent's runs between the fork and forgetSignals().
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
+    const pid_t parent = getpid();
+    child_ = fork();
+    if (child_ == 0) {
+        prctl(PR_SET_PDEATHSIG, SIGKILL);  // nobody waits any more
+        prctl(PR_SET_DUMPABLE, 0);         // a crash leaves no core
+        if (getppid() != parent) _exit(1);
+        forgetSignals();
+        const int pipe = fcntl(ends[1], F_DUPFD, 3);  // beyond the streams, which may be closed
+        keepOnly(pipe);
+        std::set_new_handler([] { _exit(outOfMemory); });
+        ToParent to(pipe, limits, memoryBefore);
+        workInChild(to, work);
+    }
+    const int why = errno;
+    pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    close(ends[1]);
+    pipe_ = ends[0];
+    if (child_ < 0) {
+        close(pipe_);
+        fail(concat("no process to read it in: ", std::strerror(why)));
+    }
+}
+
+Confined::~Confined() {
+    if (child_ > 0) kill(child_, SIGKILL);
+    reap();
+    close(pipe_);
+}
+
+// The status; 0 where somebody else took it.
+int Confined::reap() {
+    int status = 0;
+    pid_t ended = -1;
+    while (child_ > 0 && (ended = waitpid(child_, &status, 0)) < 0 && errno == EINTR) {
+    }
+    child_ = -1;
+    return ended > 0 ? status : 0;
+}
+
+uint64_t Confined::nextArray(size_t elementBytes) {
+    for (;;) {
+        char kind = 0;
+        uint64_t bytes = 0;
+        read(&kind, 1);
+        read(&bytes, sizeof bytes);
+        if (kind == 'F') {
+            fileBytes_ += double(bytes);
+        } else if (kind == 'E' && bytes <= longestMessage) {
+            std::string message(size_t(bytes), ' ');
+            read(message.data(), message.size());
+            throw Error(file_, message);
+        } else {
+            // The child's word is not taken for it: its memory may be another's by now.
+            taken_ += double(bytes);
+            if (kind != 'A' || bytes % elementBytes != 0 || taken_ > limits_.memoryFor(fileBytes_))
+                fail("its reader went astray");
+            return bytes;
+        }
+    }
+}
+
+void Confined::read(void* data, size_t bytes) {
+    char* to = static_cast<char*>(data);
+    while (bytes > 0) {
+        const double left = start_ + limits_.clockFor(fileBytes_) - now();
+        if (left <= 0) failTime(limits_.clockFor(fileBytes_), "");
+        pollfd ready{pipe_, POLLIN, 0};
+        const int some = poll(&ready, 1, int(std::min(1000 * left + 1, 1e6)));
+        if (some == 0 || (some < 0 && errno == EINTR)) continue;
+        const ssize_t count = ::read(pipe_, to, bytes);
+        if (count < 0 && (errno == EINTR || errno == EAGAIN)) continue;
+        if (count < 0) fail(concat("nothing comes from its reader: ", std::strerror(errno)));
+        if (count == 0) failEnded();
+        to += count;
+        bytes -= size_t(count);
+    }
+}
+
+void Confined::fail(const std::string& message) const {
+    throw Error(file_, "cannot be read: " + message);
+}
+
+std::string Confined::filesText() const {
+    return concat("the most for files of ", std::uint64_t(fileBytes_),
+                  " bytes in all (SHOAL_TRUST_MODELS=1 reads without limits)");
+}
+
+void Confined::failTime(double seconds, const char* of) const {
+    fail(concat("takes more than ", seconds, " s", of, ", ", filesText()));
+}
+
+void Confined::failEnded() {
+    const int status = reap();
+    const double seconds = limits_.secondsFor(fileBytes_);
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGXCPU) failTime(seconds, " of processor time");
+    if (WIFSIGNALED(status))
+        fail(concat("its reader crashed (", strsignal(WTERMSIG(status)),
+                    "), so the file is damaged or unusual"));
+    if (WIFEXITED(status) && WEXITSTATUS(status) == outOfMemory)
+        fail(concat("takes more than ", std::round(limits_.memoryFor(fileBytes_) / 1e6), " MB of memory, ",
+                    filesText()));
+    fail("its reader ended early");
+}
+
+}  // namespace shoal

@@ -1,0 +1,304 @@
+#include "core/description.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace shoal {
+
+namespace {
+
+using Kind = Key::Kind;
+
+const void* at(const Key& key, const void* object) {
+    return key.member.look(static_cast<const char*>(object) + key.member.offset);
+}
+
+template <typename T>
+const T& held(const void* value) {
+    return *static_cast<const T*>(value);
+}
+
+template <typename T>
+T& made(const Key& key, void* object) {
+    return *static_cast<T*>(key.member.make(static_cast<char*>(object) + key.member.offset));
+}
+
+// A value is read on its own before an optional member is made, which a file that says nothing leaves empty.
+template <typename T, typename Get>
+void readValue(const Key& key, void* object, T value, Get get) {
+    if (get(value)) made<T>(key, object) = std::move(value);
+}
+
+void checkNumber(const std::string& path, double value, Range range, const Where& where, double largest) {
+    if (std::isfinite(value) && std::abs(value) > largest)
+        throw Error(where.at(path), concat("expected a number within ", largest, " of 0, found ", value));
+    if (!contains(range, value)) needWithin(where.at(path), value, range);
+}
+
+template <int N>
+void checkNumbers(const Key& key, const glm::vec<N, double>& value, Range range, const Where& where,
+                  double largest) {
+    for (int i = 0; i < N; ++i)
+        if (!(std::abs(value[i]) <= largest && contains(range, value[i])))
+            checkNumber(concat(key.name, "[", i, "]"), value[i], range, where, largest);
+}
+
+JsonValue writeBox(const Box& box) {
+    return JsonValue::makeObject()
+        .add("low", JsonValue::makeVector(box.low))
+        .add("high", JsonValue::makeVector(box.high));
+}
+
+}  // namespace
+
+const Key* Description::find(const std::string& name) const {
+    const auto found =
+        std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+    return found == keys_.end() ? nullptr : &*found;
+}
+
+JsonValue Description::usualValue(const Key& key) const {
+    const bool plain = key.kind != Kind::byHand && key.kind != Kind::variant && key.kind != Kind::object;
+    const bool empty = key.kind == Kind::text && held<std::string>(at(key, usual_)).empty();
+    return plain && !empty ? writeKey(key, usual_, nullptr) : JsonValue();
+}
+
+void Description::readAny(JsonReader& reader, void* out, void* context) const {
+    if (location_ >= 0) *reinterpret_cast<Location*>(static_cast<char*>(out) + location_) = reader.here();
+    for (const Key& key : keys_) {
+        if (key.needed) reader.require(key.name);
+        readKey(key, reader, out, context);
+    }
+    if (derive_) derive_(out, reader);
+    if (rule_) rule_(out, reader);
+}
+
+void Description::readKey(const Key& key, JsonReader& r, void* object, void* context) {
+    const std::string& name = key.name;
+    const Range range = key.says.range;
+    switch (key.kind) {
+    case Kind::number:
+        return readValue(key, object, 0.0, [&](double& value) { return r.get(name, value, range); });
+    case Kind::whole:
+        return readValue(key, object, 0, [&](int& value) { return r.get(name, value, range); });
+    case Kind::seed:
+        return readValue(key, object, uint32_t(0), [&](uint32_t& value) {
+            uint64_t wide = 0;
+            if (!r.get(name, wide)) return false;
+            if (wide > 0xFFFFFFFFu)
+                throw Error(r.at(name), "expected a seed of at most 4294967295 (32 bits)");
+            value = uint32_t(wide);
+            return true;
+        });
+    case Kind::flag:
+        return readValue(key, object, false, [&](bool& value) { return r.get(name, value); });
+    case Kind::text:
+        return readValue(key, object, std::string(), [&](std::string& value) { return r.get(name, value); });
+    case Kind::texts:
+        return readValue(key, object, std::vector<std::string>(),
+                         [&](std::vector<std::string>& value) { return r.get(name, value); });
+    case Kind::vector2:
+        return readValue(key, object, glm::dvec2(0),
+                         [&](glm::dvec2& value) { return r.get(name, value, range); });
+    case Kind::vector3:
+        return readValue(key, object, glm::dvec3(0),
+                         [&](glm::dvec3& value) { return r.get(name, value, range); });
+    case Kind::direction:
+        return readValue(key, object, glm::dvec3(0),
+                         [&](glm::dvec3& value) { return getDirection(r, name, value); });
+    case Kind::color:
+        return readValue(key, object, glm::dvec3(0),
+                         [&](glm::dvec3& value) { return getColor(r, name, value); });
+    case Kind::span:
+        return readValue(key, object, glm::dvec2(0),
+                         [&](glm::dvec2& value) { return getSpan(r, name, value, range); });
+    case Kind::box:
+        return readValue(key, object, Box(), [&](Box& value) { return getBox(r, name, value, key.flatBox); });
+    case Kind::rotation:
+        return readValue(key, object, glm::dquat(),
+                         [&](glm::dquat& value) { return getRotation(r, name, value); });
+    case Kind::word: {
+        int index = key.member.index(at(key, object));
+        if (r.choose(name, key.words, index))
+            key.member.choose(static_cast<char*>(object) + key.member.offset, index);
+        return;
+    }
+    case Kind::variant: {
+        int index = 0;
+        r.choose(name, key.words, index);
+        void* alternative = key.member.choose(static_cast<char*>(object) + key.member.offset, index);
+        return key.objects[size_t(index)]->readAny(r, alternative, context);
+    }
+    case Kind::object: {
+        std::optional<JsonReader> inner = r.object(name);
+        if (!inner) return;
+        key.objects[0]->readAny(*inner, key.member.make(static_cast<char*>(object) + key.member.offset),
+                                context);
+        return inner->finish();
+    }
+    case Kind::list:
+        for (JsonReader& inner : r.objects(name)) {
+            void* element = key.member.append(static_cast<char*>(object) + key.member.offset);
+            key.objects[0]->readAny(inner, element, context);
+            inner.finish();
+        }
+        return;
+    case Kind::byHand:
+        return key.read(r, object, context);
+    }
+}
+
+void Description::checkAny(const void* object, const Where& where, double largest) const {
+    for (const Key& key : keys_)
+        checkKey(key, object, where, largest);
+    if (rule_) rule_(object, where);
+}
+
+void Description::checkKey(const Key& key, const void* object, const Where& where, double largest) {
+    if (key.kind == Kind::byHand) return;
+    const void* value = at(key, object);
+    if (!value) return;
+    const Range range = key.says.range;
+    switch (key.kind) {
+    case Kind::number:
+        if (!key.unlessZero || held<double>(value) != 0)
+            checkNumber(key.name, held<double>(value), range, where, largest);
+        return;
+    case Kind::whole:
+        if ((!key.unlessZero || held<int>(value) != 0) && !contains(range, held<int>(value)))
+            needWithin(where.at(key.name), held<int>(value), range);
+        return;
+    case Kind::vector2:
+        return checkNumbers(key, held<glm::dvec2>(value), range, where, largest);
+    case Kind::vector3:
+    case Kind::color:
+        return checkNumbers(key, held<glm::dvec3>(value), range, where, largest);
+    case Kind::direction:
+        checkNumbers(key, held<glm::dvec3>(value), range, where, largest);
+        return checkDirection(held<glm::dvec3>(value), where.at(key.name));
+    case Kind::span:
+        checkNumbers(key, held<glm::dvec2>(value), range, where, largest);
+        return checkSpan(held<glm::dvec2>(value), where.at(key.name));
+    case Kind::box:
+        for (int i = 0; i < 3; ++i) {
+            checkNumber(concat(key.name, ".low[", i, "]"), held<Box>(value).low[i], {}, where, largest);
+            checkNumber(concat(key.name, ".high[", i, "]"), held<Box>(value).high[i], {}, where, largest);
+        }
+        return checkBox(held<Box>(value), key.flatBox, where.at(key.name + ".high"));
+    case Kind::rotation: {
+        const glm::dquat& q = held<glm::dquat>(value);
+        for (const double part : {q.x, q.y, q.z, q.w})
+            checkNumber(key.name, part, {}, where, largest);
+        return checkRotation(q, where.at(key.name));
+    }
+    case Kind::word:
+    case Kind::variant: {
+        const int index = key.member.index(value);
+        needWithin(where.at(key.name), index, Range::between(0, double(key.words.size()) - 1));
+        if (key.kind == Kind::variant)
+            key.objects[size_t(index)]->checkAny(key.member.held(value), where, largest);
+        return;
+    }
+    case Kind::object:
+        return key.objects[0]->checkAny(value, where.in(key.name.c_str()), largest);
+    case Kind::list:
+        for (size_t i = 0; i < key.member.count(value); ++i)
+            key.objects[0]->checkAny(key.member.element(value, i), where.in(key.name.c_str(), i), largest);
+        return;
+    case Kind::seed:
+    case Kind::flag:
+    case Kind::text:
+    case Kind::texts:
+    case Kind::byHand:
+        return;
+    }
+}
+
+void Description::writeAny(const void* object, JsonValue& out) const {
+    for (const Key& key : keys_) {
+        if (key.kind == Kind::variant) {
+            const void* variant = at(key, object);
+            const Description& held = *key.objects[size_t(key.member.index(variant))];
+            out.add(key.name, JsonValue::makeString(held.name()));
+            held.writeAny(key.member.held(variant), out);
+            continue;
+        }
+        JsonValue value = writeKey(key, object, key.needed ? nullptr : usual_);
+        if (value.kind != JsonValue::Kind::null) out.add(key.name, std::move(value));
+    }
+}
+
+// Null: the key is left out, because the value is the usual one, or there is none.
+JsonValue Description::writeKey(const Key& key, const void* object, const void* usual) {
+    if (key.kind == Kind::byHand) return key.write ? key.write(object) : JsonValue();
+    const void* value = at(key, object);
+    if (!value) return {};
+    const void* unless = usual ? at(key, usual) : nullptr;
+    const auto unlessSame = [&]<typename T>(const T& now, auto make) {
+        return unless && now == held<T>(unless) ? JsonValue() : make(now);
+    };
+    switch (key.kind) {
+    case Kind::number:
+        return unlessSame(held<double>(value), JsonValue::makeNumber);
+    case Kind::whole:
+        return unlessSame(held<int>(value), JsonValue::makeNumber);
+    case Kind::seed:
+        return unlessSame(held<uint32_t>(value), JsonValue::makeNumber);
+    case Kind::flag:
+        return unlessSame(held<bool>(value), JsonValue::makeBoolean);
+    case Kind::text:
+        return unlessSame(held<std::string>(value), JsonValue::makeString);
+    case Kind::texts: {
+        const auto& texts = held<std::vector<std::string>>(value);
+        if (texts.empty()) return {};
+        JsonValue out = JsonValue::makeArray();
+        for (const std::string& text : texts)
+            out.items.push_back(JsonValue::makeString(text));
+        return out;
+    }
+    case Kind::vector2:
+        return unlessSame(held<glm::dvec2>(value), JsonValue::makeVector<2, double>);
+    case Kind::vector3:
+    case Kind::direction:
+    case Kind::color:
+        return unlessSame(held<glm::dvec3>(value), JsonValue::makeVector<3, double>);
+    case Kind::span:
+        return unlessSame(held<glm::dvec2>(value), [](const glm::dvec2& span) {
+            return span.x == span.y ? JsonValue::makeNumber(span.x) : JsonValue::makeVector(span);
+        });
+    case Kind::box:
+        if (unless && held<Box>(unless).low == held<Box>(value).low &&
+            held<Box>(unless).high == held<Box>(value).high)
+            return {};
+        return writeBox(held<Box>(value));
+    case Kind::rotation:
+        return unlessSame(held<glm::dquat>(value), [](const glm::dquat& q) {
+            return JsonValue::makeVector(glm::dvec4(q.x, q.y, q.z, q.w));
+        });
+    case Kind::word: {
+        const int index = key.member.index(value);
+        if (unless && index == key.member.index(unless)) return {};
+        return JsonValue::makeString(key.words[size_t(index)]);
+    }
+    case Kind::object: {
+        JsonValue out = JsonValue::makeObject();
+        key.objects[0]->writeAny(value, out);
+        return out;
+    }
+    case Kind::list: {
+        if (key.member.count(value) == 0) return {};
+        JsonValue out = JsonValue::makeArray();
+        for (size_t i = 0; i < key.member.count(value); ++i) {
+            out.items.push_back(JsonValue::makeObject());
+            key.objects[0]->writeAny(key.member.element(value, i), out.items.back());
+        }
+        return out;
+    }
+    case Kind::variant:
+    case Kind::byHand:
+        break;
+    }
+    return {};
+}
+
+}  // namespace shoal

@@ -1,0 +1,265 @@
+#include "core/description_schema.h"
+
+#include <cmath>
+
+namespace shoal {
+
+namespace {
+
+using Kind = Key::Kind;
+
+JsonValue text(const std::string& words) {
+    return JsonValue::makeString(words);
+}
+
+JsonValue object(std::initializer_list<std::pair<const char*, JsonValue>> members) {
+    JsonValue out = JsonValue::makeObject();
+    for (const auto& [key, value] : members)
+        out.add(key, value);
+    return out;
+}
+
+JsonValue list(const std::vector<std::string>& words) {
+    JsonValue out = JsonValue::makeArray();
+    for (const std::string& word : words)
+        out.items.push_back(text(word));
+    return out;
+}
+
+JsonValue reference(const char* name) {
+    return object({{"$ref", text(concat("#/$defs/", name))}});
+}
+
+void addRange(JsonValue& out, const Range& range) {
+    if (std::isfinite(range.least))
+        out.add(range.aboveLeast ? "exclusiveMinimum" : "minimum", JsonValue::makeNumber(range.least));
+    if (std::isfinite(range.most)) out.add("maximum", JsonValue::makeNumber(range.most));
+}
+
+JsonValue number(const char* type, const Range& range) {
+    JsonValue out = object({{"type", text(type)}});
+    addRange(out, range);
+    return out;
+}
+
+JsonValue numbers(int count, const Range& range) {
+    return object({{"type", text("array")},
+                   {"minItems", JsonValue::makeNumber(count)},
+                   {"maxItems", JsonValue::makeNumber(count)},
+                   {"items", number("number", range)}});
+}
+
+bool limited(const Range& range) {
+    return std::isfinite(range.least) || std::isfinite(range.most);
+}
+
+JsonValue valueSchema(const Key& key) {
+    const Range range = key.says.range;
+    switch (key.kind) {
+    case Kind::number:
+        return number("number", range);
+    case Kind::whole:
+        return number("integer", range);
+    case Kind::seed:
+        return number("integer", Range::between(0, 4294967295.0));
+    case Kind::flag:
+        return object({{"type", text("boolean")}});
+    case Kind::text:
+        return object({{"type", text("string")}});
+    case Kind::texts:
+        return object({{"type", text("array")},
+                       {"minItems", JsonValue::makeNumber(1)},
+                       {"items", object({{"type", text("string")}})}});
+    case Kind::vector2:
+        return limited(range) ? numbers(2, range) : reference("vector2");
+    case Kind::vector3:
+        return limited(range) ? numbers(3, range) : reference("vector");
+    case Kind::direction:
+        return reference("direction");
+    case Kind::color:
+        return reference("color");
+    case Kind::span: {
+        JsonValue either = JsonValue::makeArray();
+        either.items = {number("number", range), numbers(2, range)};
+        return object({{"anyOf", either}});
+    }
+    case Kind::box:
+        return reference("box");
+    case Kind::rotation:
+        return reference("rotation");
+    case Kind::word:
+        return object({{"enum", list(key.words)}});
+    case Kind::object:
+        return schemaOf(*key.objects[0]);
+    case Kind::list:
+        return object({{"type", text("array")}, {"items", schemaOf(*key.objects[0])}});
+    case Kind::byHand:
+        return parseJson(key.schema, "the schema of " + key.name);
+    case Kind::variant:
+        break;
+    }
+    return JsonValue::makeObject();
+}
+
+std::string sentence(const Says& says) {
+    return says.unit.empty() ? says.sentence : concat(says.sentence, " [", says.unit, "]");
+}
+
+JsonValue usualValue(const Key& key, const Description& of) {
+    return key.needed || key.unlessZero ? JsonValue() : of.usualValue(key);
+}
+
+// The keys of an object, but for those of a variant's word.
+void addKeys(const Description& of, JsonValue& properties, std::vector<std::string>& required) {
+    for (const Key& key : of.keys()) {
+        if (key.kind == Kind::variant) continue;
+        JsonValue schema = valueSchema(key);
+        schema.add("description", text(sentence(key.says)));
+        const JsonValue usual = usualValue(key, of);
+        if (usual.kind != JsonValue::Kind::null) schema.add("default", usual);
+        properties.add(key.name, std::move(schema));
+        if (key.needed) required.push_back(key.name);
+    }
+}
+
+JsonValue closed(const std::string& sentence, JsonValue properties, const std::vector<std::string>& required,
+                 const std::vector<std::string>& rules) {
+    JsonValue out = object({{"description", text(sentence)},
+                            {"type", text("object")},
+                            {"additionalProperties", JsonValue::makeBoolean(false)}});
+    if (!required.empty()) out.add("required", list(required));
+    out.add("properties", std::move(properties));
+    JsonValue all = JsonValue::makeArray();
+    for (const std::string& rule : rules)
+        if (!rule.empty()) all.items.push_back(parseJson(rule, "a rule of a schema"));
+    if (!all.items.empty()) out.add("allOf", std::move(all));
+    return out;
+}
+
+JsonValue schemaOfAlternative(const Description& of, const Key& variant, const Description& one) {
+    JsonValue properties = object(
+        {{"comment", reference("comment")}, {variant.name.c_str(), object({{"const", text(one.name())}})}});
+    std::vector<std::string> required = {variant.name};
+    addKeys(one, properties, required);
+    addKeys(of, properties, required);
+    return closed(one.sentence(), std::move(properties), required, {of.schema(), one.schema()});
+}
+
+}  // namespace
+
+JsonValue schemaOf(const Description& description) {
+    for (const Key& key : description.keys()) {
+        if (key.kind != Kind::variant) continue;
+        JsonValue alternatives = JsonValue::makeArray();
+        for (const Description* one : key.objects)
+            alternatives.items.push_back(schemaOfAlternative(description, key, *one));
+        return object({{"oneOf", std::move(alternatives)}});
+    }
+    JsonValue properties = object({{"comment", reference("comment")}});
+    std::vector<std::string> required;
+    addKeys(description, properties, required);
+    return closed(description.sentence(), std::move(properties), required, {description.schema()});
+}
+
+JsonValue schemaDefinitions() {
+    const JsonValue vector = numbers(3, {});
+    JsonValue direction = vector;
+    direction.add("description", text("A vector of any length above 0."));
+    JsonValue color = numbers(3, Range::atLeast(0));
+    color.add("description", text("Linear red, green and blue."));
+    JsonValue quaternion = numbers(4, {});
+    quaternion.add("description", text("A quaternion [x, y, z, w] of any length above 0."));
+    const JsonValue turn =
+        closed("A turn about an axis.",
+               object({{"comment", reference("comment")},
+                       {"axis", reference("direction")},
+                       {"angle", object({{"type", text("number")}, {"description", text("rad")}})}}),
+               {"axis", "angle"}, {});
+    JsonValue either = JsonValue::makeArray();
+    either.items = {quaternion, turn};
+    return object({{"comment", object({{"type", text("string")}})},
+                   {"vector2", numbers(2, {})},
+                   {"vector", vector},
+                   {"direction", direction},
+                   {"color", color},
+                   {"box", closed("A box along the axes, high above low. [m]",
+                                  object({{"comment", reference("comment")},
+                                          {"low", reference("vector")},
+                                          {"high", reference("vector")}}),
+                                  {"low", "high"}, {})},
+                   {"rotation", object({{"anyOf", either}})}});
+}
+
+std::string typeText(const Key& key) {
+    const Range range = key.says.range;
+    const auto withUnit = [&](std::string words) {
+        if (std::isfinite(range.least) && std::isfinite(range.most))
+            words += concat(" from ", range.least, " to ", range.most);
+        else if (std::isfinite(range.least))
+            words += range.least == leastPositive || range.aboveLeast
+                         ? concat(" above ", range.aboveLeast ? range.least : 0)
+                         : concat(" of at least ", range.least);
+        return key.says.unit.empty() ? words : words + ", " + key.says.unit;
+    };
+    switch (key.kind) {
+    case Kind::number:
+        return withUnit("number");
+    case Kind::whole:
+        return withUnit("whole number");
+    case Kind::seed:
+        return "whole number from 0 to 4294967295";
+    case Kind::flag:
+        return "true or false";
+    case Kind::text:
+        return "string";
+    case Kind::texts:
+        return "list of strings";
+    case Kind::vector2:
+        return withUnit("two numbers");
+    case Kind::vector3:
+        return withUnit("[x, y, z]");
+    case Kind::direction:
+        return "direction";
+    case Kind::color:
+        return "colour";
+    case Kind::span:
+        return withUnit("number or [least, most]");
+    case Kind::box:
+        return "box, m";
+    case Kind::rotation:
+        return "rotation";
+    case Kind::word:
+    case Kind::variant: {
+        std::string out;
+        for (const std::string& word : key.words)
+            out += concat(out.empty() ? "" : ", ", "`\"", word, "\"`");
+        return out;
+    }
+    case Kind::object:
+        return "object";
+    case Kind::list:
+        return "list of objects";
+    case Kind::byHand:
+        return key.says.unit.empty() ? "see the text" : key.says.unit;
+    }
+    return {};
+}
+
+std::string usualText(const Key& key, const Description& of) {
+    if (key.needed) return "required";
+    const JsonValue usual = usualValue(key, of);
+    if (usual.kind == JsonValue::Kind::null) return "none";
+    std::string out = writeJsonLine(usual);
+    if (usual.kind == JsonValue::Kind::string) out = concat("`", out, "`");
+    return out;
+}
+
+std::string tableOf(const Description& description) {
+    std::string out = "| key | type, unit | default | meaning |\n|---|---|---|---|\n";
+    for (const Key& key : description.keys())
+        out += concat("| `", key.name, "` | ", typeText(key), " | ", usualText(key, description), " | ",
+                      key.says.sentence, " |\n");
+    return out;
+}
+
+}  // namespace shoal

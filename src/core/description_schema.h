@@ -1,0 +1,21 @@
+// What descriptions say, for people and for editors of text.
+#pragma once
+
+#include "core/description.h"
+
+namespace shoal {
+
+// The JSON Schema (2020-12) of an object. Refers to the definitions of schemaDefinitions().
+JsonValue schemaOf(const Description& description);
+// "$defs": vectors, directions, colours, boxes, rotations, comments.
+JsonValue schemaDefinitions();
+
+// A table in Markdown, a row a key: name, type and unit, default, meaning.
+std::string tableOf(const Description& description);
+
+// "vector, m", "0 to 1", "\"none\", \"yaw\" or \"any\""; and what holds where the key is left out, such as
+// "0.5", "required" or "none".
+std::string typeText(const Key& key);
+std::string usualText(const Key& key, const Description& of);
+
+}  // namespace shoal

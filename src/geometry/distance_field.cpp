@@ -1,0 +1,275 @@
+// Baking. Every sample: the unsigned distance by a closest point; its sign by the winding number, which
+// unlike pseudo-normals (Baerentzen and Aanaes 2005) is right inside shells that overlap, and unlike parities
+// of rays does not miscount where a ray meets an edge. What lies inside other shells is then no surface at
+// all.
+#include "geometry/distance_field.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "core/error.h"
+#include "geometry/closest_point.h"
+#include "geometry/eikonal.h"
+#include "geometry/distance_field_error.h"
+#include "core/parallel.h"
+
+namespace shoal {
+
+namespace {
+
+double longestSide(const Mesh& mesh) {
+    const glm::dvec3 extent = mesh.high - mesh.low;
+    return std::max({extent.x, extent.y, extent.z});
+}
+
+double shellOf(const FieldRequest& request, double cell, bool closed) {
+    return closed ? 0 : std::max(request.shell.value_or(0), 2 * cell);
+}
+
+// A sample in the middle of the model, so that a thin plate along an axis has samples in it, and around it
+// room for the shell, the thickness, and two cells.
+SampleGrid gridAround(const Mesh& mesh, const FieldRequest& request, int resolution, bool closed) {
+    SampleGrid grid;
+    grid.cell = longestSide(mesh) / resolution;
+    const double reach = request.thickness + shellOf(request, grid.cell, closed) / 2;
+    const double margin = 2 + std::ceil(std::min(reach / grid.cell, 1e6));
+    const glm::dvec3 half = glm::ceil((mesh.high - mesh.low) / (2 * grid.cell) - 1e-9) + margin;
+    grid.size = 2 * glm::ivec3(half) + 1;
+    grid.low = (mesh.low + mesh.high) / 2.0 - grid.cell * half;
+    return grid;
+}
+
+double samplesOf(const SampleGrid& grid) {
+    return double(grid.size.x) * double(grid.size.y) * double(grid.size.z);
+}
+
+class Baker {
+  public:
+    Baker(const Mesh& mesh, const FieldRequest& request, const SurfaceReport& surface,
+          const ClosestPoints& closest, int threads)
+        : mesh_(mesh), request_(request), closest_(closest), threads_(threads) {
+        field_.surface = surface;
+    }
+
+    DistanceField bake(int resolution, const FieldProgress& progress) {
+        const bool closed = field_.surface.closed();
+        field_.resolution = resolution;
+        field_.grid = gridAround(mesh_, request_, resolution, closed);
+        field_.shell = shellOf(request_, field_.grid.cell, closed);
+        if (closed) {
+            winding_ = windingNumbers(mesh_, field_.grid, threads_);
+            findThin();
+        }
+        field_.distances.assign(field_.grid.count(), 0);
+        hidden_.assign(closed ? field_.grid.count() : 0, 0);
+        bakeSlices(progress);
+        if (std::find(hidden_.begin(), hidden_.end(), 1) != hidden_.end())
+            continueInwards(field_.distances, hidden_, field_.grid);
+        findOutside();
+        field_.error = measureError(field_, mesh_, closest_, request_.thickness, threads_);
+        return std::move(field_);
+    }
+
+  private:
+    // By rays inwards from the middle of every triangle.
+    void findThin() {
+        double thin = 0, all = 0;
+        field_.thinnest = std::numeric_limits<double>::infinity();
+        for (const glm::ivec3& t : mesh_.triangles) {
+            glm::dvec3 p[3];
+            for (int i = 0; i < 3; ++i)
+                p[i] = mesh_.weldedPositions[size_t(mesh_.weld[size_t(t[i])])];
+            const glm::dvec3 across = glm::cross(p[1] - p[0], p[2] - p[0]);
+            const double area = glm::length(across);
+            if (!(area > 0)) continue;
+            const glm::dvec3 middle = (p[0] + p[1] + p[2]) / 3.0;
+            const glm::dvec3 inwards = across / (field_.surface.volume < 0 ? area : -area);
+            const double thickness = closest_.across(middle, inwards);
+            all += area;
+            if (thickness < 2 * field_.grid.cell) thin += area;
+            if (thickness < field_.thinnest) field_.thinnest = thickness, field_.thinWhere = middle;
+        }
+        field_.thinArea = all > 0 ? thin / all : 0;
+    }
+
+    // Slice by slice; within a row the last triangle and distance bound the next search.
+    void bakeSlices(const FieldProgress& progress) {
+        std::atomic<int> done{0};
+        const auto main = std::this_thread::get_id();
+        parallel(field_.grid.size.z, threads_, [&](int z) {
+            for (int y = 0; y < field_.grid.size.y; ++y) {
+                ClosestPoint last;
+                for (int x = 0; x < field_.grid.size.x; ++x) {
+                    const glm::dvec3 place = field_.grid.place(x, y, z);
+                    last = closest_.at(place, (last.distance + field_.grid.cell) * (1 + 1e-9), last.triangle);
+                    store(field_.grid.index(x, y, z), place, last);
+                }
+            }
+            ++done;
+            if (progress && std::this_thread::get_id() == main) progress(double(done) / field_.grid.size.z);
+        });
+    }
+
+    void store(size_t index, const glm::dvec3& x, const ClosestPoint& found) {
+        if (field_.shell > 0) {
+            field_.distances[index] = float(found.distance - field_.shell / 2);
+            return;
+        }
+        const int winding = winding_[index];
+        const double sign = winding != 0 ? -1 : 1;
+        const bool on = found.distance < 1e-6 * field_.grid.cell;
+        // beyond its closest point a sample inside must find the outside, or that is no surface
+        hidden_[index] = winding != 0 && (on ? !besideOutside(index) : winding + (found.front ? 1 : -1) != 0);
+        double distance = sign * found.distance;
+        if (field_.thinArea > 0 && !on) {
+            const glm::dvec3 inwards = (found.point - x) * (sign / found.distance);
+            const double thickness = closest_.across(found.point, inwards);
+            distance -= std::max(0.0, field_.grid.cell - thickness / 2);
+        }
+        field_.distances[index] = float(distance);
+    }
+
+    // Whether one of the 26 samples around is outside.
+    bool besideOutside(size_t index) const {
+        const glm::ivec3 size = field_.grid.size;
+        const glm::ivec3 at(int(index % size_t(size.x)), int(index / size_t(size.x) % size_t(size.y)),
+                            int(index / size_t(size.x) / size_t(size.y)));
+        for (int i = 0; i < 27; ++i) {
+            const glm::ivec3 p =
+                glm::clamp(at + glm::ivec3(i % 3, i / 3 % 3, i / 9) - 1, glm::ivec3(0), size - 1);
+            if (winding_[field_.grid.index(p.x, p.y, p.z)] == 0) return true;
+        }
+        return false;
+    }
+
+    void findOutside() {
+        const SampleGrid& grid = field_.grid;
+        double least = std::numeric_limits<double>::infinity();
+        for (int z = 0; z < grid.size.z; ++z)
+            for (int y = 0; y < grid.size.y; ++y)
+                for (int x = 0; x < grid.size.x; ++x) {
+                    const bool face = x == 0 || y == 0 || z == 0 || x == grid.size.x - 1 ||
+                                      y == grid.size.y - 1 || z == grid.size.z - 1;
+                    if (face) least = std::min(least, double(field_.distances[grid.index(x, y, z)]));
+                }
+        field_.outside = least;
+    }
+
+    const Mesh& mesh_;
+    const FieldRequest& request_;
+    const ClosestPoints& closest_;
+    int threads_;
+    DistanceField field_;
+    std::vector<int16_t> winding_;
+    std::vector<char> hidden_;  // samples inside whose closest point is inside another shell
+};
+
+// Coarse to fine: the error shrinks at least about as fast as the cells.
+DistanceField refine(const Mesh& mesh, const FieldRequest& request, const SurfaceReport& surface,
+                     const ClosestPoints& closest, const FieldProgress& progress, int threads) {
+    const int finest = finestResolution(mesh, request, surface.closed());
+    int resolution = std::min(16, finest);
+    for (;;) {
+        DistanceField field = Baker(mesh, request, surface, closest, threads).bake(resolution, progress);
+        const double ratio = field.error.most / *request.error;
+        if (ratio <= 1) return field;
+        if (resolution >= finest)
+            throw Error(concat("the finest grid that fits, of resolution ", finest, ", is still off by ",
+                               field.error.most, " m, more than ", *request.error));
+        resolution = std::min(finest, int(std::ceil(resolution * std::clamp(1.1 * ratio, 1.2, 4.0))));
+    }
+}
+
+}  // namespace
+
+int finestResolution(const Mesh& mesh, const FieldRequest& request, bool closed) {
+    int low = 0, high = mostResolution;
+    while (low < high) {
+        const int middle = (low + high + 1) / 2;
+        if (samplesOf(gridAround(mesh, request, middle, closed)) <= double(mostSamples)) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    return low >= leastResolution ? low : 0;
+}
+
+DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request, const FieldProgress& progress,
+                                int threads) {
+    const auto start = std::chrono::steady_clock::now();
+    const SurfaceReport surface = examineSurface(mesh);
+    if (!(surface.area > 0)) throw Error("has no surface: none of its triangles has an area");
+    const int finest = finestResolution(mesh, request, surface.closed());
+    if (finest == 0)
+        throw Error(concat("a thickness of ", request.thickness, " m", request.shell ? " and its shell" : "",
+                           " around a model of ", longestSide(mesh), " m take too large a grid"));
+    const int resolution = request.resolution.value_or(std::min(defaultResolution, finest));
+    if (!request.error && resolution > finest) {
+        const SampleGrid grid = gridAround(mesh, request, resolution, surface.closed());
+        throw Error(concat("a grid of ", grid.size.x, " x ", grid.size.y, " x ", grid.size.z,
+                           " samples is more than the ", mostSamples, " that a field may have (",
+                           mostSamples >> 16, " MiB on the device): at most resolution ", finest, " fits"));
+    }
+    if (threads < 1) threads = allThreads();
+    const ClosestPoints closest(mesh);
+    DistanceField field = request.error
+                              ? refine(mesh, request, surface, closest, progress, threads)
+                              : Baker(mesh, request, surface, closest, threads).bake(resolution, progress);
+    field.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return field;
+}
+
+FieldValue valueAt(const DistanceField& field, const glm::dvec3& x) {
+    const SampleGrid& grid = field.grid;
+    const glm::dvec3 last = glm::dvec3(grid.size - 1), p = (x - grid.low) / grid.cell;
+    const glm::dvec3 inside = glm::clamp(p, glm::dvec3(0), last);
+    if (p != inside) {
+        const double way = glm::length(p - inside);
+        return {way * grid.cell + field.outside, (p - inside) / way};
+    }
+    const glm::ivec3 c = glm::min(glm::ivec3(p), grid.size - 2);
+    const glm::dvec3 f = p - glm::dvec3(c);
+    double corner[2][2][2];  // z, y, x
+    for (int i = 0; i < 8; ++i)
+        corner[i >> 2][(i >> 1) & 1][i & 1] =
+            double(field.distances[grid.index(c.x + (i & 1), c.y + ((i >> 1) & 1), c.z + (i >> 2))]);
+    double value = 0;
+    glm::dvec3 gradient(0);
+    for (int i = 0; i < 8; ++i) {
+        const glm::ivec3 side(i & 1, (i >> 1) & 1, i >> 2);
+        const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(side)), s = glm::dvec3(2 * side - 1);
+        const double d = corner[side.z][side.y][side.x];
+        value += d * w.x * w.y * w.z;
+        gradient += d * glm::dvec3(s.x * w.y * w.z, w.x * s.y * w.z, w.x * w.y * s.z);
+    }
+    // where the field is level the way out is away from the middle, else up
+    gradient = gradient / grid.cell + 1e-7 * (p / last - 0.5) + glm::dvec3(0, 1e-12, 0);
+    return {value, gradient};
+}
+
+std::vector<std::string> fieldWarnings(const DistanceField& field, const FieldRequest& request) {
+    std::vector<std::string> out;
+    const double cell = field.grid.cell;
+    if (field.shell > 0) {
+        out.push_back(concat("is not closed (", whyOpen(field.surface),
+                             "): without an inside it becomes a shell ", field.shell, " m thick"));
+        if (request.shell && *request.shell < field.shell)
+            out.push_back(concat("a shell of ", *request.shell, " m would fall between samples ", cell,
+                                 " m apart: it is two of these thick; resolution ",
+                                 std::ceil(2 * cell * field.resolution / *request.shell), " would hold it"));
+    } else if (request.shell) {
+        out.push_back("is closed: \"shell\" is of models that are not");
+    }
+    if (field.thinArea > 0)
+        out.push_back(concat("has parts thinner than two of its cells of ", cell, " m (",
+                             std::max(0.1, std::round(1000 * field.thinArea) / 10),
+                             " % of the surface; the thinnest ", field.thinnest, " m near (",
+                             field.thinWhere.x, ", ", field.thinWhere.y, ", ", field.thinWhere.z,
+                             ")): they are thickened to that; resolution ",
+                             std::ceil(2 * cell * field.resolution / field.thinnest), " would hold them"));
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,175 @@
+#include "geometry/distance_field_cache.h"
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "core/cache_folder.h"
+#include "core/file.h"
+
+namespace shoal {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Any change of what is baked, or of this head, is another version.
+constexpr uint32_t bakingVersion = 1;
+constexpr char magic[8] = {'s', 'h', 'o', 'a', 'l', 'f', 'l', 'd'};
+constexpr const char* extension = ".shoal-field";
+
+struct Head {
+    char magic[8];
+    uint32_t version;
+    int32_t resolution;
+    int32_t size[3], unused;
+    double low[3], cell, outside, shell;
+    double thinArea, thinnest, thinWhere[3];
+    double probes, most, rms, where[3];
+    double seconds;
+    uint64_t checksum;  // of the key, the head with 0 here, and the distances
+};
+static_assert(sizeof(Head) == 184);
+
+void put(double (&to)[3], const glm::dvec3& from) {
+    for (int i = 0; i < 3; ++i)
+        to[i] = from[i];
+}
+glm::dvec3 vector(const double (&from)[3]) {
+    return {from[0], from[1], from[2]};
+}
+
+template <typename T>
+std::string_view bytesOf(const std::vector<T>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
+}
+
+std::string keyOf(const Mesh& mesh, const FieldRequest& request) {
+    std::string all = concat("field ", bakingVersion, " ", mesh.positions.size(), " ");
+    all += bytesOf(mesh.positions);
+    all += bytesOf(mesh.triangles);
+    const double asked[] = {double(request.resolution.value_or(0)), request.error.value_or(0),
+                            request.shell.value_or(0), request.thickness};
+    all.append(reinterpret_cast<const char*>(asked), sizeof asked);
+    return contentKey(all);
+}
+
+uint64_t checksum(const std::string& key, Head head, std::string_view distances) {
+    head.checksum = 0;
+    const std::string_view front(reinterpret_cast<const char*>(&head), sizeof head);
+    return fnv(distances, fnv(front, fnv(key)));
+}
+
+Head headOf(const DistanceField& field) {
+    Head head{};
+    std::memcpy(head.magic, magic, sizeof magic);
+    head.version = bakingVersion;
+    head.resolution = field.resolution;
+    for (int i = 0; i < 3; ++i)
+        head.size[i] = field.grid.size[i];
+    put(head.low, field.grid.low);
+    head.cell = field.grid.cell;
+    head.outside = field.outside;
+    head.shell = field.shell;
+    head.thinArea = field.thinArea;
+    head.thinnest = field.thinnest;
+    put(head.thinWhere, field.thinWhere);
+    head.probes = double(field.error.probes);
+    head.most = field.error.most;
+    head.rms = field.error.rms;
+    put(head.where, field.error.where);
+    head.seconds = field.seconds;
+    return head;
+}
+
+// False: no file of ours, or not what we wrote.
+bool parse(std::string_view bytes, const std::string& key, DistanceField& field) {
+    Head head;
+    if (bytes.size() < sizeof head) return false;
+    std::memcpy(&head, bytes.data(), sizeof head);
+    const std::string_view distances = bytes.substr(sizeof head);
+    if (std::memcmp(head.magic, magic, sizeof magic) != 0 || head.version != bakingVersion ||
+        head.checksum != checksum(key, head, distances))
+        return false;
+    field.grid = {{head.size[0], head.size[1], head.size[2]}, vector(head.low), head.cell};
+    if (distances.size() != field.grid.count() * sizeof(float)) return false;
+    field.distances.resize(field.grid.count());
+    std::memcpy(field.distances.data(), distances.data(), distances.size());
+    field.resolution = head.resolution;
+    field.outside = head.outside;
+    field.shell = head.shell;
+    field.thinArea = head.thinArea;
+    field.thinnest = head.thinnest;
+    field.thinWhere = vector(head.thinWhere);
+    field.error = {size_t(head.probes), head.most, head.rms, vector(head.where)};
+    field.seconds = head.seconds;
+    field.cached = true;
+    return true;
+}
+
+bool readCached(const fs::path& path, const std::string& key, DistanceField& field,
+                std::vector<Warning>& warnings) {
+    std::error_code code;
+    if (!fs::exists(path, code)) return false;
+    std::string why = "the cached field is damaged";
+    try {
+        if (parse(readFile(path), key, field)) {
+            fs::last_write_time(path, fs::file_time_type::clock::now(), code);  // what is used stays longest
+            return true;
+        }
+    } catch (const Error& error) {
+        why = "the cached field " + error.message();
+    }
+    warnings.push_back({{path.string(), 0, 0, {}}, why + "; baked anew"});
+    return false;
+}
+
+// Another process may do the same at the same time: what has gone already is no mistake.
+void removeOldest(const fs::path& folder) {
+    std::vector<std::pair<fs::file_time_type, fs::path>> fields;
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+        std::error_code gone;
+        const fs::file_time_type time = entry->last_write_time(gone);
+        if (!gone && entry->path().extension() == extension) fields.emplace_back(time, entry->path());
+    }
+    if (fields.size() <= keptFields) return;
+    std::sort(fields.begin(), fields.end());
+    for (size_t i = 0; i < fields.size() - keptFields; ++i)
+        fs::remove(fields[i].second, code);
+}
+
+void keep(const fs::path& path, const std::string& key, const DistanceField& field,
+          std::vector<Warning>& warnings) {
+    Head head = headOf(field);
+    head.checksum = checksum(key, head, bytesOf(field.distances));
+    try {
+        FileWriter file(path);
+        file.write(&head, sizeof head);
+        file.write(field.distances.data(), field.distances.size() * sizeof(float));
+        file.finish();
+        removeOldest(path.parent_path());
+    } catch (const Error& error) {
+        warnings.push_back({error.location(), error.message() + "; fields are baked at every start"});
+    }
+}
+
+}  // namespace
+
+DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
+                              std::vector<Warning>& warnings) {
+    if (baking.cache.empty()) return bakeDistanceField(mesh, request, baking.progress);
+    const std::string key = keyOf(mesh, request);
+    const fs::path path = fs::path(baking.cache) / (key + extension);
+    DistanceField field;
+    if (readCached(path, key, field, warnings)) {
+        field.surface = examineSurface(mesh);
+        return field;
+    }
+    field = bakeDistanceField(mesh, request, baking.progress);
+    keep(path, key, field, warnings);
+    return field;
+}
+
+}  // namespace shoal

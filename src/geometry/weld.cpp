@@ -1,0 +1,116 @@
+// Welding by position: files repeat a vertex for every normal, colour or uv that meets there, while
+// placement, thickness and shading across seams need to know that it is one point.
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <unordered_map>
+
+#include "geometry/load_model.h"
+
+namespace shoal {
+
+namespace {
+
+struct CellHash {
+    size_t operator()(const glm::i64vec3& c) const {
+        const uint64_t mixed = static_cast<uint64_t>(c.x) * 0x9E3779B97F4A7C15u ^
+                               static_cast<uint64_t>(c.y) * 0xC2B2AE3D27D4EB4Fu ^
+                               static_cast<uint64_t>(c.z) * 0x165667B19E3779F9u;
+        return static_cast<size_t>(mixed ^ (mixed >> 29));
+    }
+};
+
+// Welded vertices by cell. A cell is several tolerances wide, so that nearly every lookup visits one.
+class WeldGrid {
+  public:
+    WeldGrid(const glm::dvec3& low, double tolerance)
+        : low_(low), tolerance_(tolerance), cell_(8 * tolerance) {}
+
+    // The welded vertex within the tolerance of `position`, a new one when there is none.
+    int find(const glm::dvec3& position, std::vector<glm::dvec3>& welded) {
+        const glm::i64vec3 from = cellOf(position - tolerance_), to = cellOf(position + tolerance_);
+        glm::i64vec3 c;
+        for (c.z = from.z; c.z <= to.z; ++c.z)
+            for (c.y = from.y; c.y <= to.y; ++c.y)
+                for (c.x = from.x; c.x <= to.x; ++c.x) {
+                    const auto found = first_.find(c);
+                    if (found == first_.end()) continue;
+                    for (int v = found->second; v >= 0; v = next_[size_t(v)])
+                        if (glm::distance(welded[size_t(v)], position) <= tolerance_) return v;
+                }
+        const int vertex = static_cast<int>(welded.size());
+        welded.push_back(position);
+        const auto [entry, isNew] = first_.try_emplace(cellOf(position), vertex);
+        next_.push_back(isNew ? -1 : entry->second);
+        entry->second = vertex;
+        return vertex;
+    }
+
+  private:
+    glm::i64vec3 cellOf(const glm::dvec3& position) const {
+        return glm::i64vec3(glm::floor((position - low_) / cell_));
+    }
+
+    glm::dvec3 low_;
+    double tolerance_, cell_;
+    std::unordered_map<glm::i64vec3, int, CellHash> first_;
+    std::vector<int> next_;  // per welded vertex: the next in its cell, -1 at the end
+};
+
+glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
+    const double length = glm::length(v);
+    return std::isfinite(length) && length > 0 ? v / length : otherwise;
+}
+
+// The triangle's normal times its angle at a corner: sums do not depend on how polygons were cut
+// (Thuermer and Wuethrich 1998). On a three-sided twig a sum weighted by areas would lie along a side.
+glm::dvec3 angleNormal(const Mesh& mesh, const glm::ivec3& t, int corner) {
+    const glm::dvec3& at = mesh.positions[size_t(t[corner])];
+    const glm::dvec3 next = mesh.positions[size_t(t[(corner + 1) % 3])] - at;
+    const glm::dvec3 last = mesh.positions[size_t(t[(corner + 2) % 3])] - at;
+    const glm::dvec3 across = glm::cross(next, last);
+    const double sine = glm::length(across);
+    if (!(sine > 0)) return glm::dvec3(0);
+    return across / sine * std::atan2(sine, glm::dot(next, last));
+}
+
+}  // namespace
+
+void completeMesh(Mesh& mesh) {
+    if (mesh.positions.empty()) return;
+    mesh.low = mesh.high = mesh.positions.front();
+    for (const glm::dvec3& p : mesh.positions) {
+        mesh.low = glm::min(mesh.low, p);
+        mesh.high = glm::max(mesh.high, p);
+    }
+    const double diagonal = glm::distance(mesh.low, mesh.high);
+    // Never below what doubles can tell apart this far from the origin.
+    const glm::dvec3 reach = glm::max(glm::abs(mesh.low), glm::abs(mesh.high));
+    const double tolerance =
+        std::max({1e-6 * diagonal, 1e-15 * std::max({reach.x, reach.y, reach.z}), 1e-300});
+
+    WeldGrid grid(mesh.low, tolerance);
+    mesh.weld.clear();
+    mesh.weldedPositions.clear();
+    for (const glm::dvec3& p : mesh.positions)
+        mesh.weld.push_back(grid.find(p, mesh.weldedPositions));
+
+    std::vector<glm::dvec3> corner(mesh.positions.size(), glm::dvec3(0));
+    mesh.weldedNormals.assign(mesh.weldedPositions.size(), glm::dvec3(0));
+    for (const glm::ivec3& t : mesh.triangles) {
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 normal = angleNormal(mesh, t, i);
+            corner[size_t(t[i])] += normal;
+            mesh.weldedNormals[size_t(mesh.weld[size_t(t[i])])] += normal;
+        }
+    }
+    const glm::dvec3 up(0, 1, 0);
+    for (glm::dvec3& n : mesh.weldedNormals)
+        n = unit(n, up);
+    mesh.normals.resize(mesh.positions.size(), glm::dvec3(0));
+    for (size_t v = 0; v < mesh.normals.size(); ++v)
+        if (mesh.normals[v] == glm::dvec3(0))
+            mesh.normals[v] = unit(corner[v], mesh.weldedNormals[size_t(mesh.weld[v])]);
+}
+
+}  // namespace shoal

@@ -1,0 +1,219 @@
+#include "scene/field.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/description.h"
+#include "scene/field_files/field_file.h"
+
+namespace shoal {
+
+const Description& describe(const UniformField*) {
+    static const Description it = Describe<UniformField>("uniform", "The same velocity everywhere.")
+                                      .key("velocity", &UniformField::velocity, {"m/s", "The velocity."})
+                                      .needed();
+    return it;
+}
+
+const Description& describe(const OscillatingField*) {
+    using F = OscillatingField;
+    static const Description it =
+        Describe<F>("oscillating",
+                    "The same everywhere, to and fro: velocity · sin(2π · frequency · t + phase).")
+            .key("velocity", &F::velocity, {"m/s", "The velocity at the peak."})
+            .needed()
+            .key("frequency", &F::frequency, {"Hz", "How often it goes to and fro.", Range::atLeast(0)})
+            .needed()
+            .key("phase", &F::phase, {"rad", "The phase at the start."});
+    return it;
+}
+
+const Description& describe(const GustField*) {
+    using F = GustField;
+    static const Description it =
+        Describe<F>("gust",
+                    "A steady direction with fronts of stronger and weaker wind that travel along it.")
+            .direction("direction", &F::direction, {"", "The direction of the wind."})
+            .key("speed", &F::speed, {"m/s", "The mean speed."})
+            .key("strength", &F::strength, {"", "The relative variation of the speed.", Range::atLeast(0)})
+            .key("length", &F::length, {"m", "The size of a front along the direction.", aboveZero()})
+            .key("width", &F::width, {"m", "The size of a front across the direction.", aboveZero()})
+            .key("frontSpeed", &F::frontSpeed, {"m/s", "The speed of the fronts along the direction."})
+            .key("seed", &F::seed, {"", "The seed of the noise."});
+    return it;
+}
+
+// The rows of the gradient, which glm stores as columns.
+static void readGradient(JsonReader& r, ShearField& field, void*) {
+    r.require("gradient");
+    const JsonValue* rows = r.raw("gradient");
+    std::vector<double> numbers;
+    if (rows->kind == JsonValue::Kind::array)
+        for (const JsonValue& row : rows->items)
+            if (row.kind == JsonValue::Kind::array && row.items.size() == 3)
+                for (const JsonValue& entry : row.items)
+                    if (entry.kind == JsonValue::Kind::number) numbers.push_back(entry.number);
+    if (numbers.size() != 9 || rows->items.size() != 3)
+        throw Error(r.at("gradient"), "expected three rows of three numbers");
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column)
+            field.gradient[column][row] = numbers[size_t(3 * row + column)];
+}
+
+const Description& describe(const ShearField*) {
+    using F = ShearField;
+    static const auto rule = [](const F& field, const Where& where) {
+        for (int i = 0; i < 9; ++i)
+            needWithin(where.at("gradient"), field.gradient[i / 3][i % 3], {});
+    };
+    static const Description it =
+        Describe<F>("shear", "A velocity that grows evenly: velocity + gradient · (x − origin).")
+            .byHand("gradient",
+                    R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"$ref": "#/$defs/vector"}})",
+                    {"three rows of three numbers, 1/s", "The gradient of the velocity."}, readGradient)
+            .needed()
+            .key("origin", &F::origin, {"m", "Where the velocity is as given."})
+            .key("velocity", &F::velocity, {"m/s", "The velocity at the origin."})
+            .rule(rule);
+    return it;
+}
+
+const Description& describe(const VortexField*) {
+    using F = VortexField;
+    static const Description it =
+        Describe<F>("vortex",
+                    "Turns about an axis, fastest at the radius, anticlockwise seen from the axis's tip.")
+            .key("origin", &F::origin, {"m", "A point of the axis."})
+            .direction("axis", &F::axis, {"", "The direction of the axis."})
+            .key("speed", &F::speed, {"m/s", "The speed at the radius."})
+            .key("radius", &F::radius, {"m", "The radius of the core.", aboveZero()})
+            .key("lift", &F::lift, {"m/s", "The speed along the axis, on it."});
+    return it;
+}
+
+const Description& describe(const AbcField*) {
+    using F = AbcField;
+    static const Description it =
+        Describe<F>("abc",
+                    "Arnold, Beltrami and Childress: (a sin kz + c cos ky, b sin kx + a cos kz, "
+                    "c sin ky + b cos kx), with k = 2π / wavelength.")
+            .key("origin", &F::origin, {"m", "Where the phases are 0."})
+            .key("a", &F::a, {"m/s", "The first amplitude."})
+            .key("b", &F::b, {"m/s", "The second amplitude."})
+            .key("c", &F::c, {"m/s", "The third amplitude."})
+            .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});
+    return it;
+}
+
+const Description& describe(const TaylorGreenField*) {
+    using F = TaylorGreenField;
+    static const Description it =
+        Describe<F>("taylorGreen",
+                    "Taylor and Green: speed · (cos kx sin ky, −sin kx cos ky, 0) cos kz, with "
+                    "k = 2π / wavelength.")
+            .key("origin", &F::origin, {"m", "Where the phases are 0."})
+            .key("speed", &F::speed, {"m/s", "The largest speed."})
+            .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});
+    return it;
+}
+
+const Description& describe(const CurlNoiseField*) {
+    using F = CurlNoiseField;
+    static const Description it =
+        Describe<F>("curlNoise", "The curl of a noise in space and time: free of divergence, without a mean.")
+            .key("speed", &F::speed, {"m/s", "About the RMS speed of one octave.", Range::atLeast(0)})
+            .key("length", &F::length, {"m", "The size of the largest eddies.", aboveZero()})
+            .key("period", &F::period, {"s", "The time in which they change.", aboveZero()})
+            .key(
+                "octaves", &F::octaves,
+                {"", "How many octaves it has, each of half the length and period and 2^(−1/3) of the speed.",
+                 Range::between(1, 4)})
+            .key("seed", &F::seed, {"", "The seed of the noise."});
+    return it;
+}
+
+const Description& describe(const WaveTrain*) {
+    static const auto rule = [](const WaveTrain& train, const Where& where) {
+        if (train.direction.x == 0 && train.direction.z == 0)
+            throw Error(where.at("direction"),
+                        "expected a direction with a part along x or z: waves travel level");
+        const double most = train.wavelength / (2 * std::numbers::pi);
+        if (train.amplitude >= most)
+            throw Error(where.at("amplitude"),
+                        concat("expected less than ", most, " m: crests of ", train.wavelength,
+                               " m length would curl over, found ", train.amplitude));
+    };
+    static const Description it =
+        Describe<WaveTrain>("train", "One train of waves.")
+            .key("direction", &WaveTrain::direction,
+                 {"", "The direction of travel, of which only x and z count."})
+            .key("amplitude", &WaveTrain::amplitude,
+                 {"m",
+                  "Half the height, below the depth and below wavelength / 2π, where crests would curl over.",
+                  Range::atLeast(0)})
+            .needed()
+            .key("wavelength", &WaveTrain::wavelength, {"m", "The wavelength.", aboveZero()})
+            .needed()
+            .key("phase", &WaveTrain::phase, {"rad", "The phase at the origin at time 0."})
+            .rule(rule);
+    return it;
+}
+
+const Description& describe(const WavesField*) {
+    using F = WavesField;
+    static const auto rule = [](const F& field, const Where& where) {
+        constexpr size_t most = 32;
+        const size_t count = field.trains.size();
+        if (count == 0 || count > most)
+            throw Error(where.at("trains"), concat("expected 1 to ", most, " trains, found ", count));
+        for (size_t i = 0; field.depth && i < count; ++i)
+            if (field.trains[i].amplitude >= *field.depth)
+                throw Error(where.in("trains", i).at("amplitude"),
+                            concat("expected less than the depth of ", *field.depth, " m, found ",
+                                   field.trains[i].amplitude));
+    };
+    static const Description it =
+        Describe<F>("waves", "The water under a sum of waves [Fournier 1986].")
+            .key("origin", &F::origin, {"m", "A point of the still surface."})
+            .key("depth", &F::depth,
+                 {"m", "The depth of the bottom; without it the water is deep.", aboveZero()})
+            .key("gravity", &F::gravity,
+                 {"m/s²", "The gravity of the waves; the scene may have none.", aboveZero()})
+            .key("trains", &F::trains, {"", "The trains of waves, 1 to 32, which add up."})
+            .needed()
+            .rule(rule, R"({"properties": {"trains": {"minItems": 1, "maxItems": 32}}})");
+    return it;
+}
+
+const Description& describe(const HurricaneField*) {
+    using F = HurricaneField;
+    static const Description it =
+        Describe<F>("hurricane", "The gradient wind of a hurricane [Holland 1980], with inflow and updraft.")
+            .key("origin", &F::origin, {"m", "The eye at the ground."})
+            .key("speed", &F::speed,
+                 {"m/s",
+                  "The largest speed at the ground, anticlockwise from above; a negative one is clockwise."})
+            .key("radius", &F::radius, {"m", "The radius of the largest speed.", aboveZero()})
+            .key("shape", &F::shape, {"", "Holland's B: how peaked the profile is.", Range::between(0.5, 3)})
+            .key("inflow", &F::inflow,
+                 {"rad", "The angle of the wind at the ground towards the axis.", Range::between(0, 1.2)})
+            .key("height", &F::height, {"m", "The height above which there is no wind.", aboveZero()})
+            .key("coriolis", &F::coriolis, {"1/s", "The Coriolis parameter.", Range::between(0, 1)});
+    return it;
+}
+
+const Description& describe(const Field*) {
+    static const Description it =
+        Describe<Field>("field", "A velocity of the fluid. Fields add up, and move what has drag.")
+            .key("name", &Field::name, {"", "Its name in messages and in the panel; no two have the same."})
+            .alternatives("type", &Field::shape, {"", "Which velocity it is."})
+            .key("weight", &Field::weight, {"", "What multiplies the velocity."})
+            .box("box", &Field::box, {"m", "The field has no effect outside this box."});
+    return it;
+}
+
+const char* kindName(const FieldShape& shape) {
+    return std::visit([](const auto& kind) { return describe(&kind).name().c_str(); }, shape);
+}
+
+}  // namespace shoal

@@ -1,0 +1,155 @@
+#include "scene/field_files/file_sequence.h"
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <optional>
+
+#include "core/error.h"
+#include "core/sandbox.h"
+#include "scene/json/reader.h"
+
+namespace shoal {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr int mostFiles = 10000;
+
+// "wind-", 4, ".vti"
+struct Pattern {
+    fs::path folder;
+    std::string before, after;
+    size_t digits = 0;  // at least
+
+    std::string file(int number) const {
+        std::string text = std::to_string(number);
+        if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+        return (folder / (before + text + after)).string();
+    }
+
+    // The number of a file's name, or -1.
+    int numberOf(const std::string& name) const {
+        if (name.size() < before.size() + digits + after.size() || !name.starts_with(before) ||
+            !name.ends_with(after))
+            return -1;
+        const char *first = name.data() + before.size(), *last = name.data() + name.size() - after.size();
+        int number = -1;
+        const auto [stop, code] = std::from_chars(first, last, number);
+        const bool whole = code == std::errc() && stop == last && number >= 0;
+        return whole && file(number) == (folder / name).string() ? number : -1;
+    }
+};
+
+// Nothing where the name has no run of #, or several.
+std::optional<Pattern> patternOf(const fs::path& path) {
+    const std::string name = path.filename().string();
+    const size_t first = name.find('#'), last = name.rfind('#');
+    if (first == std::string::npos || name.find_first_not_of('#', first) < last) return {};
+    return Pattern{path.parent_path(), name.substr(0, first), name.substr(last + 1), last - first + 1};
+}
+
+// Of the files that are there, ascending.
+std::vector<int> numbersIn(const Pattern& pattern) {
+    std::vector<int> out;
+    std::error_code code;
+    const fs::path folder = pattern.folder.empty() ? fs::path(".") : pattern.folder;
+    if (!mayOpen(folder)) return out;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, code))
+        if (const int number = pattern.numberOf(entry.path().filename().string()); number >= 0)
+            out.push_back(number);
+    std::sort(out.begin(), out.end());
+    return out;
+}
+
+}  // namespace
+
+void checkTimes(double before, double time, const Location& where) {
+    if (!(time - before >= leastPositive))
+        throw Error(where, concat("expected rising times, found ", before, " and then ", time));
+}
+
+namespace {
+
+std::vector<double> timesOf(JsonReader& r, size_t count) {
+    std::vector<double> times;
+    if (r.has("times")) {
+        r.get("times", times);
+        if (times.size() != count)
+            throw Error(r.at("times"),
+                        concat("expected ", count, " times, one a file, found ", times.size()));
+        for (size_t i = 1; i < count; ++i)
+            checkTimes(times[i - 1], times[i], r.at("times"));
+        return times;
+    }
+    double frameRate = 0, start = 0;
+    r.need("frameRate", frameRate, aboveZero());
+    r.get("start", start);
+    for (size_t i = 0; i < count; ++i)
+        times.push_back(start + double(i) / frameRate);
+    return times;
+}
+
+}  // namespace
+
+FileSequence readFileSequence(JsonReader& reader) {
+    FileSequence out;
+    auto r = reader.object("sequence");
+    if (!r) {
+        std::string written;
+        reader.need("file", written);
+        std::error_code code;
+        if (written.find('#') != std::string::npos &&
+            !fs::exists(fs::path(reader.file()).parent_path() / written, code))
+            throw Error(reader.at("file"),
+                        "numbered files need \"sequence\", with their \"frameRate\" at least");
+        out.files = {needFile(reader, "file")};
+        return out;
+    }
+    std::string written;
+    reader.need("file", written);
+    const std::optional<Pattern> found =
+        patternOf((fs::path(reader.file()).parent_path() / written).lexically_normal());
+    if (!found)
+        throw Error(reader.at("file"), "expected one run of # in the file's name, in place of the number");
+    const Pattern& pattern = *found;
+    int first = 0, last = 0, step = 1;
+    if (!r->has("first") || !r->has("last")) {
+        const std::vector<int> numbers = numbersIn(pattern);
+        if (numbers.empty())
+            throw Error(reader.at("file"), "no such files: " + pattern.file(0) + " and so on");
+        first = numbers.front();
+        last = numbers.back();
+    }
+    r->get("first", first, Range::atLeast(0));
+    r->get("last", last, Range::atLeast(0));
+    r->get("step", step, Range::atLeast(1));
+    if (last <= first || (last - first) % step != 0 || (last - first) / step >= mostFiles)
+        throw Error(r->has("last") ? r->at("last") : r->here(),
+                    concat("expected 2 to ", mostFiles, " files from first to last, found numbers from ",
+                           first, " to ", last, " in steps of ", step));
+    for (int number = first; number <= last; number += step) {
+        out.files.push_back(pattern.file(number));
+        std::error_code code;
+        if (!fs::is_regular_file(out.files.back(), code))
+            throw Error(reader.at("file"),
+                        concat("no such file: ", out.files.back(), ", of the numbers ", first, " to ", last));
+        if (number > last - step) break;  // the next might overflow
+    }
+    out.times = timesOf(*r, out.files.size());
+    r->get("repeats", out.repeats);
+    r->finish();
+    return out;
+}
+
+std::vector<std::string> numberedFiles(const fs::path& path) {
+    std::vector<std::string> out;
+    const std::optional<Pattern> pattern = patternOf(path);
+    if (!pattern) return out;
+    for (const int number : numbersIn(*pattern))
+        out.push_back(pattern->file(number));
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,133 @@
+#include "scene/json/saver.h"
+
+#include "core/file.h"
+#include "core/json_edit.h"
+#include "scene/json/life_writer.h"
+#include "scene/json/particle_writer.h"
+#include "scene/json/reader.h"
+
+namespace shoal {
+
+namespace {
+
+JsonValue editable(const Scene& scene, const Group& group) {
+    JsonValue out = JsonValue::makeObject();
+    const auto add = [&out](const char* key, std::optional<JsonValue> value) {
+        if (value) out.add(key, std::move(*value));
+    };
+    if (group.particle) add("particle", writeParticle(*group.particle, scene.file));
+    if (group.color) add("color", JsonValue::makeVector(*group.color));
+    if (group.secondColor) add("secondColor", JsonValue::makeVector(*group.secondColor));
+    if (group.school) add("school", describe(&*group.school).write(*group.school));
+    if (!group.life) return out;
+    add("life", writeLife(group));
+    add("emitters", writeEmitters(group, scene.models));
+    return out;
+}
+
+// Where `groups` stand in the file, as long as they are the ones that were read.
+const JsonValue& groupsOf(const JsonValue& root, const Scene& before) {
+    const JsonValue* groups = root.find("groups");
+    if (!groups || groups->kind != JsonValue::Kind::array || groups->items.size() != before.groups.size())
+        throw Error(Location{before.file, 0, 0, "$.groups"},
+                    "has other groups than when it was opened: nothing was saved");
+    for (size_t g = 0; g < groups->items.size(); ++g) {
+        const JsonValue* name = groups->items[g].find("name");
+        if (name && name->text != before.groups[g].name)
+            throw Error(Location{before.file, name->line, name->column, concat("$.groups[", g, "].name")},
+                        concat("is not the group \"", before.groups[g].name,
+                               "\" that was there when it was opened: nothing was saved"));
+    }
+    return *groups;
+}
+
+// Reads what was written as a scene is read, so that no file is left that nobody can open.
+std::vector<Group> readEdited(const std::string& text, const Scene& after) {
+    const JsonValue root = parseJson(text, after.file);
+    refuseHugeNumbers(root, after.file);
+    const JsonValue& groups = groupsOf(root, after);
+    std::vector<Group> out = after.groups;
+    for (size_t g = 0; g < groups.items.size(); ++g) {
+        Group& group = out[g];
+        const JsonValue* count = groups.items[g].find("count");
+        if (count && count->kind == JsonValue::Kind::number) group.count = int(count->number);
+        JsonReader reader(groups.items[g], after.file, concat("$.groups[", g, "]"));
+        if (auto particle = reader.object("particle")) group.particle = readParticleType(*particle);
+        if (auto school = readDescribed<School>(reader, "school")) group.school = school;
+        getColor(reader, "color", group.color);
+        getColor(reader, "secondColor", group.secondColor);
+        readLife(reader, group, after.models);
+    }
+    return out;
+}
+
+// The group that was read as `groups[g]`, in another reading of its file: by name, which need not be its own.
+std::optional<size_t> sameGroup(const std::vector<Group>& groups, size_t g, const std::vector<Group>& among) {
+    if (g < among.size() && among[g].name == groups[g].name) return g;
+    for (size_t other = 0; other < among.size(); ++other)
+        if (among[other].name == groups[g].name) return other;
+    return {};
+}
+
+}  // namespace
+
+std::string withEdits(const std::string& text, const Scene& before, const Scene& after) {
+    const JsonValue root = parseJson(text, before.file);
+    const JsonValue& groups = groupsOf(root, before);
+    std::vector<TextChange> changes;
+    for (size_t g = 0; g < groups.items.size(); ++g)
+        addChanges(text, groups.items[g], editable(before, before.groups[g]),
+                   editable(after, after.groups[g]), changes);
+    if (changes.empty()) return text;
+    std::string out = withChanges(text, std::move(changes));
+    readEdited(out, after);
+    return out;
+}
+
+MergedEdits mergeEdits(const Scene& before, const Scene& after, const Scene& theirs, const std::string& text,
+                       Prefer prefer) {
+    MergedEdits out;
+    const JsonValue root = parseJson(text, theirs.file);
+    const JsonValue& groups = groupsOf(root, theirs);
+    std::vector<TextChange> changes;
+    std::vector<size_t> edited;  // groups of `theirs`
+    for (size_t g = 0; g < before.groups.size(); ++g) {
+        const JsonValue base = editable(before, before.groups[g]), mine = editable(after, after.groups[g]);
+        if (sameJson(base, mine)) continue;
+        const std::optional<size_t> there = sameGroup(before.groups, g, theirs.groups);
+        if (!there) {
+            out.conflicts.push_back(concat("the group \"", before.groups[g].name, "\""));
+            out.possible = false;
+            continue;
+        }
+        const JsonValue on = editable(theirs, theirs.groups[*there]);
+        const JsonValue both =
+            merged(base, mine, on, prefer, concat("$.groups[", *there, "]"), out.conflicts);
+        addChanges(text, groups.items[*there], on, both, changes);
+        edited.push_back(*there);
+    }
+    out.groups = theirs.groups;
+    if (changes.empty()) return out;
+    const std::vector<Group> read = readEdited(withChanges(text, std::move(changes)), theirs);
+    for (const size_t g : edited) {
+        out.groups[g].particle = read[g].particle;
+        out.groups[g].life = read[g].life;
+        out.groups[g].school = read[g].school;
+        out.groups[g].color = read[g].color;
+        out.groups[g].secondColor = read[g].secondColor;
+    }
+    return out;
+}
+
+bool differ(const Scene& before, const Scene& after) {
+    for (size_t g = 0; g < before.groups.size(); ++g)
+        if (!sameJson(editable(before, before.groups[g]), editable(after, after.groups[g]))) return true;
+    return false;
+}
+
+void saveEdits(const Scene& before, const Scene& after) {
+    const std::string text = readFile(before.file), edited = withEdits(text, before, after);
+    if (edited != text) writeFile(before.file, edited);
+}
+
+}  // namespace shoal

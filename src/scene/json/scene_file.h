@@ -1,0 +1,28 @@
+// Scene files: strict JSON, format "shoal-scene-1", described by
+// models/scene.schema.json. Keys are named like the members of the structs in scene.h; anything left out
+// keeps the struct's default. File names inside are relative to the scene file's folder.
+#pragma once
+
+#include <string>
+
+#include "core/cache_folder.h"
+#include "geometry/distance_field_cache.h"
+#include "scene/scene.h"
+
+namespace shoal {
+
+// Reads a scene with its molecules, models and fields. Every mistake is one Error with file, line, column
+// and JSON path; a mistake inside a file that the scene names is reported at that file.
+// Distance fields are baked here, or taken from where they are kept.
+Scene readScene(const std::string& file, const FieldBaking& baking = {cacheFolder(), {}});
+Scene parseScene(const std::string& text, const std::string& file,
+                 const FieldBaking& baking = {cacheFolder(), {}});
+
+// The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
+// of what is wrong and no file. What only files say (which keys go together) is not asked.
+void checkScene(const Scene& scene);
+
+// A group holds at most this many molecules: single precision counts them one by one no further.
+inline constexpr int maxGroupCount = 1 << 24;
+
+}  // namespace shoal
