@@ -20,6 +20,20 @@ if(SHOAL_SANITIZE)
   target_compile_options(shoal_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
 endif()
 
+# cmake/precompiled.h, parsed once for all of src. Sources with flags of their own leave it out.
+add_library(shoal_precompiled OBJECT ${CMAKE_CURRENT_SOURCE_DIR}/cmake/precompiled.cpp)
+target_compile_features(shoal_precompiled PRIVATE cxx_std_20)
+target_link_libraries(shoal_precompiled PRIVATE shoal_options glm::glm)
+target_precompile_headers(shoal_precompiled PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/precompiled.h)
+
+# Compiles some of a target's sources as one, but where precompiled headers are off, as for `./dev lint`.
+function(shoal_together target)
+  if(NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
+    set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP together)
+  endif()
+endfunction()
+
 set(SHOAL_ROOMS "" CACHE INTERNAL "")
 
 function(shoal_room name)
@@ -36,6 +50,7 @@ function(shoal_room name)
     set(scope PUBLIC)
     add_library(shoal_${name} STATIC ${sources} ${headers})
     target_link_libraries(shoal_${name} PRIVATE $<BUILD_INTERFACE:shoal_options>)
+    target_precompile_headers(shoal_${name} REUSE_FROM shoal_precompiled)
     # Header-only packages end at the build; what must be linked reaches whoever links the archive.
     foreach(library ${ROOM_PRIVATE_LIBRARIES})
       if(library MATCHES "^(RapidJSON|GLHeaders|Eigen3::Eigen)$")

@@ -13,7 +13,7 @@ namespace {
 constexpr size_t lineWidth = 120;
 
 // The name of a file may be no UTF-8, which JSON has no way to say.
-std::string quoted(std::string_view text) {
+std::string inQuotes(std::string_view text) {
     std::string out = "\"";
     while (!text.empty()) {
         const Utf8 one = firstCharacter(text);
@@ -44,7 +44,7 @@ std::string scalar(const JsonValue& value) {
     case JsonValue::Kind::number:
         return number(value.number);
     case JsonValue::Kind::string:
-        return quoted(value.text);
+        return inQuotes(value.text);
     default:
         return "null";
     }
@@ -75,7 +75,7 @@ void writeLine(const JsonValue& value, std::string& out) {
         separator = ", ";
     }
     for (const auto& [key, member] : value.members) {
-        out += separator + quoted(key) + ": ";
+        out += separator + inQuotes(key) + ": ";
         writeLine(member, out);
         separator = ", ";
     }
@@ -104,7 +104,7 @@ void write(const JsonValue& value, size_t indent, bool element, std::string& out
         separator = ",";
     }
     for (const auto& [key, member] : value.members) {
-        out += separator + start + quoted(key) + ": ";
+        out += separator + start + inQuotes(key) + ": ";
         write(member, indent + 2, false, out);
         separator = ",";
     }

@@ -1,15 +1,10 @@
 // Runs the OpenGL tests in the context that SHOAL_TEST_CONTEXT names (egl, osmesa or window).
-#if defined(__GNUC__) && !defined(__clang__)
-// GCC 12 with sanitizers sees std::regex, which Catch uses, as uninitialised.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-#define CATCH_CONFIG_RUNNER
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 
 #include "gl/gl_test.h"
-#include "support/catch.h"
+#include "support/run_tests.h"
 
 using namespace shoal::gpu;
 
@@ -36,7 +31,7 @@ int main(int argc, char** argv) {
         std::printf("%s: OpenGL %s on %s\n", context.info().platform.c_str(), context.info().version.c_str(),
                     context.info().renderer.c_str());
         std::fflush(stdout);
-        const int failed = Catch::Session().run(argc, argv);
+        const int failed = runTests(argc, argv);
         context.checkErrors("after all tests");
         return failed;
     } catch (const std::exception& error) {

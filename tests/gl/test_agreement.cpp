@@ -21,7 +21,7 @@ Simulation on(Path path, const Plan& plan) {
 
 TEST_CASE("the two paths agree on every scene", "[fused][agreement][long]") {
     if (!test::canFuse()) return;
-    std::vector<FeatureScene> scenes = test::shippedScenes(300);
+    std::vector<FeatureScene> scenes = test::shippedScenes(100);
     REQUIRE(scenes.size() >= 2);
     for (FeatureScene& one : test::featureScenes())
         scenes.push_back(std::move(one));

@@ -44,8 +44,8 @@ TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes][long]")
     const Case cases[] = {
         {test::shippedMolecule("quad"),
          {Sampling::vertexSubstep, Sampling::vertexFrame, Sampling::moleculeFrame}},
-        {test::shippedMolecule("fish"), {Sampling::vertexFrame, Sampling::vertexSubstep}},
-        {test::sheet(8, 8, true), {Sampling::moleculeFrame}},
+        {test::shippedMolecule("fish"), {Sampling::vertexFrame}},
+        {test::sheet(64, 1, true), {Sampling::moleculeFrame}},  // a chain: few springs, all unrolled
         {test::sheet(11, 3, true), {Sampling::vertexSubstep}},
         {test::point(0.3), {Sampling::vertexSubstep}},
     };
@@ -88,8 +88,8 @@ TEST_CASE("in place the bits are the same, from half the memory", "[fused]") {
             const BufferLayout layout{9};
             CHECK(two.stateBytes() - one.stateBytes() ==
                   layout.padded(size_t(count)) * size_t(layout.stateElements()) * 16);
-            test::run(two, 31);
-            test::run(one, 31);
+            test::run(two, 9);
+            test::run(one, 9);
             INFO(name(lanes) << ", " << count << " molecules");
             CHECK(one.hash() == two.hash());
             CHECK(one.snapshot(0).normals == two.snapshot(0).normals);
@@ -137,7 +137,7 @@ TEST_CASE("a group in parts moves and looks like one that is whole", "[fused][re
             split.state[0].write(plan.groups[0], plan.groups[0].start);
             split.computeNormals(timers);
             CHECK(split.state[0].readNormals(plan.groups[0]) == whole.snapshot(0).normals);
-            for (int frame = 0; frame < 40; ++frame) {
+            for (int frame = 0; frame < 12; ++frame) {
                 const Parameters& parameters = whole.parameters;
                 split.step({whole.time(), whole.time() + parameters.frameTime,
                             parameters.frameTime / parameters.substeps, frame, parameters},

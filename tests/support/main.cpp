@@ -1,8 +1,6 @@
 // The main of every test program that needs no preparation of its own.
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"  // GCC 12 in std::regex, with sanitizers
-#define CATCH_CONFIG_RUNNER
-#include "support/catch.h"
+#include "support/run_tests.h"
 
 int main(int argumentCount, char** arguments) {
-    return Catch::Session().run(argumentCount, arguments);
+    return runTests(argumentCount, arguments);
 }
