@@ -1,0 +1,75 @@
+// The loop of every window: frame by frame what the user did, the picture, the panels over it and the screen,
+// until the window closes. What is shown, and what is done about it, is a class of its own (viewer.cpp,
+// editor/editor_window.cpp).
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "gpu/context.h"
+#include "gpu/program_cache.h"
+#include "window/interface.h"
+#include "window/notices.h"
+
+namespace shoal::window {
+
+struct WindowOptions {
+    std::optional<double> scale;  // of the panels; nothing: as the window's screen asks for
+    std::optional<int> frames;    // to be shown, then it closes
+    std::string screenshot;       // a PNG of the window, panels and all, as it is when it closes
+};
+
+class WindowLoop {
+  public:
+    // `context` has a window.
+    WindowLoop(WindowOptions options, gpu::Context& context);
+    virtual ~WindowLoop() = default;
+    WindowLoop(const WindowLoop&) = delete;
+    WindowLoop& operator=(const WindowLoop&) = delete;
+
+    void go();  // until the window closes
+
+  protected:
+    // ---- A frame, in this order
+
+    virtual void drawPicture() = 0;
+    virtual void drawInterface() = 0;  // over the picture; what the user did is in keys() and ImGui
+    virtual void obey() = 0;           // does what was asked for, after the frame is on the screen
+
+    // Whether the window may close, which the user asks for. False: it stays, and something is to be said
+    // first.
+    virtual bool mayClose() = 0;
+
+    // ---- For those
+
+    gpu::Context& context() { return context_; }
+    gpu::ProgramCache& cache() { return cache_; }
+    Input& keys() { return interface_.input(); }
+    double pixelsPerPoint() const { return interface_.pixelsPerPoint(); }
+    int width() const { return width_; }    // pixels
+    int height() const { return height_; }  // pixels
+    double aspect() const { return double(width_) / height_; }
+    int shown() const { return shown_; }                   // frames
+    double frameSeconds() const { return frameSeconds_; }  // wall clock, smoothed; 0: not known yet
+    static double now();                                   // s
+
+    void close();                                         // after this frame, where mayClose() agrees
+    void entitle(const std::string& file, bool unsaved);  // by the name of a file, which may lie in a folder
+
+    Troubles troubles;
+
+  private:
+    bool ends();
+    bool showFrame();
+    void saveScreenshot() const;
+
+    WindowOptions options_;
+    gpu::Context& context_;
+    GLFWwindow* window_;
+    Interface interface_;
+    gpu::ProgramCache cache_;
+    int width_ = 0, height_ = 0, shown_ = 0;
+    double frameSeconds_ = 0;
+};
+
+}  // namespace shoal::window
