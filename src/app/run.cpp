@@ -24,8 +24,7 @@
 #include "run/scene_list.h"
 #include "run/signals.h"
 #include "simulate/simulation.h"
-#include "window/editor/editor_window.h"
-#include "window/viewer.h"
+#include "window/windows.h"
 
 namespace shoal::app {
 

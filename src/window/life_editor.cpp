@@ -1,4 +1,4 @@
-#include "window/life_editor.h"
+#include "window/group_editors.h"
 
 #include <imgui.h>
 

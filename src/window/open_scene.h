@@ -38,13 +38,13 @@ struct OpenScene {
 
     // The molecule under a place of the picture, in [0, 1] from the upper left corner; or none any more.
     void pick(const glm::dvec2& place, double aspect, int height);
-    void forget();                       // what was picked
-    void readPicked();                   // its numbers, and moves the camera that follows it
+    void forget();      // what was picked
+    void readPicked();  // its numbers, and moves the camera that follows it
+    // Its numbers, from `left` on (in the interface's units) at the bottom of the window, and a ring around
+    // it. `aspect`: of the window, its width by its height.
+    void drawPicked(double aspect, float left);
     View view() const;                   // of now
     void drawPicture(double lineWidth);  // pixels, of springs and arrows
 };
-
-// Where a place is in the picture, in [0, 1] from the upper left corner; nothing: behind the eye.
-std::optional<glm::dvec2> onScreen(const View& view, const glm::dvec3& place, double aspect);
 
 }  // namespace shoal::window

@@ -7,10 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "window/life_editor.h"
-#include "window/particle_editor.h"
+#include "window/group_editors.h"
 #include "window/running_scene.h"
-#include "window/school_editor.h"
 
 namespace shoal::window {
 

@@ -1,4 +1,4 @@
-#include "window/school_editor.h"
+#include "window/group_editors.h"
 
 #include <imgui.h>
 

@@ -1,5 +1,3 @@
-#include "window/viewer.h"
-
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -18,11 +16,11 @@
 #include "run/data_paths.h"
 #include "run/signals.h"
 #include "window/method_error.h"
-#include "window/molecule_window.h"
 #include "window/open_scene.h"
 #include "window/recorder.h"
 #include "window/scene_chooser.h"
 #include "window/scene_pointer.h"
+#include "window/window_loop.h"
 
 namespace shoal::window {
 
@@ -156,7 +154,7 @@ class Viewer : public WindowLoop {
         if (!hidden_) {
             wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
                                           *open.explanations, frameSeconds(), lastFrame_);
-            drawPicked(open, aspect(), points(328));
+            open.drawPicked(aspect(), points(328));
         }
         drawScenePanel();
         pointer_.move(open, aspect(), height());

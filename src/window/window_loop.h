@@ -3,21 +3,15 @@
 // editor/editor_window.cpp).
 #pragma once
 
-#include <optional>
 #include <string>
 
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
 #include "window/interface.h"
 #include "window/notices.h"
+#include "window/windows.h"
 
 namespace shoal::window {
-
-struct WindowOptions {
-    std::optional<double> scale;  // of the panels; nothing: as the window's screen asks for
-    std::optional<int> frames;    // to be shown, then it closes
-    std::string screenshot;       // a PNG of the window, panels and all, as it is when it closes
-};
 
 class WindowLoop {
   public:

@@ -1,5 +1,3 @@
-#include "window/editor/editor_window.h"
-
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 #include <imgui.h>
@@ -15,6 +13,7 @@
 #include "molecule/molecule_file.h"
 #include "window/editor/panels.h"
 #include "window/editor/pointer.h"
+#include "window/window_loop.h"
 
 namespace shoal::window {
 

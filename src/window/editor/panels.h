@@ -7,7 +7,7 @@
 
 namespace shoal::window {
 
-const ImVec4 warm(0.98f, 0.72f, 0.3f, 1), red(1, 0.45f, 0.38f, 1), calm(0.55f, 0.78f, 0.42f, 1);
+const ImVec4 warm{0.98f, 0.72f, 0.3f, 1}, red{1, 0.45f, 0.38f, 1}, calm{0.55f, 0.78f, 0.42f, 1};
 
 enum class EditorAction { none, save, undo, redo, play, step, back, rewind, measure };
 

@@ -1,4 +1,4 @@
-// Sliders for birth and death of one group.
+// Sliders for what a group of a scene says: birth and death, looks of particles, steering.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,11 @@
 
 #include "scene/edit_limits.h"
 #include "scene/scene.h"
+#include "scene/school.h"
 
 namespace shoal::window {
 
+// Sliders for birth and death of one group.
 class LifeEditor {
   public:
     LifeEditor(const Scene& scene, size_t group);
@@ -36,6 +38,37 @@ class LifeEditor {
     glm::dvec2 span_{2, 3};           // s, that comes back when the group no longer lives for ever
     Box within_;                      // the same
     double afterContact_ = 0.5;       // s
+};
+
+// Sliders for the looks of one group of point particles.
+class ParticleEditor {
+  public:
+    explicit ParticleEditor(const ParticleType& type) : limits_(limitsOf(type)) {}
+
+    // Whether the user changed the type in this frame. `ages`: some are born or die.
+    bool draw(ParticleType& type, bool ages);
+
+  private:
+    bool drawShape(ParticleType& type, bool ages) const;
+    bool drawTurning(ParticleType& type) const;
+    bool drawColors(ParticleType& type) const;
+    bool drawImage(ParticleImage& image) const;
+    bool drawBlending(ParticleType& type) const;
+
+    LooksLimits limits_;
+};
+
+// Sliders for how the molecules of one group steer by one another.
+class SchoolEditor {
+  public:
+    explicit SchoolEditor(const School& school);
+
+    // Whether the user changed the school in this frame.
+    bool draw(School& school) const;
+
+  private:
+    // Ranges that grow with what the file says.
+    Limit radius_, separation_, rate_, speed_, acceleration_, turn_, wander_, walls_, targets_;
 };
 
 }  // namespace shoal::window
