@@ -1,5 +1,6 @@
-# shoal_room(NAME [ROOMS ...] [LIBRARIES ...] [PRIVATE_LIBRARIES ...])
-# Makes the library shoal_NAME (alias Shoal::NAME) of every source in src/NAME and its folders.
+# shoal_room(NAME [OF_COMMAND] [ROOMS ...] [LIBRARIES ...] [PRIVATE_LIBRARIES ...])
+# Makes the library shoal_NAME (alias Shoal::NAME) of every *.cpp in src/NAME and the folders below it.
+# OF_COMMAND: the room is a part of the command, and the package has it not.
 # Files named forward*.cpp define symbols that other shared libraries look up (OpenGL forwarding): they
 # become an object library, so that the linker cannot leave them out of whoever links the room.
 
@@ -34,10 +35,11 @@ function(shoal_together target)
   endif()
 endfunction()
 
-set(SHOAL_ROOMS "" CACHE INTERNAL "")
+set(SHOAL_ROOMS "" CACHE INTERNAL "")          # of the package
+set(SHOAL_COMMAND_ROOMS "" CACHE INTERNAL "")
 
 function(shoal_room name)
-  cmake_parse_arguments(ROOM "" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "OF_COMMAND" "" "ROOMS;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
   set(directory ${CMAKE_CURRENT_SOURCE_DIR}/src/${name})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${directory}/*.cpp)
   file(GLOB_RECURSE headers CONFIGURE_DEPENDS ${directory}/*.h)
@@ -78,5 +80,9 @@ function(shoal_room name)
         $<BUILD_INTERFACE:$<TARGET_OBJECTS:shoal_${name}_forward>>
         $<INSTALL_INTERFACE:$<INSTALL_PREFIX>/${CMAKE_INSTALL_LIBDIR}/shoal/forward.cpp.o>)
   endif()
-  set(SHOAL_ROOMS ${SHOAL_ROOMS} ${name} CACHE INTERNAL "")
+  set(list SHOAL_ROOMS)
+  if(ROOM_OF_COMMAND)
+    set(list SHOAL_COMMAND_ROOMS)
+  endif()
+  set(${list} ${${list}} ${name} CACHE INTERNAL "")
 endfunction()

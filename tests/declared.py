@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Fails when a room declares a function in its headers that its own library does not define.
 
-Usage: declared.py BUILD_FOLDER. Declarations are read from src/ROOM/*.h, definitions from libshoal_ROOM.a (nm). A name counts
+Usage: declared.py BUILD_FOLDER. Declarations are read from the headers below src/ROOM, definitions from libshoal_ROOM.a (nm). A name counts
 as defined when the library has as many functions of that name as the headers declare; so overloads are counted apart.
 """
 import collections
@@ -46,7 +46,7 @@ def statements(text):
 
 def declared(room):
     out = collections.Counter()
-    for header in (root / "src" / room).glob("*.h"):
+    for header in (root / "src" / room).rglob("*.h"):
         for scopes, text in statements(header.read_text(encoding="utf-8")):
             found = function.search(re.sub(r"\[\[\w+\]\]|\balignas\([^)]*\)", "", text))
             if not found or without.search(text) or "=" in text[: found.start()] or not scopes:

@@ -1,6 +1,6 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
-set(rooms core geometry molecule scene compile author gpu sort simulate render reference measure bench app)
+set(rooms core geometry molecule scene compile author gpu sort simulate render reference measure bench run window app)
 cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_geometry core)
@@ -15,6 +15,8 @@ set(may_render core geometry molecule scene compile gpu sort simulate)
 set(may_reference core geometry molecule scene compile)
 set(may_measure core geometry molecule scene compile gpu sort simulate reference)
 set(may_bench ${may_measure} measure)
+set(may_run ${may_simulate} simulate)
+set(may_window ${may_measure} author render measure run)
 set(may_app ${rooms})
 set(without_gl core geometry molecule scene compile author reference)
 

@@ -11,12 +11,12 @@
 #include "app/bench_report.h"
 #include "app/bullet_baseline.h"
 #include "app/commands.h"
-#include "app/data_paths.h"
 #include "app/machine.h"
-#include "app/progress.h"
 #include "core/cache_folder.h"
 #include "core/printable.h"
 #include "measure/pin_threads.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 

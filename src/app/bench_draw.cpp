@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "app/data_paths.h"
 #include "render/renderer.h"
+#include "run/data_paths.h"
 
 namespace shoal::app {
 

@@ -6,12 +6,12 @@
 #include "app/bench_draw.h"
 #include "app/bench_particles_report.h"
 #include "app/commands.h"
-#include "app/data_paths.h"
 #include "app/machine.h"
-#include "app/progress.h"
 #include "core/cache_folder.h"
 #include "measure/pin_threads.h"
 #include "molecule/molecule_file.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 

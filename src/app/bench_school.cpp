@@ -4,13 +4,13 @@
 #include <sstream>
 
 #include "app/commands.h"
-#include "app/data_paths.h"
 #include "app/machine.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
 #include "bench/school.h"
 #include "measure/pin_threads.h"
 #include "molecule/molecule_file.h"
+#include "run/data_paths.h"
 
 namespace shoal::app {
 

@@ -5,13 +5,13 @@
 #include <thread>
 
 #include "app/commands.h"
-#include "app/data_paths.h"
 #include "app/machine.h"
-#include "app/progress.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
 #include "bench/sort.h"
 #include "measure/pin_threads.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 

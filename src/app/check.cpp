@@ -3,14 +3,14 @@
 
 #include "app/check_start.h"
 #include "app/commands.h"
-#include "app/data_paths.h"
-#include "app/field_watch.h"
 #include "core/json.h"
 #include "core/many.h"
 #include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {

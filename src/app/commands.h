@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/options.h"
-#include "compile/plan.h"
 
 namespace shoal::app {
 
@@ -22,11 +21,12 @@ int editCommand(const Options& options);
 int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mesh
 int moleculeShowCommand(const Options& options);      // shoal molecule show
 
-// A scene and its plan with the options applied; warnings go to standard error.
-struct Loaded {
-    Scene scene;
-    Plan plan;
-};
+// With --sandbox: from now on only what lies in the folder of `file`, in the shipped data, in the cache and
+// in what other options name is opened (core/sandbox.h).
+void keepToSandbox(const Options& options, const std::string& file);
+
+// The scene that a command is about, with its plan, unless --error has to find first what to compile
+// (measure.h).
 Loaded load(const Options& options);
 
 }  // namespace shoal::app

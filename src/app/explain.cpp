@@ -1,27 +1,13 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "app/data_paths.h"
-#include "app/field_watch.h"
 #include "app/measure.h"
 #include "core/json.h"
 #include "measure/calibration_store.h"
-#include "scene/json/scene_file.h"
+#include "run/data_paths.h"
 #include "simulate/fused_kernel.h"
 
 namespace shoal::app {
-
-Loaded load(const Options& options) {
-    keepToSandbox(options, options.files.front());
-    FieldWatch watch;
-    Loaded out{readScene(options.files.front(), watch.baking()), {}};
-    apply(options, out.scene);
-    if (options.error) return out;  // what to compile is to be found yet: measure.h
-    out.plan = compile(out.scene);
-    for (const Warning& warning : out.plan.warnings)
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
-    return out;
-}
 
 // Of a context as it is nearly everywhere; what is not given is not asked of a driver. Only --error measures.
 int explainCommand(const Options& options) {

@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "app/checkpoints.h"
 #include "core/file.h"
+#include "run/checkpoints.h"
 
 namespace shoal::app {
 

@@ -3,10 +3,10 @@
 
 #include "app/commands.h"
 #include "app/field_slice.h"
-#include "app/field_watch.h"
 #include "core/file.h"
 #include "core/json.h"
 #include "core/printable.h"
+#include "run/progress.h"
 #include "geometry/load_model.h"
 #include "scene/json/scene_file.h"
 
@@ -137,8 +137,7 @@ int fieldCommand(const Options& options) {
     std::vector<Warning> warnings;
     const bool scene = lowerExtension(options.files.front()) == ".json";
     std::vector<BakedField> fields = scene ? ofScene(options, warnings) : ofModel(options, warnings);
-    for (const Warning& warning : warnings)
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(warnings);
     if (!options.only.empty())
         std::erase_if(fields,
                       [&](const BakedField& f) { return f.name.find(options.only) == std::string::npos; });

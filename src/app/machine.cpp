@@ -40,9 +40,4 @@ JsonValue headOf(const MeasuredOn& machine) {
     return out;
 }
 
-std::string roughly(double seconds) {
-    if (seconds < 90) return concat(std::max(1, int(seconds + 0.5)), " s");
-    return concat(int(seconds / 60 + 0.5), " minutes");
-}
-
 }  // namespace shoal::app

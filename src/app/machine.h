@@ -20,7 +20,4 @@ MeasuredOn measuredOn(const gpu::Context& context);  // none pinned
 std::string asText(const MeasuredOn& machine);       // one line, without its end
 JsonValue headOf(const MeasuredOn& machine);         // the first keys of a report
 
-// "3 s", "12 minutes": an estimate for people.
-std::string roughly(double seconds);
-
 }  // namespace shoal::app

@@ -4,10 +4,10 @@
 #include <new>
 
 #include "app/commands.h"
-#include "app/data_paths.h"
-#include "app/scene_list.h"
-#include "app/signals.h"
 #include "core/printable.h"
+#include "run/data_paths.h"
+#include "run/scene_list.h"
+#include "run/signals.h"
 
 // Scenes by their names become files. What `check` does not find it reports like other files.
 static void findScenes(shoal::app::Options& options) {
@@ -18,10 +18,10 @@ static void findScenes(shoal::app::Options& options) {
         case Command::explain:
         case Command::measure:
         case Command::field:
-            file = shoal::app::needScene(file);
+            file = shoal::needScene(file);
             break;
         case Command::check:
-            file = shoal::app::sceneFile(file).value_or(file);
+            file = shoal::sceneFile(file).value_or(file);
             break;
         default:
             break;
@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     // A full disk or a closed pipe shows as an error of the write that met it, not as a signal.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
-    catchSignals();
+    shoal::catchSignals();
     // Whoever writes to them, of whatever names: no terminal takes it for anything but text.
     const shoal::PrintableStream out(std::cout), messages(std::cerr);
     try {
@@ -81,7 +81,7 @@ int main(int argc, char** argv) {
         }
         std::cout.flush();
         if (!std::cout) throw shoal::Error("standard output cannot be written");
-        if (const int signal = signalThatAsked()) endBySignal(signal);
+        if (const int signal = shoal::signalThatAsked()) shoal::endBySignal(signal);
         return code;
     } catch (const std::bad_alloc&) {
         std::cerr << "shoal: out of memory\n";

@@ -4,16 +4,15 @@
 #include <thread>
 
 #include "app/commands.h"
-#include "app/data_paths.h"
-#include "app/field_watch.h"
 #include "app/gnuplot.h"
 #include "app/machine.h"
 #include "app/measure.h"
 #include "app/measure_plot.h"
-#include "app/progress.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {
@@ -105,7 +104,7 @@ CalibrationOptions calibrationOptions(const Options& options) {
     CalibrationOptions out;
     if (options.error) out.error = *options.error;
     if (options.solver && *options.solver) out.solvers = {**options.solver};
-    if (options.fieldSampling) out.samplings = {samplingNamed("--field-sampling", *options.fieldSampling)};
+    if (options.sampling) out.samplings = {*options.sampling};
     out.substeps = options.substeps;
     out.duration = options.duration;
     out.version = SHOAL_VERSION;
@@ -132,8 +131,7 @@ Calibration calibrated(const Options& options, gpu::Context& context, Loaded& lo
         calibrate(loaded.scene, calibrationOptions(options), accuracyDevice(options, context, cache));
     measure::apply(out, loaded.scene);
     loaded.plan = compile(loaded.scene);
-    for (const Warning& warning : loaded.plan.warnings)
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(loaded.plan.warnings);
     return out;
 }
 
@@ -161,19 +159,15 @@ int measureCommand(const Options& options) {
     if (!options.plot.empty()) needGnuplot(options.plot);
     if (!options.csv.empty()) checkWritable(options.csv);
     if (!options.report.empty()) return measureReport(options);
-    FieldWatch watch;
-    Scene scene = readScene(options.files.front(), watch.baking());
-    apply(options, scene);
-    for (const Warning& warning : scene.warnings)
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    const Scene scene = readScene(options.files.front(), options);
+    tellWarnings(scene.warnings);
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.visible = false;
     gpu::Context context(wanted);
     gpu::ProgramCache cache(context, cacheFolder());
     const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context, cache));
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     tell(report, options);
     return 0;
 }

@@ -21,6 +21,7 @@
 #include "core/file.h"
 #include "core/printable.h"
 #include "measure/report_scenes.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 

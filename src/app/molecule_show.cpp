@@ -7,15 +7,18 @@
 
 #include "app/canvas.h"
 #include "app/commands.h"
-#include "app/editor_stage.h"
-#include "app/editor_view.h"
 #include "core/cache_folder.h"
 #include "core/many.h"
 #include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
+#include "window/edit_widgets.h"
+#include "window/editor/overlay.h"
+#include "window/editor/stage.h"
 
 namespace shoal::app {
+
+using window::EditorStage, window::Projector, window::StageSettings;
 
 namespace {
 
@@ -23,14 +26,8 @@ constexpr size_t columns = 2, rows = 3;
 const glm::vec4 pale(0.92f, 0.96f, 0.9f, 1), warm(0.98f, 0.72f, 0.3f, 1), pinColor(1, 0.5f, 0.35f, 1),
     normalColor(0.4f, 0.75f, 1, 0.9f);
 
-std::string plain(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", number);
-    return text;
-}
-
 glm::vec4 colorOf(double strain) {
-    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(strainColor(strain, 1));
+    const ImVec4 c = ImGui::ColorConvertU32ToFloat4(window::strainColor(strain, 1));
     return {c.x, c.y, c.z, 0.9f};
 }
 
@@ -135,7 +132,7 @@ class Sheet {
             concat(many(analysis.vertices, "vertex", "vertices"), ", ",
                    many(analysis.springs, "spring", "springs"), ", ",
                    many(analysis.triangles, "triangle", "triangles")),
-            concat(plain(analysis.totalMass), " kg, ", plain(molecule_.size()), " m")};
+            concat(window::plain(analysis.totalMass), " kg, ", window::plain(molecule_.size()), " m")};
         if (pins > 0) lines.push_back(concat(pins, " pinned (squares)"));
         if (!molecule_.skin.empty())
             lines.push_back(
@@ -161,7 +158,7 @@ class Sheet {
         drawSprings(canvas, projector, stage_.positions(), 1.2f, 0.1);
         drawVertices(canvas, projector, stage_.positions(), 2.5f);
         if (mode.frequency > 0)
-            canvas.text({8, 8}, concat(plain(mode.frequency / (2 * std::numbers::pi)), " Hz"), pale);
+            canvas.text({8, 8}, concat(window::plain(mode.frequency / (2 * std::numbers::pi)), " Hz"), pale);
         else
             canvas.text({8, 8}, "soft: nothing resists it", warm);
     }

@@ -8,11 +8,11 @@
 
 #include "app/cli.h"
 #include "app/documents.h"
-#include "app/interface.h"
 #include "app/options_field.h"
 #include "app/options_measure.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
+#include "window/interface.h"
 
 namespace shoal::app {
 
@@ -204,8 +204,9 @@ void checkRanges(const Options& options) {
             throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
     atLeast("--frames", options.frames, 1);
-    if (options.scale && !(*options.scale >= leastScale && *options.scale <= mostScale))
-        throw Error(concat("--scale: expected ", leastScale, " to ", mostScale, ", found ", *options.scale));
+    if (options.scale && !(*options.scale >= window::leastScale && *options.scale <= window::mostScale))
+        throw Error(concat("--scale: expected ", window::leastScale, " to ", window::mostScale, ", found ",
+                           *options.scale));
     atLeast("--substeps", options.substeps, 1);
     atMost("--substeps", options.substeps, maxSubsteps);
     atLeast("--count", options.count, 1);
@@ -248,7 +249,6 @@ void checkRanges(const Options& options) {
     if (options.shader && (options.path == Path::pingPong || options.json))
         throw Error(
             "--shader prints the fused path's kernels as text: leave out --path ping-pong and --json");
-    if (options.fieldSampling) samplingNamed("--field-sampling", *options.fieldSampling);
 }
 
 }  // namespace
@@ -351,6 +351,7 @@ static void finish(const CLI::App& app, Options& options, const Texts& texts) {
     parseSize(texts.size, options);
     finishMolecule(app, options);
     checkRanges(options);
+    if (options.fieldSampling) options.sampling = samplingNamed("--field-sampling", *options.fieldSampling);
     readExportCells(texts.exportCells, options);
     checkField(options, texts.slice);
     finishMeasure(texts, *app.get_subcommand("measure"), options);
@@ -377,23 +378,6 @@ std::optional<Options> parseOptions(int argc, char** argv) {
         throw WrongUse(error.message());
     }
     return options;
-}
-
-void apply(const Options& options, Scene& scene) {
-    if (options.dt) scene.frameRate = 1 / *options.dt;
-    if (options.solver) scene.solver.kind = *options.solver;
-    if (options.fieldSampling)
-        scene.solver.fieldSampling = samplingNamed("--field-sampling", *options.fieldSampling);
-    if (options.substeps) scene.solver.substeps = *options.substeps;
-    if (options.seed) scene.seed = *options.seed;
-    if (!options.count) return;
-    for (Group& group : scene.groups) {
-        const bool counted =
-            group.place.kind == Placement::Kind::grid || group.place.kind == Placement::Kind::list;
-        const bool startsEmpty = group.life && group.count == 0;
-        if (!counted && !startsEmpty) group.count = *options.count;
-        if (group.life) group.life->capacity = std::max(*options.count, group.count);
-    }
 }
 
 }  // namespace shoal::app

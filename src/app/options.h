@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "app/options_molecule.h"
-#include "compile/path.h"
 #include "gpu/context.h"
-#include "scene/scene.h"
+#include "run/request.h"
 
 namespace shoal::app {
 
@@ -23,7 +22,7 @@ enum class ExportCells {
 
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
-struct Options {
+struct Options : RunRequest {
     enum class Command {
         run,
         scenes,
@@ -45,20 +44,12 @@ struct Options {
     bool sandbox = false;  // nothing is opened outside the folder of the file and the shipped data
     bool json = false;
     bool timings = false;  // time per pass
-    Path path = Path::automatic;
-    Lanes lanes = Lanes::automatic;
-    bool inPlace = false;  // fused: one side of the state
     bool shader = false;   // explain: print the kernels
     std::optional<int> frames;
     int width = 1280, height = 720;
     std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for
 
-    // Instead of what the scene says.
-    std::optional<double> dt;                         // s, of a frame
-    std::optional<std::optional<SolverKind>> solver;  // inner nothing: auto
-    std::optional<std::string> fieldSampling;
-    std::optional<int> substeps, count;
-    std::optional<uint64_t> seed;
+    std::optional<std::string> fieldSampling;  // as it was typed
 
     std::string capture;   // folder, or a video's name
     int captureEvery = 1;  // frames
@@ -66,11 +57,8 @@ struct Options {
     std::vector<int> exportFrames;
     std::optional<int> exportEvery;  // frames
     ExportCells exportCells = ExportCells::surface;
-    std::string save;             // a checkpoint
-    std::vector<int> saveFrames;  // empty: the last
-    std::string resume;           // a checkpoint to go on from
-    bool unwatched = false;       // no watchdog
-    std::string screenshot;       // window: a picture of it after `frames`, then close
+    bool unwatched = false;  // no watchdog
+    std::string screenshot;  // window: a picture of it after `frames`, then close
 
     // bench
     std::string benchOf;  // "sort", "collide", "particles", or empty: the simulation's frames
@@ -115,8 +103,5 @@ void parseSize(const std::string& text, Options& options);
 
 // Error: unknown, with the nearest; `option` is what it was given to.
 FieldSampling samplingNamed(const char* option, const std::string& word);
-
-// Puts the options' values in place of the scene's. Error: such a value is out of range.
-void apply(const Options& options, Scene& scene);
 
 }  // namespace shoal::app

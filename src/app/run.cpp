@@ -1,5 +1,3 @@
-#include "app/run.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
@@ -10,23 +8,27 @@
 #include <memory>
 #include <optional>
 
-#include "app/checkpoints.h"
-#include "app/data_paths.h"
+#include "app/commands.h"
 #include "app/export.h"
 #include "app/measure.h"
-#include "app/progress.h"
 #include "app/report.h"
-#include "app/scene_list.h"
-#include "app/signals.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/many.h"
 #include "core/printable.h"
 #include "render/picture.h"
 #include "render/renderer.h"
+#include "run/checkpoints.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
+#include "run/scene_list.h"
+#include "run/signals.h"
 #include "simulate/simulation.h"
+#include "window/windows.h"
 
 namespace shoal::app {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -74,6 +76,23 @@ SimulationOptions simulationOptions(const Options& options, gpu::Context& contex
     return out;
 }
 
+// Error: one of them lies beyond the last, or before the first, which is 0 unless the run was resumed.
+void checkFrames(const char* option, const std::vector<int>& frames, int first, int last) {
+    for (const int frame : frames) {
+        if (frame > last) throw WrongUse(concat(option, ": frame ", frame, " is beyond the last, ", last));
+        if (frame < first)
+            throw WrongUse(
+                concat(option, ": frame ", frame, " is before ", first, ", where the run goes on"));
+    }
+}
+
+// What a run writes lies here.
+std::string outputFolder(const Options& options) {
+    if (!options.save.empty()) return fs::path(options.save).parent_path().string();
+    const std::string target = options.capture.empty() ? options.exports : options.capture;
+    return lowerExtension(target).empty() ? target : fs::path(target).parent_path().string();
+}
+
 // One headless run, step by step; keeps the bytes of frames apart from those of captures and exports.
 class HeadlessRun {
   public:
@@ -84,7 +103,8 @@ class HeadlessRun {
           loaded_(std::move(loaded)),
           cache_(context, cacheFolder()),
           simulation_(context, shaderRoot(), loaded_.plan, simulationOptions(options, context, cache_)) {
-        tellWarnings(simulation_, cache_);
+        tellWarnings(simulation_.warnings());
+        tellWarnings(cache_.takeWarnings());
         report_.scene = options.files.front();
         resume(options, simulation_);
         first_ = simulation_.frames();
@@ -115,8 +135,10 @@ class HeadlessRun {
             runFrames();
         } catch (const Runaway& runaway) {
             if (pictures_) pictures_->finish();  // they show how it came about
-            throw Error(runaway.location(),
-                        concat(runaway.message(), ". ", saveForInspection(options_, simulation_, runaway)));
+            throw Error(
+                runaway.location(),
+                concat(runaway.message(), ". ",
+                       saveForInspection(outputFolder(options_), loaded_.scene.file, simulation_, runaway)));
         }
         if (pictures_) pictures_->finish();
         if (isVideo(target()) && drawn_ > 0) report_.written.push_back(target());
@@ -273,14 +295,7 @@ class HeadlessRun {
 
 }  // namespace
 
-void tellWarnings(const Simulation& simulation, gpu::ProgramCache& cache) {
-    for (const Warning& warning : simulation.warnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
-}
-
-int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
+static int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
     HeadlessRun run(options, context, std::move(loaded));
     const FinishesOnSignal finishes;
     run.go();
@@ -311,10 +326,14 @@ static int listInstead(const Options& options) {
                                                   options.files.front(), " lists those in it"));
 }
 
+static window::WindowOptions windowOptions(const Options& options) {
+    return {options.scale, options.frames, options.screenshot};
+}
+
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // mistakes in the files are told before any context is made; what the context can hold, once it is there
-    const bool chooses = options.files.empty() || std::filesystem::is_directory(options.files.front());
+    const bool chooses = options.files.empty() || fs::is_directory(options.files.front());
     if (chooses && !window) return listInstead(options);
     std::optional<Loaded> loaded;
     if (!chooses) loaded = load(options);
@@ -324,13 +343,21 @@ int runCommand(const Options& options) {
     wanted.width = options.width;
     wanted.height = options.height;
     wanted.title = "Shoal";
-    if (loaded)
-        wanted.title += " - " + printable(std::filesystem::path(options.files.front()).filename().string());
+    if (loaded) wanted.title += " - " + printable(fs::path(options.files.front()).filename().string());
     gpu::Context context(wanted);
     if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
-    if (context.window()) return runWindow(options, context, std::move(loaded));
+    if (context.window()) {
+        const std::string folder = chooses ? folderOf(options) : modelFolder();
+        window::runViewer({windowOptions(options), options, folder}, context, std::move(loaded));
+        return 0;
+    }
     if (!loaded) return listInstead(options);
     return runHeadless(options, context, std::move(*loaded));
+}
+
+int editCommand(const Options& options) {
+    window::runEditor(options.files.front(), windowOptions(options), options.width, options.height);
+    return 0;
 }
 
 }  // namespace shoal::app

@@ -1,0 +1,33 @@
+// What commands read, and where they may read it.
+#include <filesystem>
+
+#include "app/commands.h"
+#include "core/cache_folder.h"
+#include "core/sandbox.h"
+#include "run/data_paths.h"
+
+namespace shoal::app {
+
+namespace fs = std::filesystem;
+
+void keepToSandbox(const Options& options, const std::string& file) {
+    if (!options.sandbox) return;
+    fs::path own = file;
+    std::error_code code;
+    if (!fs::is_directory(own, code)) own = own.parent_path();
+    std::vector<fs::path> folders = {own.empty() ? fs::path(".") : own, shaderRoot(), moleculeFolder(),
+                                     modelFolder(), cacheFolder()};
+    for (const std::string& given : {options.resume, options.exports, options.plot})
+        folders.emplace_back(given);
+    if (!options.molecule.output.empty())
+        folders.push_back(fs::absolute(options.molecule.output).parent_path());
+    openOnlyWithin(folders);
+}
+
+Loaded load(const Options& options) {
+    const std::string& file = options.files.front();
+    if (options.error) return {readScene(file, options), {}};
+    return loadScene(file, options);
+}
+
+}  // namespace shoal::app

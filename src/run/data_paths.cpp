@@ -1,0 +1,39 @@
+#include "run/data_paths.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+#include "core/error.h"
+
+namespace shoal {
+
+namespace fs = std::filesystem;
+
+std::string shaderRoot() {
+    std::error_code code;
+    const fs::path executable = fs::read_symlink("/proc/self/exe", code);
+    std::vector<fs::path> roots;
+    if (const char* variable = std::getenv("SHOAL_DATA")) roots.emplace_back(variable);
+    roots.push_back(executable.parent_path().parent_path() / SHOAL_DATA_DIR);
+    roots.push_back(executable.parent_path().parent_path());  // a bundle (cmake/bundle.sh)
+    roots.push_back(executable.parent_path());
+    roots.emplace_back(SHOAL_SOURCE_DIR);
+    std::string tried;
+    for (const fs::path& root : roots) {
+        if (fs::exists(root / "shaders" / "passes" / "advect.frag", code)) return (root / "shaders").string();
+        tried += "\n  " + (root / "shaders").string();
+    }
+    throw Error("the shaders are missing; looked in" + tried +
+                "\n  set SHOAL_DATA to the folder that holds them");
+}
+
+std::string moleculeFolder() {
+    return (fs::path(shaderRoot()).parent_path() / "molecules").string();
+}
+
+std::string modelFolder() {
+    return (fs::path(shaderRoot()).parent_path() / "models").string();
+}
+
+}  // namespace shoal

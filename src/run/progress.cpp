@@ -1,0 +1,86 @@
+#include "run/progress.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include "core/cache_folder.h"
+#include "core/printable.h"
+
+namespace shoal {
+
+using Clock = std::chrono::steady_clock;
+
+Progress::Progress(std::string what, int total)
+    : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {}
+
+Progress::~Progress() {
+    if (terminal_ && done_ > 0) std::fputc('\n', stderr);
+}
+
+void Progress::step() {
+    ++done_;
+    const Clock::time_point now = Clock::now();
+    if (terminal_ && (done_ == total_ || now - printed_ > std::chrono::milliseconds(100))) {
+        printed_ = now;
+        print();
+    }
+    const int tenth = done_ * 10 / total_;
+    if (!terminal_ && tenth > printedTenth_) {
+        printedTenth_ = tenth;
+        print();
+    }
+}
+
+void Progress::rename(std::string what) {
+    if (terminal_) what.resize(std::max(what.size(), what_.size()), ' ');  // over what is longer
+    what_ = printable(what);
+    if (terminal_ && done_ > 0) print();
+}
+
+void Progress::print() {
+    const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
+    const double left = seconds / done_ * (total_ - done_);
+    if (!terminal_) {
+        const std::string rest = done_ < total_ ? concat(", about ", roughly(left), " left") : "";
+        std::fprintf(stderr, "%s: %d of %d, %.1f s%s\n", what_.c_str(), done_, total_, seconds, rest.c_str());
+        return;
+    }
+    constexpr int width = 32;
+    std::string bar(size_t(width * done_ / total_), '#');
+    bar.resize(width, '.');
+    std::fprintf(stderr, "\r%s [%s] %d/%d  %s left   ", what_.c_str(), bar.c_str(), done_, total_,
+                 done_ < total_ ? roughly(left).c_str() : "0 s");
+    std::fflush(stderr);
+}
+
+FieldBaking FieldWatch::baking() {
+    return {cacheFolder(), [this](double share) { show(share); }};
+}
+
+void FieldWatch::show(double share) {
+    const int now = int(share * 100);
+    if (now < shown_) {  // another field, or the same finer
+        bar_.reset();
+        shown_ = 0;
+    }
+    const auto waited = std::chrono::steady_clock::now() - start_;
+    if (!bar_ && waited < std::chrono::seconds(1)) return;
+    if (!bar_) bar_.emplace("baking a distance field", 100);
+    for (; shown_ < now; ++shown_)
+        bar_->step();
+}
+
+std::string roughly(double seconds) {
+    if (seconds < 90) return concat(std::max(1, int(seconds + 0.5)), " s");
+    return concat(int(seconds / 60 + 0.5), " minutes");
+}
+
+void tellWarnings(const std::vector<Warning>& warnings) {
+    for (const Warning& warning : warnings)
+        std::cerr << "shoal: warning: " << text(warning) << "\n";
+}
+
+}  // namespace shoal

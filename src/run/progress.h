@@ -1,0 +1,51 @@
+// What is told on standard error while a user waits, so that reports on standard output stay clean: how far
+// the work is, and warnings.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "geometry/distance_field_cache.h"
+
+namespace shoal {
+
+// A bar on a terminal, plain lines elsewhere (every tenth).
+class Progress {
+  public:
+    Progress(std::string what, int total);
+    ~Progress();
+    void step();
+    void rename(std::string what);  // the rest of the same whole is something else
+
+  private:
+    void print();
+
+    std::string what_;
+    int total_, done_ = 0, printedTenth_ = 0;
+    bool terminal_;
+    std::chrono::steady_clock::time_point start_, printed_;
+};
+
+// Shows the baking of distance fields when it takes long.
+class FieldWatch {
+  public:
+    // For readScene, while this lives: from the cache's own folder.
+    FieldBaking baking();
+
+  private:
+    void show(double share);
+
+    std::optional<Progress> bar_;
+    int shown_ = 0;  // hundredths
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+// "3 s", "12 minutes": an estimate for people.
+std::string roughly(double seconds);
+
+void tellWarnings(const std::vector<Warning>& warnings);
+
+}  // namespace shoal

@@ -1,0 +1,47 @@
+// What the user asks for of a run, in a window or without: how it is solved, what stands in place of what the
+// scene's file says, and which states are saved.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compile/path.h"
+#include "compile/plan.h"
+#include "scene/scene.h"
+
+namespace shoal {
+
+struct RunRequest {
+    Path path = Path::automatic;
+    Lanes lanes = Lanes::automatic;
+    bool inPlace = false;  // fused: one side of the state
+
+    // Instead of what the scene says.
+    std::optional<double> dt;                         // s, of a frame
+    std::optional<std::optional<SolverKind>> solver;  // inner nothing: auto
+    std::optional<FieldSampling> sampling;
+    std::optional<int> substeps, count;
+    std::optional<uint64_t> seed;
+
+    std::string save;             // a checkpoint
+    std::vector<int> saveFrames;  // empty: the last
+    std::string resume;           // a checkpoint to go on from
+};
+
+// Puts the values that were asked for in place of the scene's.
+void apply(const RunRequest& request, Scene& scene);
+
+// The scene of a file, with what was asked for; shows the baking of fields. Error: the reader's.
+Scene readScene(const std::string& file, const RunRequest& request);
+
+// That scene and its plan.
+struct Loaded {
+    Scene scene;
+    Plan plan;
+};
+// Warnings go to standard error. Error: the reader's or compile's.
+Loaded loadScene(const std::string& file, const RunRequest& request);
+
+}  // namespace shoal

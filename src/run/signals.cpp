@@ -1,0 +1,79 @@
+#include "run/signals.h"
+
+#include <pthread.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <string_view>
+
+#include "core/contract.h"
+#include "core/part_file.h"
+
+namespace shoal {
+
+namespace {
+
+// A handler may touch these, and any thread may run it.
+std::atomic<int> asked = 0;
+std::atomic<bool> finishes = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
+
+bool onTerminal = false;  // there the line has begun, with a bar and ^C
+
+void say(std::string_view line) {
+    if (::write(STDERR_FILENO, line.data(), line.size()) < 0) return;  // nobody reads it: no matter
+}
+
+void onSignal(int signal) {
+    const int before = errno;
+    int none = 0;
+    if (!finishes || !asked.compare_exchange_strong(none, signal)) endBySignal(signal);
+    if (onTerminal) say("\n");
+    say("shoal: stops after this frame; a second signal ends it at once\n");
+    errno = before;
+}
+
+}  // namespace
+
+void catchSignals() {
+    onTerminal = ::isatty(STDERR_FILENO) != 0;
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        struct sigaction now {};
+        ::sigaction(signal, nullptr, &now);
+        if (now.sa_handler == SIG_IGN) continue;
+        now = {};
+        now.sa_handler = onSignal;
+        now.sa_flags = SA_RESTART;
+        ::sigaction(signal, &now, nullptr);
+    }
+}
+
+FinishesOnSignal::FinishesOnSignal() {
+    EXPECTS(!finishes);
+    finishes = true;
+}
+
+FinishesOnSignal::~FinishesOnSignal() {
+    finishes = false;
+}
+
+int signalThatAsked() {
+    return asked;
+}
+
+void endBySignal(int signal) {
+    removePartFiles();
+    struct sigaction plain {};
+    plain.sa_handler = SIG_DFL;
+    ::sigaction(signal, &plain, nullptr);
+    sigset_t held;
+    sigemptyset(&held);
+    sigaddset(&held, signal);
+    ::pthread_sigmask(SIG_UNBLOCK, &held, nullptr);
+    ::raise(signal);
+    ::_exit(128 + signal);  // the first process of a container is not ended by a signal of its own
+}
+
+}  // namespace shoal

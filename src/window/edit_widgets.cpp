@@ -1,0 +1,155 @@
+#include "window/edit_widgets.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "window/interface.h"
+
+namespace shoal::window {
+
+namespace {
+
+constexpr double degrees = 57.29577951308232;
+constexpr float labelWidth = 136;  // points
+
+void tipHere(const Row& row) {
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) ImGui::SetTooltip("%s", row.tip);
+}
+
+ImGuiSliderFlags flagsOf(const Row& row) {
+    return ImGuiSliderFlags_AlwaysClamp | (row.steep ? ImGuiSliderFlags_Logarithmic : 0);
+}
+
+// Labels are unique within a node only together with what they belong to, which the caller has pushed.
+std::string hidden(const Row& row) {
+    return std::string("##") + row.label;
+}
+
+bool slideShown(const Row& row, const Limit& limit, double* values, int count) {
+    const double least = limit.least * row.scale, most = limit.most * row.scale;
+    const bool changed = ImGui::SliderScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count,
+                                              &least, &most, row.format, flagsOf(row));
+    tipHere(row);
+    return changed;
+}
+
+// What was shown, stored: an end of the slider is the limit itself, whatever rounding says.
+double stored(const Row& row, const Limit& limit, double shown) {
+    return std::clamp(shown / row.scale, limit.least, limit.most);
+}
+
+}  // namespace
+
+void beginRow(const Row& row) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(row.label);
+    if (ImGui::IsItemHovered() && *row.tip) ImGui::SetTooltip("%s", row.tip);
+    ImGui::SameLine(points(labelWidth));
+    ImGui::SetNextItemWidth(-1);
+}
+
+bool slide(const Row& row, const Limit& limit, double& value) {
+    beginRow(row);
+    double shown = value * row.scale;
+    if (!slideShown(row, limit, &shown, 1)) return false;
+    value = stored(row, limit, shown);
+    return true;
+}
+
+bool slide(const Row& row, const Limit& limit, int& value) {
+    beginRow(row);
+    const int least = int(limit.least), most = int(limit.most);
+    const bool changed = ImGui::SliderInt(hidden(row).c_str(), &value, least, most, row.format, flagsOf(row));
+    tipHere(row);
+    return changed;
+}
+
+bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span) {
+    beginRow(row);
+    std::array<double, 2> shown{span.x * row.scale, span.y * row.scale};
+    if (!slideShown(row, limit, shown.data(), 2)) return false;
+    const glm::dvec2 wanted(stored(row, limit, shown[0]), stored(row, limit, shown[1]));
+    if (row.free) {
+        span = wanted;
+        return true;
+    }
+    const bool least = shown[0] != span.x * row.scale;  // is the one that moved
+    span = least ? glm::dvec2(wanted.x, std::max(wanted.x, span.y))
+                 : glm::dvec2(std::min(span.x, wanted.y), wanted.y);
+    return true;
+}
+
+// Beside its label there is no room for several numbers with all their digits.
+bool drag(const Row& row, const Limit& limit, double* values, int count, double speed) {
+    ImGui::TextUnformatted(row.label);
+    tipHere(row);
+    ImGui::SetNextItemWidth(-1);
+    const bool changed =
+        ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count, float(speed),
+                           &limit.least, &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
+    tipHere(row);
+    return changed;
+}
+
+bool tick(const Row& row, bool& value) {
+    beginRow(row);
+    const bool changed = ImGui::Checkbox(hidden(row).c_str(), &value);
+    tipHere(row);
+    return changed;
+}
+
+bool pick(const Row& row, std::initializer_list<const char*> words, int& index) {
+    beginRow(row);
+    const bool changed = ImGui::Combo(hidden(row).c_str(), &index, words.begin(), int(words.size()));
+    tipHere(row);
+    return changed;
+}
+
+bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles) {
+    const auto directionOf = [](const glm::dvec2& a) {
+        return glm::dvec3(std::cos(a.x) * std::sin(a.y), std::sin(a.x), -std::cos(a.x) * std::cos(a.y));
+    };
+    if (glm::length(directionOf(angles) - direction) > 1e-6) {
+        const bool upright = std::hypot(direction.x, direction.z) < 1e-6;
+        angles.x = std::asin(std::clamp(direction.y, -1.0, 1.0));
+        if (!upright) angles.y = std::atan2(direction.x, -direction.z);
+    }
+    const double quarter = 90 / degrees;
+    bool changed = slide({"elevation", tip, "%.1f\xC2\xB0", false, degrees}, {-quarter, quarter}, angles.x);
+    changed |= slide({"heading", "Which way around: 0 is -z, 90 is +x.", "%.1f\xC2\xB0", false, degrees},
+                     {-2 * quarter, 2 * quarter}, angles.y);
+    if (!changed) return false;
+    direction = glm::normalize(directionOf(angles));
+    for (int i = 0; i < 3; ++i)  // straight up is written as such
+        if (std::abs(direction[i]) < 1e-12) direction[i] = 0;
+    return true;
+}
+
+void heading(const char* words) {
+    ImGui::Spacing();
+    ImGui::TextColored(ImVec4(0.55f, 0.78f, 0.42f, 1), "%s", words);
+    ImGui::Separator();
+}
+
+bool toggle(const char* label, bool on) {
+    if (on) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
+    const bool pressed = ImGui::Button(label);
+    if (on) ImGui::PopStyleColor();
+    return pressed;
+}
+
+void tip(const char* words) {
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", words);
+}
+
+std::string plain(double number) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.4g", number);
+    return text;
+}
+
+}  // namespace shoal::window

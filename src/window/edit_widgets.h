@@ -1,0 +1,45 @@
+// Rows of the editor: a label with a tip at the left, what is edited at the right, all in one column however
+// deep they are; several numbers to drag are below their label. Each says whether the user changed it in this
+// frame. Numbers stay within their limit, also when they are typed (Ctrl and a click).
+#pragma once
+
+#include <initializer_list>
+#include <string>
+
+#include <glm/glm.hpp>
+
+#include "scene/edit_limits.h"
+
+namespace shoal::window {
+
+struct Row {
+    const char* label;
+    const char* tip;              // a short sentence
+    const char* format = "%.2f";  // with the unit
+    bool steep = false;           // logarithmic: small numbers have more room
+    double scale = 1;             // what is shown is this times what is stored
+    bool free = false;            // slideSpan: two numbers that do not push each other
+};
+
+bool slide(const Row& row, const Limit& limit, double& value);
+bool slide(const Row& row, const Limit& limit, int& value);
+bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
+bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
+bool tick(const Row& row, bool& value);
+bool pick(const Row& row, std::initializer_list<const char*> words, int& index);
+
+// Two sliders for a unit vector: above the horizon, and around from -z over +x. `angles` remembers them where
+// the vector cannot (straight up); rad.
+bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles);
+
+// ---- Beside rows
+
+void heading(const char* words);
+bool toggle(const char* label, bool on);  // a button that looks pressed
+void tip(const char* words);              // of what was drawn last
+std::string plain(double number);         // four digits
+
+// Of a row with something else at the right: what is drawn next takes it.
+void beginRow(const Row& row);
+
+}  // namespace shoal::window

@@ -1,0 +1,60 @@
+// The molecule as the editor shows it over the picture: springs, vertices, normals and what is selected,
+// drawn as lines by the interface; and what lies under the pointer.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <vector>
+
+#include <imgui.h>
+
+#include "author/edit.h"
+#include "render/view.h"
+
+namespace shoal::window {
+
+// From the scene to places in the window and back. Places: in the interface's units, from the upper left.
+class Projector {
+  public:
+    Projector(const View& view, ImVec2 size);
+
+    std::optional<ImVec2> place(const glm::dvec3& point) const;  // nothing: behind the eye
+    double depth(const glm::dvec3& point) const;                 // m, from the eye
+    // Where the ray through a place meets the plane through `point` that faces the eye.
+    glm::dvec3 onPlane(ImVec2 place, const glm::dvec3& point) const;
+
+  private:
+    glm::dvec3 eye_, ahead_, right_, up_;
+    double tangent_;
+    ImVec2 size_;
+};
+
+// What is drawn besides the picture.
+struct EditorOverlay {
+    bool springs = true, vertices = true, normals = false, numbers = false;
+    bool tension = true;                                   // springs by their strain, else in one colour
+    double strainShown = 0.05;                             // of full colour
+    std::set<int> marked, markedSprings, markedTriangles;  // what advice is about
+    ElementSet selection;
+    std::optional<int> hoveredVertex, hoveredSpring, hoveredTriangle;
+    std::vector<int> chain;  // of a spring or triangle that is being drawn
+    std::optional<ImVec2> chainEnd;
+    int mirrorAxis = -1;  // of symmetry; -1: none
+};
+
+// `strains`: of each spring; empty: not known.
+void drawOverlay(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
+                 const std::vector<double>& strains, const Projector& projector,
+                 const EditorOverlay& overlay);
+// From squeezed over slack to stretched, as drawn: blue, green, red. `share` in [-1, 1].
+ImU32 strainColor(double share, float opacity);
+
+// Under a place, nearest first to the pointer and then to the eye; nothing within reach.
+std::optional<int> vertexAt(const std::vector<glm::dvec3>& positions, const Projector& projector,
+                            ImVec2 place);
+std::optional<int> springAt(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
+                            const Projector& projector, ImVec2 place);
+std::optional<int> triangleAt(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
+                              const Projector& projector, ImVec2 place);
+
+}  // namespace shoal::window

@@ -1,0 +1,101 @@
+// Where the molecule that is edited lives: one of it, simulated and drawn as in any scene, in wind, dropped
+// on a plane, or still. It follows what is edited while it moves; springs' numbers within a frame.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/image.h"
+#include "gpu/program_cache.h"
+#include "molecule/modes.h"
+#include "render/renderer.h"
+#include "simulate/simulation.h"
+
+namespace shoal::window {
+
+struct StageSettings {
+    enum class Around { still, wind, drop };
+    Around around = Around::wind;
+    double wind = 4;        // m/s
+    double gravity = 9.81;  // m/s^2, but for still
+    double drag = 6;        // 1/s, across the surface; along it a fifth
+    bool pinsHold = true;
+    bool floorShows = true;
+    int substeps = 8;                  // of a frame of 1/60 s
+    std::optional<SolverKind> solver;  // nothing: chosen by the stiffness
+    bool operator==(const StageSettings&) const = default;
+};
+
+class EditorStage {
+  public:
+    EditorStage(gpu::Context& context, gpu::ProgramCache& cache);
+
+    // What is edited, valid, and how it is played: what differs from before is taken over. Error: compile's;
+    // the stage goes on as it was.
+    void show(const Molecule& molecule, const StageSettings& settings);
+    bool ready() const { return simulation_ != nullptr; }
+
+    bool playing = false;
+    // One frame, if it plays. What ran away stops, and the message says so; else empty.
+    std::string advance();
+    void step();           // one frame
+    void rewind();         // to the rest shape
+    void seek(int frame);  // one that was played
+    int frame() const { return frame_; }
+    int frames() const { return int(played_.size()); }  // that were played, the rest shape with them
+    double time() const { return frame_ / 60.0; }       // s
+    bool moved() const {
+        return ready() && (playing || frame_ > 0);
+    }  // or it moves: the molecule is not as edited
+
+    // A vertex that the pointer holds follows it. Nothing: none is held.
+    struct Pull {
+        int vertex = 0;
+        glm::dvec3 target{0};  // m
+    };
+    std::optional<Pull> pull;
+    // Shows a motion instead of playing: rest shape + shape * reach (m).
+    void wobble(const Mode& mode, double reach);
+    void rest();  // back to what was played
+
+    void draw(const View& view, int width, int height);  // into the window
+    Image picture(const View& view, int width, int height);
+    // Of the vertices, as they are drawn.
+    const std::vector<glm::dvec3>& positions() const { return positions_; }
+
+    SolverKind solver() const { return simulation_->plan().groups[0].solver; }
+    const std::string& solverWhy() const { return simulation_->plan().groups[0].solverWhy; }
+
+  private:
+    Scene sceneOf(const Molecule& molecule, const StageSettings& settings) const;
+    void rebuild(Plan plan, bool goOn);
+    void takePositions();
+    void applyPull();
+
+    gpu::Context* context_;
+    gpu::ProgramCache* cache_;
+    Scene scene_;
+    StageSettings settings_;
+    Molecule drawn_;  // that the renderer was made for
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<Renderer> renderer_;
+    std::vector<SavedState> played_;
+    int frame_ = 0;
+    double floor_ = 0;  // m
+    std::vector<glm::dvec3> positions_;
+    bool wobbling_ = false;
+};
+
+// What the molecule costs: many of it, stepped here and now.
+struct MoleculeCost {
+    double secondsPerMolecule = 0;  // of a frame, simulate only
+    int measuredAt = 0;             // molecules
+    std::string machine;            // in words
+};
+// Steps `count` of the molecule in a field of gusts for about a tenth of a second. Error: compile's.
+MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule,
+                         const StageSettings& settings, int count = 4096);
+
+}  // namespace shoal::window

@@ -1,0 +1,89 @@
+#include "window/hot_reload.h"
+
+#include <algorithm>
+#include <iostream>
+#include <set>
+
+#include "core/printable.h"
+#include "run/data_paths.h"
+
+namespace shoal::window {
+
+void HotReload::follow(const RunningScene& running, bool fresh) {
+    watch_.watch(running.files());
+    if (!fresh) return;
+    problem_.clear();
+    conflicts_.clear();
+    changed_.clear();
+    stale_ = false;
+}
+
+bool HotReload::update(RunningScene& running, double now) {
+    const std::vector<std::string> changed = watch_.changed(now);
+    if (changed.empty()) return false;
+    for (const std::string& file : changed) {
+        if (std::find(changed_.begin(), changed_.end(), file) == changed_.end()) changed_.push_back(file);
+        stale_ |= file.rfind(shaderRoot(), 0) != 0;
+    }
+    return reload(running, {});
+}
+
+bool HotReload::settle(RunningScene& running, Prefer prefer) {
+    conflicts_.clear();
+    return reload(running, prefer);
+}
+
+bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
+    bool built = false;
+    try {
+        if (stale_) {
+            const RunningScene::Reloaded reloaded = running.reload(prefer);
+            built = reloaded.conflicts.empty() || prefer;
+            conflicts_ = prefer ? std::vector<std::string>() : reloaded.conflicts;
+            if (built)
+                tell(reloaded);
+            else if (!prefer)
+                tellConflicts(running);
+        } else {
+            running.remakePrograms();
+            built = true;
+            tell({});
+        }
+        problem_.clear();
+    } catch (const Error& error) {
+        fail(error);
+    }
+    // a file may name others than before, even where it cannot be taken yet
+    follow(running, false);
+    if (!built) return false;
+    stale_ = false;
+    changed_.clear();
+    return true;
+}
+
+void HotReload::tell(const RunningScene::Reloaded& reloaded) {
+    std::cout << "reloaded:";
+    for (const std::string& file : changed_)
+        std::cout << " " << printable(file);
+    if (!reloaded.restarted.empty()) std::cout << "; begins anew:";
+    for (const std::string& group : reloaded.restarted)
+        std::cout << " " << printable(group);
+    std::cout << std::endl;
+}
+
+void HotReload::tellConflicts(const RunningScene& running) const {
+    std::cerr << "shoal: warning: not reloaded yet: " << printable(running.original().file)
+              << " and the window both changed";
+    for (const std::string& conflict : conflicts_)
+        std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << printable(conflict);
+    std::cerr << std::endl;
+}
+
+void HotReload::fail(const Error& error) {
+    if (problem_ == error.what()) return;
+    problem_ = error.what();
+    conflicts_.clear();
+    std::cerr << "shoal: warning: not reloaded: " << problem_ << std::endl;
+}
+
+}  // namespace shoal::window

@@ -1,0 +1,111 @@
+#include "window/interface.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace shoal::window {
+
+static constexpr float fontHeight = 13;  // points: the size at which the built-in font was drawn
+
+static void style(float unitsPerPoint) {
+    ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();
+    ImGui::StyleColorsDark();
+    style.WindowRounding = 6;
+    style.FrameRounding = style.GrabRounding = 4;
+    style.WindowPadding = ImVec2(12, 10);
+    style.ItemSpacing = ImVec2(8, 5);
+    style.WindowBorderSize = 0;
+    const auto color = [&](ImGuiCol which, float r, float g, float b, float a) {
+        style.Colors[which] = ImVec4(r, g, b, a);
+    };
+    color(ImGuiCol_WindowBg, 0.07f, 0.085f, 0.08f, 0.88f);
+    color(ImGuiCol_TitleBg, 0.11f, 0.16f, 0.11f, 0.95f);
+    color(ImGuiCol_TitleBgActive, 0.16f, 0.25f, 0.14f, 1);
+    color(ImGuiCol_FrameBg, 0.17f, 0.2f, 0.18f, 1);
+    color(ImGuiCol_FrameBgHovered, 0.22f, 0.28f, 0.22f, 1);
+    color(ImGuiCol_FrameBgActive, 0.26f, 0.34f, 0.25f, 1);
+    color(ImGuiCol_CheckMark, 0.5f, 0.68f, 0.33f, 1);
+    color(ImGuiCol_SliderGrab, 0.5f, 0.68f, 0.33f, 1);
+    color(ImGuiCol_SliderGrabActive, 0.62f, 0.8f, 0.42f, 1);
+    color(ImGuiCol_PlotHistogram, 0.3f, 0.44f, 0.22f, 1);
+    color(ImGuiCol_Button, 0.22f, 0.32f, 0.19f, 1);
+    color(ImGuiCol_ButtonHovered, 0.3f, 0.44f, 0.25f, 1);
+    color(ImGuiCol_ButtonActive, 0.38f, 0.55f, 0.3f, 1);
+    color(ImGuiCol_Header, 0.22f, 0.32f, 0.19f, 1);
+    color(ImGuiCol_HeaderHovered, 0.3f, 0.44f, 0.25f, 1);
+    color(ImGuiCol_HeaderActive, 0.38f, 0.55f, 0.3f, 1);
+    color(ImGuiCol_TableHeaderBg, 0.13f, 0.17f, 0.13f, 1);
+    style.ScaleAllSizes(unitsPerPoint);
+}
+
+Interface::Interface(GLFWwindow* window, std::optional<double> scale) : window_(window), scale_(scale) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // the panel's place is not worth a file in the user's folder
+    ImGui_ImplGlfw_InitForOpenGL(window, false);
+    input_ = std::make_unique<Input>(window);
+    ImGui_ImplOpenGL3_Init("#version 330");
+    makeFont(density());
+}
+
+Interface::~Interface() {
+    input_.reset();
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+// Where the window system counts in units of several pixels (Wayland, macOS), those are part of the scale
+// that it asks for.
+Interface::Density Interface::density() const {
+    int width = 0, height = 0, pixelsWide = 0, pixelsHigh = 0;
+    glfwGetWindowSize(window_, &width, &height);
+    glfwGetFramebufferSize(window_, &pixelsWide, &pixelsHigh);
+    if (height < 1 || pixelsHigh < 1) return made_;  // minimised
+    float asked = 1, ignored = 1;
+    glfwGetWindowContentScale(window_, &asked, &ignored);
+    const float pixelsPerPoint = float(std::clamp(scale_.value_or(double(asked)), leastScale, mostScale));
+    const float pixelsPerUnit = float(pixelsHigh) / float(height);
+    return {pixelsPerPoint / pixelsPerUnit, pixelsPerUnit};
+}
+
+void Interface::makeFont(const Density& density) {
+    made_ = density;
+    style(density.unitsPerPoint);
+    ImGuiIO& io = ImGui::GetIO();
+    ImFontConfig font;
+    font.SizePixels = std::round(fontHeight * density.unitsPerPoint * density.pixelsPerUnit);
+    io.Fonts->Clear();
+    io.Fonts->AddFontDefault(&font);
+    io.FontGlobalScale = 1 / density.pixelsPerUnit;
+    ImGui_ImplOpenGL3_DestroyFontsTexture();
+    ImGui_ImplOpenGL3_CreateFontsTexture();
+}
+
+float points(float count) {
+    return std::round(count * ImGui::GetFontSize() / fontHeight);
+}
+
+void Interface::begin() {
+    const Density now = density();
+    if (!(now == made_)) makeFont(now);
+    input_->next();
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    input_->settle();
+    ImGui::NewFrame();
+}
+
+void Interface::end() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+}  // namespace shoal::window

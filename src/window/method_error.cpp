@@ -1,0 +1,59 @@
+#include "window/method_error.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "measure/accuracy_reference.h"
+
+namespace shoal::window {
+
+using namespace measure;
+
+namespace {
+
+constexpr int molecules = 4;      // of each group
+constexpr double duration = 0.5;  // s
+constexpr double secondsAMolecule = 0.5;
+
+// What the reference does not have.
+std::string lacking(const Plan& plan) {
+    if (plan.contact.any()) return "no error: the reference has no contact between molecules";
+    if (plan.hasLife()) return "no error: the reference has no birth and death";
+    return {};
+}
+
+}  // namespace
+
+std::string methodError(const Scene& scene, const Simulation& simulation, const AccuracyDevice& device) {
+    const Plan& plan = simulation.plan();
+    const std::string lack = lacking(plan);
+    if (!lack.empty()) return lack;
+    try {
+        const Scene few = withMolecules(scene, molecules);
+        MethodRunner runner(few, {plan.groups.front().solver, plan.fieldSampling}, device);
+        const Step step{simulation.parameters.substeps, 1};
+        const std::string refusal = runner.refusal(step);
+        if (!refusal.empty()) return "no error: " + refusal;
+        runner.set(step);
+        runner.restart();
+        const int frames = std::max(1, int(std::lround(duration * scene.frameRate)));
+        ExactEnds ends(few, runner.simulation().plan(), runner.snapshots(), frames / scene.frameRate,
+                       device.cores, molecules);
+        const Settled settled = ends.solve(1e-6, secondsAMolecule);
+        if (settled == Settled::chaotic) return "no error: the motion is chaotic";
+        if (settled == Settled::tooStiff) return "no error: too stiff for a reference in time";
+        runner.run(frames);
+        const std::vector<Snapshot> reached = runner.snapshots();
+        if (!ExactEnds::finite(reached)) return "it blows up";
+        char text[96];
+        std::snprintf(text, sizeof text, "error %.1e of its size (RMS of %d after %.2g s)",
+                      std::max(ends.errorOf(reached).total, ends.error()), ends.molecules(),
+                      frames / scene.frameRate);
+        return text;
+    } catch (const Error& error) {
+        return concat("no error: ", error.message());
+    }
+}
+
+}  // namespace shoal::window

@@ -1,0 +1,71 @@
+// What the window has to say or to ask, over the picture.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/error.h"
+#include "core/json_merge.h"
+
+namespace shoal::window {
+
+// What is wrong now, each by its cause: it is shown until that is gone, or the user closes it.
+class Troubles {
+  public:
+    // False: it was said already.
+    bool begin(const std::string& cause, const std::string& words);
+    void warn(const std::string& cause, const std::string& words);          // begin(), and on standard error
+    bool end(const std::string& cause) { return words_.erase(cause) > 0; }  // true: it was shown
+    void clear() { words_.clear(); }
+    // Each attempt that fails is told anew.
+    template <typename Work>
+    void attempt(const std::string& cause, const Work& work) {
+        end(cause);
+        try {
+            work();
+        } catch (const Error& error) {
+            warn(cause, error.what());
+        }
+    }
+    std::string text() const;  // empty: nothing is wrong
+
+  private:
+    std::map<std::string, std::string> words_;  // by their causes
+};
+
+// At the top (of a narrow window, at the bottom), between `left` and `right` (from the window's right edge):
+// why changed files do not run, as long as that is so, and a message with a button to close it. True: it was
+// pressed. Empty: nothing is shown.
+bool showNotices(const std::string& problem, const std::string& message, float left, float right);
+
+// One line at the bottom.
+class StatusLine {
+  public:
+    void say(const std::string& line);      // for some seconds
+    void draw(const std::string& instead);  // of what goes on now; empty: nothing does
+
+  private:
+    std::string line_;
+    double saidAt_ = -1e9;  // s
+};
+
+void drawOpening(const std::string& file);  // that a scene is being opened
+
+// Of the question whether to save, before something goes on ("close").
+enum class Answer { none, save, discard, stay };
+Answer askBeforeLeaving(const std::string& file, const char* what);
+
+// Of what was edited in the window and changed in the file, too. Nothing: not answered yet. Without conflicts
+// nothing is asked any more.
+std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts);
+
+// Keys and what they do, over the picture: rows that a row of nulls ends. False: the user closed it.
+struct HelpRow {
+    const char* keys;
+    const char* what;
+};
+bool showHelp(const char* title, const HelpRow* rows);
+
+}  // namespace shoal::window

@@ -1,0 +1,270 @@
+#include "window/running_scene.h"
+
+#include <algorithm>
+
+#include "core/file.h"
+#include "molecule/molecule_file.h"
+#include "run/data_paths.h"
+#include "run/progress.h"
+#include "scene/json/scene_file.h"
+#include "scene/json/scene_files.h"
+#include "scene/json/saver.h"
+#include "simulate/carry_over.h"
+
+namespace shoal::window {
+
+namespace {
+
+// What is edited and saved of groups.
+void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
+    for (size_t g = 0; g < from.size(); ++g) {
+        to[g].life = from[g].life;
+        to[g].particle = from[g].particle;
+        to[g].school = from[g].school;
+        to[g].color = from[g].color;
+        to[g].secondColor = from[g].secondColor;
+    }
+}
+
+void settleParticles(Scene& scene) {
+    for (Group& group : scene.groups)
+        if (group.particle) group.molecule = moleculeOf(*group.particle);
+}
+
+// As they stand, so that sliders go on from there; what is new is as the plan has it.
+Parameters carriedParameters(const Parameters& old, const Parameters& fresh) {
+    Parameters out = old;
+    out.frameTime = fresh.frameTime;
+    out.forces = fresh.forces;
+    if (old.forces.size() == fresh.forces.size())
+        for (size_t i = 0; i < out.forces.size(); ++i)
+            out.forces[i].factor = old.forces[i].factor;
+    return out;
+}
+
+const Group* named(const Scene& scene, const std::string& name) {
+    for (const Group& group : scene.groups)
+        if (group.name == name) return &group;
+    return nullptr;
+}
+
+}  // namespace
+
+RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, gpu::ProgramCache& cache,
+                           Loaded loaded, int width, int height)
+    : request_(request),
+      context_(&context),
+      cache_(&cache),
+      original_(loaded.scene),
+      path_(request.path),
+      width_(width),
+      height_(height) {
+    build(std::move(loaded.scene), loaded.plan, path_);
+}
+
+View RunningScene::view() const {
+    return View::of(scene.camera, simulation_ ? simulation_->time() : 0);
+}
+
+std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
+    SimulationOptions wanted;
+    wanted.timing = gpu::PassTimers::suitedTo(context_->info());
+    wanted.path = path;
+    // what was asked of the fused path does not bind the other
+    if (path != Path::pingPong) wanted.inPlace = request_.inPlace, wanted.lanes = request_.lanes;
+    wanted.cache = cache_;
+    return std::make_unique<Simulation>(*context_, shaderRoot(), std::move(plan), wanted);
+}
+
+// Where the path is free, the one that runs, unless the new plan is not for it: a shader that the driver
+// refuses is a mistake to be told, no reason to take the other path.
+std::unique_ptr<Simulation> RunningScene::simulateAsBefore(const Plan& plan, Path path) {
+    if (path != Path::automatic || !simulation_) return simulate(plan, path);
+    try {
+        return simulate(plan, simulation_->path().path);
+    } catch (const Error& error) {
+        if (context_->shaderFiles().count(error.location().file) > 0) throw;
+        return simulate(plan, path);
+    }
+}
+
+// Beside what runs. Programs of a picture are made when it is drawn: one picture tells whether they can be.
+std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path path) {
+    std::unique_ptr<Simulation> simulation = simulateAsBefore(plan, path);
+    tellWarnings(simulation->warnings());
+    tellWarnings(cache_->takeWarnings());
+    RenderOptions size;
+    size.width = renderer_ ? renderer_->width() : width_;
+    size.height = renderer_ ? renderer_->height() : height_;
+    size.timing = simulation->timers().mode();
+    auto renderer = std::make_unique<Renderer>(*context_, shaderRoot(), next, simulation->plan(), size);
+    std::vector<std::string> restarted;
+    if (simulation_) {
+        GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());
+        simulation->load(gone.state);
+        simulation->parameters = carriedParameters(simulation_->parameters, simulation->parameters);
+        renderer->draw(simulation->state(), view());
+        restarted = std::move(gone.restarted);
+    }
+    renderer_ = std::move(renderer);
+    simulation_ = std::move(simulation);
+    scene = std::move(next);
+    accepted_ = scene.groups;
+    acceptedChoices_ = choices;
+    return restarted;
+}
+
+// A stiffer molecule takes more substeps instead of being refused.
+Plan RunningScene::compileStably(Scene& next) const {
+    for (int tries = 0; tries < 12; ++tries) {
+        try {
+            return compile(next);
+        } catch (const Error&) {
+            if (next.solver.substeps >= 256) throw;
+            next.solver.substeps *= 2;
+        }
+    }
+    return compile(next);
+}
+
+void RunningScene::applyChoices(Scene& next, const Scene& from) const {
+    next.solver.kind = choices.solver.value_or(from.solver.kind);
+    next.solver.substeps = from.solver.substeps;
+    for (size_t g = 0; g < next.groups.size(); ++g) {
+        Group& group = next.groups[g];
+        const Group& own = from.groups[g];
+        const auto found = choices.groups.find(group.name);
+        const GroupChoice choice = found == choices.groups.end() ? GroupChoice() : found->second;
+        group.count = choice.count.value_or(own.count);
+        if (group.life) group.life->capacity = std::max(group.life->capacity, group.count);
+        if (group.particle) continue;
+        group.molecule = choice.molecule.empty() ? own.molecule : readMolecule(choice.molecule);
+        Material& material = group.molecule.material;
+        material.roughness = choice.roughness.value_or(material.roughness);
+        material.translucency = choice.translucency.value_or(material.translucency);
+        material.opacity = choice.opacity.value_or(material.opacity);
+    }
+}
+
+void RunningScene::edit() {
+    try {
+        Scene next = scene;
+        settleParticles(next);
+        next.solver.substeps = original_.solver.substeps;
+        const Plan plan = compileStably(next);
+        build(std::move(next), plan, path_);
+    } catch (const Error&) {
+        copyEdits(accepted_, scene.groups);
+        settleParticles(scene);
+        throw;
+    }
+}
+
+void RunningScene::choose() {
+    try {
+        Scene next = scene;
+        applyChoices(next, original_);
+        settleParticles(next);
+        const Plan plan = compileStably(next);
+        build(std::move(next), plan, path_);
+    } catch (const Error&) {
+        choices = acceptedChoices_;
+        throw;
+    }
+}
+
+void RunningScene::switchPath(Path path) {
+    build(scene, simulation_->plan(), path);
+    path_ = path;
+}
+
+// The path as it is: one that takes another when a program is refused would hide the mistake.
+void RunningScene::remakePrograms() {
+    build(scene, simulation_->plan(), simulation_->path().path);
+}
+
+bool RunningScene::unsaved() const {
+    return differ(original_, scene);
+}
+
+void RunningScene::save() {
+    saveEdits(original_, scene);
+    copyEdits(scene.groups, original_.groups);
+}
+
+void RunningScene::revert() {
+    copyEdits(original_.groups, scene.groups);
+    edit();
+}
+
+// Those whose value the file changed, too.
+std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const {
+    std::vector<std::string> out;
+    if (choices.solver && theirs.solver.kind != original_.solver.kind &&
+        theirs.solver.kind != *choices.solver)
+        out.emplace_back("$.solver.method");
+    for (const auto& [name, choice] : choices.groups) {
+        const Group *before = named(original_, name), *now = named(theirs, name);
+        if (!before || !choice.any()) continue;
+        if (!now) {
+            out.push_back(concat("the group \"", name, "\""));
+            continue;
+        }
+        if (choice.count && now->count != before->count && now->count != *choice.count)
+            out.push_back(concat("count of \"", name, "\""));
+        if (!choice.molecule.empty() && now->molecule.file != before->molecule.file)
+            out.push_back(concat("molecule of \"", name, "\""));
+        const Material &was = before->molecule.material, &is = now->molecule.material;
+        const auto look = [&, &group = name](const std::optional<double>& chosen, double old, double fresh,
+                                             const char* what) {
+            if (chosen && old != fresh && fresh != *chosen)
+                out.push_back(concat(what, " of \"", group, "\""));
+        };
+        look(choice.roughness, was.roughness, is.roughness, "roughness");
+        look(choice.translucency, was.translucency, is.translucency, "translucency");
+        look(choice.opacity, was.opacity, is.opacity, "opacity");
+    }
+    return out;
+}
+
+RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
+    const std::string text = readFile(original_.file);
+    FieldWatch baking;
+    Scene theirs = parseScene(text, original_.file, baking.baking());
+    apply(request_, theirs);
+    MergedEdits merged = mergeEdits(original_, scene, theirs, text, prefer.value_or(Prefer::mine));
+    const std::vector<std::string> changed = changedChoices(theirs);
+    Reloaded out{std::move(merged.conflicts), {}};
+    out.conflicts.insert(out.conflicts.end(), changed.begin(), changed.end());
+    if (!out.conflicts.empty() && !prefer) return out;
+    if (prefer == Prefer::mine && !merged.possible) return out;  // nowhere to put them: what runs, runs on
+
+    const Choices before = choices;
+    if (prefer == Prefer::theirs && !changed.empty()) choices = {};
+    try {
+        Scene next = theirs;
+        next.groups = std::move(merged.groups);
+        applyChoices(next, theirs);
+        settleParticles(next);
+        const Plan plan = compileStably(next);
+        tellWarnings(plan.warnings);
+        out.restarted = build(std::move(next), plan, path_);
+    } catch (const Error&) {
+        choices = before;
+        throw;
+    }
+    original_ = std::move(theirs);
+    return out;
+}
+
+std::vector<std::string> RunningScene::files() const {
+    std::vector<std::string> out = filesOf(original_.file);
+    for (const Group& group : scene.groups)
+        if (!group.molecule.file.empty()) out.push_back(group.molecule.file);
+    for (const Model& model : scene.models)
+        out.push_back(model.file);
+    out.insert(out.end(), context_->shaderFiles().begin(), context_->shaderFiles().end());
+    return out;
+}
+
+}  // namespace shoal::window

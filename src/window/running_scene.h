@@ -1,0 +1,95 @@
+// A scene that runs in the window: as its file says, as it was changed since, and what simulates and draws
+// it.
+//
+// Whatever needs another simulation is built beside the one that runs and takes its place, and its state,
+// only once it is there: what cannot be had is thrown, and what ran runs on.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/json_merge.h"
+#include "gpu/program_cache.h"
+#include "render/renderer.h"
+#include "run/request.h"
+#include "simulate/simulation.h"
+
+namespace shoal::window {
+
+// What the panel chose in place of what the scene says. It is not saved, and stays when the file changes.
+struct GroupChoice {
+    std::optional<int> count;
+    std::string molecule;  // its file; empty: as in the scene
+    // Of the molecule's material.
+    std::optional<double> roughness, translucency, opacity;
+    bool any() const { return count || !molecule.empty() || roughness || translucency || opacity; }
+};
+struct Choices {
+    std::map<std::string, GroupChoice> groups;        // by their names
+    std::optional<std::optional<SolverKind>> solver;  // inner nothing: auto
+};
+
+class RunningScene {
+  public:
+    // Error: the scene does not fit the context; the driver refuses a program.
+    RunningScene(const RunRequest& request, gpu::Context& context, gpu::ProgramCache& cache, Loaded loaded,
+                 int width, int height);
+
+    Scene scene;      // as it is edited; what it does to the run is told by the functions below
+    Choices choices;  // the same
+    const Scene& original() const { return original_; }  // as in its file
+    Simulation& simulation() { return *simulation_; }
+    const Simulation& simulation() const { return *simulation_; }
+    Renderer& renderer() { return *renderer_; }
+
+    // ---- Each of these: Error, and everything is as it was, but for edit() and choose(), which take back
+    // what cannot be had.
+
+    void edit();    // `scene` was edited so that it needs another plan
+    void choose();  // `choices` were changed
+    void switchPath(Path path);
+    void save();    // into the file
+    void revert();  // to what the file said when it was read or saved last
+    void remakePrograms();
+
+    bool unsaved() const;  // differs from the file
+    // What was accepted last: edits from then on may be taken back.
+    void accept() { accepted_ = scene.groups; }
+
+    // The file, or one that it names, has changed. Edits that are not saved, and choices, are kept where the
+    // file did not change the same value; else nothing happens but that the conflicts are returned, unless
+    // `prefer` says who wins.
+    struct Reloaded {
+        std::vector<std::string> conflicts;  // what both changed, each its own way
+        std::vector<std::string> restarted;  // groups that begin anew: they have another shape
+    };
+    Reloaded reload(std::optional<Prefer> prefer = {});
+
+    // All files that were read for it, those of its programs among them.
+    std::vector<std::string> files() const;
+
+  private:
+    std::unique_ptr<Simulation> simulate(Plan plan, Path path);
+    std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
+    std::vector<std::string> build(Scene next, const Plan& plan, Path path);
+    Plan compileStably(Scene& next) const;
+    void applyChoices(Scene& next, const Scene& from) const;
+    std::vector<std::string> changedChoices(const Scene& theirs) const;
+    View view() const;
+
+    const RunRequest& request_;
+    gpu::Context* context_;
+    gpu::ProgramCache* cache_;
+    Scene original_;
+    std::vector<Group> accepted_;
+    Choices acceptedChoices_;
+    Path path_;
+    int width_, height_;  // pixels, at the start
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace shoal::window

@@ -1,0 +1,205 @@
+#include "window/scene_panel.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "window/edit_widgets.h"
+#include "window/interface.h"
+
+namespace shoal::window {
+
+namespace {
+
+constexpr float panelWidth = 368;    // points
+constexpr double countEvery = 0.25;  // s: each reading waits for the GPU
+
+// 12345678 as 12,345,678.
+std::string grouped(uint64_t number) {
+    std::string out = std::to_string(number);
+    for (int at = int(out.size()) - 3; at > 0; at -= 3)
+        out.insert(size_t(at), ",");
+    return out;
+}
+
+// Of the plan that runs; groups without molecules are not in it.
+std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        if (plan.groups[g].index == group) return g;
+    return {};
+}
+
+bool pickColor(const char* label, const char* tip, const glm::dvec3& shown,
+               std::optional<glm::dvec3>& color) {
+    std::array<float, 3> value{float(shown.x), float(shown.y), float(shown.z)};
+    beginRow({label, tip});
+    if (!ImGui::ColorEdit3(concat("##", label).c_str(), value.data(), ImGuiColorEditFlags_Float))
+        return false;
+    glm::dvec3 out(0);
+    for (int i = 0; i < 3; ++i)
+        out[i] = std::clamp(std::round(double(value[size_t(i)]) * 1000) / 1000, 0.0, 1.0);
+    color = out;
+    return true;
+}
+
+// Sliders for the looks of a group of molecules; whether the user changed them in this frame. Colours are the
+// scene's and are saved; what the molecule's file says is changed for this run only, in `choice`.
+bool drawMaterial(Group& group, GroupChoice& choice) {
+    Material& material = group.molecule.material;
+    const glm::dvec3 first = group.color.value_or(material.color);
+    const glm::dvec3 second =
+        group.secondColor.value_or(group.color.value_or(material.secondColor.value_or(material.color)));
+    bool changed = false;
+    if (!group.colorBy) {
+        changed |=
+            pickColor("color", "Linear light; instances lie between this and the next.", first, group.color);
+        changed |= pickColor("second color", "Linear light.", second, group.secondColor);
+    }
+    const auto share = [&](const Row& row, double& value, std::optional<double>& chosen) {
+        if (!slide(row, {0, 1}, value)) return;
+        chosen = value;
+        changed = true;
+    };
+    share({"roughness", "Not saved here: the molecule's file has its own."}, material.roughness,
+          choice.roughness);
+    if (!group.molecule.triangles.empty())
+        share({"translucency", "Light from behind. Not saved here: the molecule's file has its own."},
+              material.translucency, choice.translucency);
+    if (material.blend != Blend::none)
+        share({"opacity", "Not saved here: the molecule's file has its own."}, material.opacity,
+              choice.opacity);
+    return changed;
+}
+
+}  // namespace
+
+std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
+    const Group& source = scene.groups[group];
+    Edited out{group, {}, {}, {}};
+    if (source.life) out.life.emplace(scene, group);
+    if (source.particle) out.looks.emplace(*source.particle);
+    if (source.school) out.school.emplace(*source.school);
+    return out;
+}
+
+ScenePanel::ScenePanel(const Scene& scene) {
+    follow(scene);
+}
+
+void ScenePanel::follow(const Scene& scene) {
+    pending_ = lives_ = false;
+    groups_.clear();
+    for (const Group& group : scene.groups)
+        lives_ |= group.life || group.particle || group.school;
+    for (size_t g = 0; g < scene.groups.size(); ++g)
+        if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
+}
+
+ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved) {
+    const ImVec2 screen = ImGui::GetIO().DisplaySize;
+    const float edge = points(12), width = points(panelWidth);
+    ImGui::SetNextWindowPos(ImVec2(std::max(screen.x - width - edge, edge), edge), ImGuiCond_Always);
+    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - 2 * edge));
+    ImGui::SetNextWindowCollapsed(!lives_ && screen.x < points(1000), ImGuiCond_Once);
+    ImGui::Begin("Groups", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
+    changed_ = false;
+    const Action action = drawHead(running.scene, unsaved);
+    for (Edited& group : groups_) {
+        ImGui::PushID(int(group.group));
+        drawGroup(group, running);
+        ImGui::PopID();
+    }
+    ImGui::End();
+    if (action != Action::none) return action;
+    if (!pending_ || ImGui::IsAnyItemActive()) return Action::none;
+    return Action::rebuild;
+}
+
+ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
+    Action action = Action::none;
+    if (ImGui::Button("Save")) action = Action::save;
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Into the scene's file (Ctrl+S).");
+    ImGui::SameLine();
+    if (!unsaved) ImGui::BeginDisabled();
+    if (ImGui::Button("Revert")) action = Action::revert;
+    if (!unsaved) ImGui::EndDisabled();
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to what was saved last.");
+    ImGui::SameLine();
+    const std::string file = std::filesystem::path(scene.file).filename().string();
+    if (unsaved)
+        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *", file.c_str());
+    else
+        ImGui::TextDisabled("%s%s", file.c_str(), said_.c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("%s\n%s", scene.file.c_str(), unsaved ? "Not saved yet." : "As in the file.");
+    return action;
+}
+
+void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
+    Scene& scene = running.scene;
+    Simulation& simulation = running.simulation();
+    Renderer& renderer = running.renderer();
+    Group& group = scene.groups[edited.group];
+    const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
+    if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
+    const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
+    bool life = false, looks = false, mass = false;
+    if (edited.life) {
+        if (planGroup) drawCounts(edited, simulation, *planGroup);
+        life = edited.life->drawEmitters(scene);
+        if (ImGui::TreeNodeEx("Life and death", open)) {
+            life |= edited.life->drawLife(scene);
+            ImGui::TreePop();
+        }
+    }
+    if (edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+        const double before = group.particle->mass;
+        looks = edited.looks->draw(*group.particle, group.life.has_value());
+        mass = group.particle->mass != before;  // the plan has it
+        ImGui::TreePop();
+    }
+    if (edited.school && ImGui::TreeNodeEx("School", open)) {
+        if (edited.school->draw(*group.school)) {
+            pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
+            changed_ = true;
+            said_.clear();
+        }
+        ImGui::TreePop();
+    }
+    if (!edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+        const bool material = drawMaterial(group, running.choices.groups[group.name]);
+        if (material && planGroup) renderer.changeLooks(*planGroup, group);
+        if (material) said_.clear();
+        changed_ |= material;
+        ImGui::TreePop();
+    }
+    changed_ |= life || looks;
+    if (life || looks) said_.clear();
+    if (life) pending_ |= !planGroup || !simulation.changeLife(*planGroup, *group.life);
+    if (looks) pending_ |= mass || !planGroup || !renderer.changeParticle(*planGroup, *group.particle);
+}
+
+void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planGroup) {
+    const double now = ImGui::GetTime();
+    if (edited.countedAt < 0 || now - edited.countedAt > countEvery) {
+        edited.counts = simulation.lifeCounts(planGroup);
+        edited.countedAt = now;
+    }
+    const LifeCounts& counts = edited.counts;
+    const std::string live =
+        concat(grouped(uint64_t(counts.live)), " of ", grouped(uint64_t(counts.capacity)), " alive");
+    ImGui::ProgressBar(float(counts.live) / float(std::max(1, counts.capacity)), ImVec2(-1, 0), live.c_str());
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Those that live now, and the capacity.");
+    if (counts.lost == 0)
+        ImGui::TextDisabled("born %s", grouped(counts.born).c_str());
+    else
+        ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "born %s, lost %s", grouped(counts.born).c_str(),
+                           grouped(counts.lost).c_str());
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("So far; lost are those that found no place, or whose place was taken.");
+}
+
+}  // namespace shoal::window

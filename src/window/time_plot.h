@@ -1,0 +1,10 @@
+// What each pass took in the last frames: stacked over time, and as a table in the same colours.
+#pragma once
+
+#include "gpu/pass_timers.h"
+
+namespace shoal::window {
+
+void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing);
+
+}  // namespace shoal::window

@@ -1,0 +1,435 @@
+#define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
+#include <GLFW/glfw3.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "core/image.h"
+#include "core/many.h"
+#include "core/printable.h"
+#include "gpu/gl.h"
+#include "run/checkpoints.h"
+#include "run/data_paths.h"
+#include "run/signals.h"
+#include "window/method_error.h"
+#include "window/open_scene.h"
+#include "window/recorder.h"
+#include "window/scene_chooser.h"
+#include "window/scene_pointer.h"
+#include "window/window_loop.h"
+
+namespace shoal::window {
+
+namespace {
+
+// What the user asked for in a frame, done at its end.
+struct Wish {
+    Panel::Action panel = Panel::Action::none;
+    ScenePanel::Action scene = ScenePanel::Action::none;
+    std::string open;  // a scene's file
+    bool close = false;
+};
+
+const HelpRow keysHelp[] = {
+    {"left drag", "turn the camera"},
+    {"right or middle drag", "move it"},
+    {"wheel", "nearer, farther"},
+    {"click", "pick a molecule, read its numbers"},
+    {"Shift + left button", "forces that follow the mouse"},
+    {"Space", "pause, go on"},
+    {".", "one step"},
+    {"R", "restart"},
+    {"1, 2, 3", "from the front, the side, the top"},
+    {"4, C", "the scene's own camera"},
+    {"5", "follow the picked molecule"},
+    {"X", "springs by their strain"},
+    {"F", "arrows of the fluid's velocity"},
+    {"H", "hide the panels, show them"},
+    {"O", "open another scene"},
+    {"Ctrl + S", "save what was edited"},
+    {"P", "picture, numbered, in the working folder"},
+    {"V", "record a video, stop"},
+    {"F1, ?", "these keys"},
+    {"Escape", "close what is on top, at last the window"},
+    {nullptr, nullptr},
+};
+
+class Viewer : public WindowLoop {
+  public:
+    Viewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded)
+        : WindowLoop(options.window, context), options_(options) {
+        if (loaded)
+            open_ = std::make_unique<OpenScene>(options.run, context, cache(), std::move(*loaded), width(),
+                                                height());
+        else
+            listScenes();
+    }
+
+    void run() {
+        const FinishesOnSignal finishes;
+        go();
+        if (!open_) return;
+        if (recorder_.records()) toggleRecording();
+        open_->saveIfAsked(true);
+        if (open_->running.unsaved())
+            std::cerr << "shoal: warning: what was changed in the window was not saved in "
+                      << printable(open_->running.scene.file) << "\n";
+    }
+
+  private:
+    // Not before the user has said what becomes of what is not saved.
+    bool mayClose() override {
+        if (!open_ || discards_ || !open_->running.unsaved()) return true;
+        asked_ = Wish();
+        asked_->close = true;
+        return false;
+    }
+
+    void drawPicture() override {
+        if (open_) {
+            if (open_->reload.update(open_->running, now())) takeReloaded();
+            drawScene();
+        } else {
+            gpu::Framebuffer::bindDefault(width(), height());
+            glClearColor(0.1f, 0.13f, 0.12f, 1);
+            glClear(GL_COLOR_BUFFER_BIT);
+        }
+        if (chooser_.changed(now()) && chooser_.open) listScenes();
+    }
+
+    void drawInterface() override {
+        wish_ = Wish();
+        if (open_) drawOpenScene();
+        if (!opening_.empty()) {
+            drawOpening(opening_);
+        } else if (chooser_.open) {
+            wish_.open = chooser_.draw(!open_, open_ ? std::string() : troubles.text());
+        }
+        if (!chooser_.open) troubles.end("opening");
+        if (helps_) helps_ = showHelp("Keys", keysHelp);
+        pressKeys();
+    }
+
+    void obey() override {
+        if (!opening_.empty()) return openNow();
+        if (open_) obeyPanels();
+        if (!wish_.open.empty()) askToOpen(wish_.open);
+    }
+
+    void drawScene() {
+        OpenScene& open = *open_;
+        const gpu::Traffic before = context().traffic();
+        ScenePointer::holdForces(open, aspect());
+        const bool steps = !open.controls.paused || steps_;
+        if (steps) {
+            Simulation& simulation = open.simulation();
+            open.controls.lead(simulation.parameters, simulation.plan(), simulation.parameters.frameTime);
+            advance();
+        }
+        steps_ = false;
+        Renderer& renderer = open.running.renderer();
+        if (width() != renderer.width() || height() != renderer.height()) renderer.resize(width(), height());
+        open.readPicked();
+        try {
+            open.drawPicture(1.5 * pixelsPerPoint());
+            troubles.end("picture");
+        } catch (const Error& error) {  // a program is made when it is needed first
+            troubles.warn("picture", error.what());
+        }
+        // and its files are watched from then on
+        const size_t files = context().shaderFiles().size();
+        if (std::exchange(shaderFiles_, files) != files) open.reload.follow(open.running, false);
+        renderer.present(width(), height());
+        lastFrame_ = context().traffic() - before;
+        if (recorder_.records() && steps)
+            troubles.attempt("recording", [&] { recorder_.add(renderer.capture()); });
+    }
+
+    void drawOpenScene() {
+        OpenScene& open = *open_;
+        if (!hidden_) {
+            wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
+                                          *open.explanations, frameSeconds(), lastFrame_);
+            open.drawPicked(aspect(), points(328));
+        }
+        drawScenePanel();
+        pointer_.move(open, aspect(), height());
+        drawNotices();
+    }
+
+    // What runs away stands still, to be looked at and restarted.
+    void advance() {
+        try {
+            open_->simulation().frame();
+            troubles.end("run");
+        } catch (const Runaway& runaway) {
+            pauseWith(concat(runaway.what(), ". ", open_->saveForInspection(runaway)));
+            return;
+        } catch (const Error& error) {
+            pauseWith(error.what());
+            return;
+        }
+        open_->saveIfAsked(false);
+    }
+
+    void pauseWith(const std::string& message) {
+        open_->controls.paused = true;
+        troubles.warn("run", message);
+    }
+
+    // ---- What was asked for
+
+    // What needs another simulation or may fail; what cannot be had is said, and what ran runs on.
+    template <typename Work>
+    void change(const Work& work) {
+        troubles.attempt("change", work);
+        open_->follow();
+    }
+
+    // What could not be had before was of the files as they were.
+    void takeReloaded() {
+        open_->follow();
+        for (const char* cause : {"change", "run"})
+            troubles.end(cause);
+    }
+
+    void obeyPanels() {
+        RunningScene& running = open_->running;
+        switch (wish_.panel) {
+        case Panel::Action::none:
+            break;
+        case Panel::Action::step:
+            steps_ = true;
+            break;
+        case Panel::Action::restart:
+            running.simulation().restart();
+            troubles.end("run");
+            break;
+        case Panel::Action::resetCamera:
+            open_->follows = false;
+            open_->camera.reset();
+            break;
+        case Panel::Action::rebuild:
+            change([&] {
+                open_->panel.apply(running.choices);
+                running.choose();
+            });
+            break;
+        case Panel::Action::switchPath:
+            change([&] { running.switchPath(open_->panel.path); });
+            break;
+        case Panel::Action::scenes:
+            listScenes();
+            break;
+        case Panel::Action::measure:
+            measureMethod();
+            break;
+        }
+        if (wish_.scene == ScenePanel::Action::save) saveScene();
+        if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
+        if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
+    }
+
+    void measureMethod() {
+        measure::AccuracyDevice device;
+        device.context = &context();
+        device.shaderRoot = shaderRoot();
+        device.cache = &cache();
+        device.cores = int(std::max(1u, std::thread::hardware_concurrency()));
+        device.path = open_->simulation().path().path;
+        open_->panel.error = methodError(open_->running.scene, open_->simulation(), device);
+        std::cout << open_->panel.error << std::endl;
+    }
+
+    // ---- Pictures and videos, without the panels
+
+    std::string stem() const { return sceneStem(open_->running.scene.file); }
+
+    void tell(const std::string& line) {
+        status_.say(line);
+        std::cout << printable(line) << std::endl;
+    }
+
+    void takePicture() {
+        troubles.attempt("capture", [&] {
+            const std::string file = freeName(stem(), ".png");
+            writePng(file, open_->running.renderer().capture());
+            tell("picture: " + file);
+        });
+    }
+
+    void toggleRecording() {
+        troubles.attempt("recording", [&] {
+            if (!recorder_.records()) return recorder_.start(stem(), open_->running.scene.frameRate);
+            recorder_.stop();
+            tell(concat("recorded: ", recorder_.target(), ", ", many(recorder_.frames(), "frame", "frames")));
+        });
+    }
+
+    // ---- Opening
+
+    void listScenes() {
+        chooser_.list(options_.folder);
+        troubles.end("opening");
+    }
+
+    void askToOpen(const std::string& file) {
+        if (open_ && open_->running.unsaved()) {
+            asked_ = Wish();
+            asked_->open = file;
+        } else {
+            opening_ = file;
+        }
+    }
+
+    // After a frame that says so, because it may take a while.
+    void openNow() {
+        if (std::exchange(saidOpening_, !saidOpening_) == false) return;
+        if (recorder_.records()) toggleRecording();
+        const std::string file = std::exchange(opening_, {});
+        // what else was asked of the first scene does not bind the others
+        RunRequest request;
+        request.path = options_.run.path;
+        request.lanes = options_.run.lanes;
+        request.inPlace = options_.run.inPlace;
+        try {
+            Loaded loaded = loadScene(file, request);
+            auto next = std::make_unique<OpenScene>(std::move(request), context(), cache(), std::move(loaded),
+                                                    width(), height());
+            open_ = std::move(next);
+            troubles.clear();
+            chooser_.open = discards_ = shownUnsaved_ = false;
+            std::cout << "opened: " << printable(open_->running.scene.file) << std::endl;
+            entitle(open_->running.scene.file, false);
+        } catch (const Error& error) {
+            troubles.begin("opening", error.what());
+            std::cerr << "shoal: warning: not opened: " << error.what() << std::endl;
+            chooser_.refused(file);
+        }
+    }
+
+    // ---- What is edited and saved
+
+    void drawScenePanel() {
+        OpenScene& open = *open_;
+        const bool changed = open.running.unsaved();
+        if (!changed) troubles.end("saving");
+        if (!hidden_) {
+            wish_.scene = open.scenePanel.draw(open.running, changed);
+            if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
+        }
+        if (std::exchange(shownUnsaved_, changed) != changed) entitle(open.running.scene.file, changed);
+        if (asked_) askAboutUnsaved();
+    }
+
+    void askAboutUnsaved() {
+        const Wish wanted = *asked_;
+        const Answer answer =
+            askBeforeLeaving(open_->running.scene.file, wanted.close ? "close" : "open another scene");
+        if (answer == Answer::none) return;
+        asked_.reset();
+        if (answer == Answer::stay || (answer == Answer::save && !saveScene())) return;
+        discards_ = answer == Answer::discard;
+        if (wanted.close) close();
+        if (!wanted.close) opening_ = wanted.open;
+    }
+
+    bool saveScene() {
+        try {
+            open_->running.save();
+        } catch (const Error& error) {
+            troubles.begin("saving", concat("Not saved: ", error.what()));
+            std::cerr << "shoal: warning: not saved: " << error.what() << "\n";
+            return false;
+        }
+        open_->reload.accept(open_->running.scene.file);
+        troubles.end("saving");
+        open_->scenePanel.say(", saved");
+        return true;
+    }
+
+    void drawNotices() {
+        HotReload& reload = open_->reload;
+        status_.draw(recorder_.records() ? concat("Recording ", recorder_.target(), ", ",
+                                                  many(recorder_.frames(), "frame", "frames"), "; V stops")
+                                         : std::string());
+        const bool closed = showNotices(reload.problem(), troubles.text(), points(hidden_ ? 12 : 328),
+                                        points(hidden_ ? 12 : 392));
+        if (closed) troubles.clear();
+        if (asked_) return;
+        const std::optional<Prefer> answer = askWhoWins(reload.conflicts());
+        if (answer && reload.settle(open_->running, *answer)) takeReloaded();
+    }
+
+    // ---- The mouse and the keys
+
+    void pressKeys() {
+        keys().look(!ImGui::GetIO().WantCaptureKeyboard);
+        if (keys().pressed(GLFW_KEY_F1) || keys().pressed(GLFW_KEY_SLASH)) helps_ = !helps_;
+        if (keys().pressed(GLFW_KEY_O) && !asked_ && opening_.empty()) listScenes();
+        if (keys().pressed(GLFW_KEY_ESCAPE)) escape();
+        if (open_) pressSceneKeys();
+    }
+
+    void pressSceneKeys() {
+        Controls& controls = open_->controls;
+        ExplanationSettings& settings = open_->explanations->settings;
+        if (keys().pressed(GLFW_KEY_SPACE)) controls.paused = !controls.paused;
+        if (keys().pressed(GLFW_KEY_S) && keys().control()) wish_.scene = ScenePanel::Action::save;
+        if (keys().pressed(GLFW_KEY_R)) wish_.panel = Panel::Action::restart;
+        if (keys().pressed(GLFW_KEY_C) || keys().pressed(GLFW_KEY_4))
+            wish_.panel = Panel::Action::resetCamera;
+        if (keys().pressed(GLFW_KEY_PERIOD)) {
+            controls.paused = true;
+            wish_.panel = Panel::Action::step;
+        }
+        if (keys().pressed(GLFW_KEY_X)) settings.springs = !settings.springs;
+        if (keys().pressed(GLFW_KEY_F)) settings.field = !settings.field;
+        if (keys().pressed(GLFW_KEY_H)) hidden_ = !hidden_;
+        if (keys().pressed(GLFW_KEY_P)) takePicture();
+        if (keys().pressed(GLFW_KEY_V)) toggleRecording();
+        constexpr double quarter = 1.5707963267948966;  // rad
+        if (keys().pressed(GLFW_KEY_1)) open_->camera.lookFrom(0, 0);
+        if (keys().pressed(GLFW_KEY_2)) open_->camera.lookFrom(quarter, 0);
+        if (keys().pressed(GLFW_KEY_3)) open_->camera.lookFrom(0, quarter);
+        if (keys().pressed(GLFW_KEY_5) && open_->explanations->picked) open_->follows = !open_->follows;
+    }
+
+    // What lies on top goes first, the window last.
+    void escape() {
+        if (helps_)
+            helps_ = false;
+        else if (chooser_.open && open_)
+            chooser_.open = false;
+        else if (open_ && open_->explanations->picked)
+            open_->forget();
+        else
+            close();
+    }
+
+    const ViewerOptions& options_;
+    SceneChooser chooser_;
+    std::unique_ptr<OpenScene> open_;  // null: nothing was chosen yet
+    std::string opening_;              // a scene's file
+    Wish wish_;
+    std::optional<Wish> asked_;  // to close or open, while something is not saved
+    bool saidOpening_ = false, discards_ = false, shownUnsaved_ = false, steps_ = false;
+    size_t shaderFiles_ = 0;
+    gpu::Traffic lastFrame_;
+    Recorder recorder_;
+    StatusLine status_;
+    ScenePointer pointer_;
+    bool helps_ = false, hidden_ = false;  // the keys are shown; the panels are not
+};
+
+}  // namespace
+
+void runViewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded) {
+    Viewer(options, context, std::move(loaded)).run();
+}
+
+}  // namespace shoal::window

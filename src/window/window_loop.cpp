@@ -1,0 +1,100 @@
+#include "window/window_loop.h"
+
+#define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <utility>
+
+#include "core/cache_folder.h"
+#include "core/image.h"
+#include "core/printable.h"
+#include "gpu/gl.h"
+#include "run/signals.h"
+
+namespace shoal::window {
+
+WindowLoop::WindowLoop(WindowOptions options, gpu::Context& context)
+    : options_(std::move(options)),
+      context_(context),
+      window_(context.window()),
+      interface_(window_, options_.scale),
+      cache_(context, cacheFolder()) {
+    glfwSwapInterval(1);
+    glfwGetFramebufferSize(window_, &width_, &height_);
+}
+
+void WindowLoop::go() {
+    auto last = std::chrono::steady_clock::now();
+    while (!ends()) {
+        glfwPollEvents();
+        const auto time = std::chrono::steady_clock::now();
+        const double seconds = std::chrono::duration<double>(time - last).count();
+        last = time;
+        // the first intervals hold start-up, not frames
+        if (shown_ > 1) frameSeconds_ += (seconds - frameSeconds_) * (shown_ == 2 ? 1 : 0.1);
+        if (!showFrame()) break;
+    }
+}
+
+bool WindowLoop::ends() {
+    if (signalThatAsked()) return true;
+    if (!glfwWindowShouldClose(window_)) return false;
+    if (mayClose()) return true;
+    glfwSetWindowShouldClose(window_, GLFW_FALSE);
+    return false;
+}
+
+// False after the last that was asked for.
+bool WindowLoop::showFrame() {
+    glfwGetFramebufferSize(window_, &width_, &height_);
+    if (width_ < 1 || height_ < 1) {  // minimised: time stands still
+        glfwWaitEventsTimeout(0.1);
+        return true;
+    }
+    drawPicture();
+    interface_.begin();
+    drawInterface();
+    interface_.end();
+    ++shown_;
+    const bool last = options_.frames && shown_ >= *options_.frames;
+    const bool closing = last || glfwWindowShouldClose(window_);
+    if (closing && !options_.screenshot.empty()) saveScreenshot();
+    glfwSwapBuffers(window_);
+    obey();
+    return !last;
+}
+
+void WindowLoop::saveScreenshot() const {
+    Image image{width_, height_, 4, std::vector<uint8_t>(size_t(width_) * size_t(height_) * 4)};
+    const size_t row = size_t(width_) * 4;
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    std::vector<uint8_t> bottomUp(image.pixels.size());
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
+    for (size_t y = 0; y < size_t(height_); ++y)
+        std::copy_n(bottomUp.begin() + std::ptrdiff_t((size_t(height_) - 1 - y) * row), row,
+                    image.pixels.begin() + std::ptrdiff_t(y * row));
+    for (size_t i = 3; i < image.pixels.size(); i += 4)
+        image.pixels[i] = 255;
+    writePng(options_.screenshot, image);
+    std::cout << "screenshot: " << printable(options_.screenshot) << "\n";
+}
+
+double WindowLoop::now() {
+    return glfwGetTime();
+}
+
+void WindowLoop::close() {
+    glfwSetWindowShouldClose(window_, GLFW_TRUE);
+}
+
+void WindowLoop::entitle(const std::string& file, bool unsaved) {
+    const std::string name = printable(std::filesystem::path(file).filename().string());
+    glfwSetWindowTitle(window_, concat("Shoal - ", name, unsaved ? " *" : "").c_str());
+}
+
+}  // namespace shoal::window
