@@ -158,8 +158,8 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
     tellContact(out, plan);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
-        out << "\ngroup \"" << printable(group.name) << "\": " << group.count << " molecules of "
-            << group.vertexCount << " vertices\n";
+        out << "\ngroup \"" << printable(group.name) << "\": " << many(group.count, "molecule", "molecules")
+            << " of " << many(group.vertexCount, "vertex", "vertices") << "\n";
         out << "  solver   " << name(group.solver) << ": " << printable(group.solverWhy) << "\n";
         if (group.needs.springs) {
             out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(group.solver);

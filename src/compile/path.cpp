@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "compile/corotated.h"
+#include "core/many.h"
 
 namespace shoal {
 
@@ -18,7 +19,8 @@ void checkTextures(const Plan& plan, const PathLimits& limits) {
             const int64_t fit = std::max<int64_t>(0, (limits.maxTextureSize - rows) / vertices) * stateWidth;
             throw Error(
                 group.location,
-                concat(group.count, " molecules of ", vertices, " vertices take ", own,
+                concat(many(group.count, "molecule", "molecules"), " of ",
+                       many(vertices, "vertex", "vertices"), " take ", own,
                        " rows of the ping-pong path's textures (", (own * stateWidth * 16 * 4) >> 20, " MiB)",
                        rows > 0 ? ", beside the groups before" : "", "; this context holds ",
                        limits.maxTextureSize - rows, " more rows: at most ", fit, " such molecules fit"));

@@ -9,6 +9,7 @@
 #include "compile/muscle_limits.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
+#include "core/many.h"
 #include "core/random.h"
 #include "scene/json/scene_file.h"
 
@@ -115,10 +116,11 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
     if (before + count * vertices <= most) return;
-    throw Error(group.location, concat(count, " molecules of ", vertices, " vertices",
-                                       before > 0 ? ", beside the groups before," : "", " are more than the ",
-                                       most, " vertices that a scene may have: at most ",
-                                       (most - before) / vertices, " such molecules fit"));
+    throw Error(group.location,
+                concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
+                       before > 0 ? ", beside the groups before," : "", " are more than the ", most,
+                       " vertices that a scene may have: at most ", (most - before) / vertices,
+                       " such molecules fit"));
 }
 
 // The allocators on the CPU know of no death but of age.

@@ -4,6 +4,7 @@
 
 #include "core/contract.h"
 #include "core/error.h"
+#include "gpu/buffer.h"
 #include "gpu/debug_group.h"
 
 namespace shoal::gpu {
@@ -96,7 +97,7 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
         glTexImage3D(target(), 0, internal, width, height, layers, 0, storage.layout, storage.type, nullptr);
     else
         glTexImage2D(target(), 0, internal, width, height, 0, storage.layout, storage.type, nullptr);
-    if (glGetError() != GL_NO_ERROR) throw Error(what + " does not fit into the memory of this context");
+    if (glGetError() != GL_NO_ERROR) throw OutOfMemory(what + " does not fit into memory");
     glTexParameteri(target(), GL_TEXTURE_MAX_LEVEL, 0);
     glTexParameteri(target(), GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(target(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);

@@ -34,7 +34,7 @@ enum class Settled {
     yes,
     roughly,   // time ran out, or halvings, with a small change left: error() is above the tolerance
     chaotic,   // halving the step stalls, or leaves a change of some per cent
-    tooStiff,  // not even one halving is done in time
+    tooStiff,  // time ran out while halving the step still changed it by some per cent, or was not done once
 };
 
 class ExactEnds {

@@ -4,6 +4,7 @@
 #include <map>
 #include <numeric>
 
+#include "core/many.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
 
@@ -14,10 +15,6 @@ namespace {
 constexpr double mostMassRatio = 1e4;
 constexpr double mostPrestrain = 0.1;    // of the drawn distance
 constexpr double leastAreaShare = 1e-6;  // of the longest edge squared
-
-const char* plural(size_t count, const char* one, const char* many) {
-    return count == 1 ? one : many;
-}
 
 using Mend = std::function<void(Draft&)>;
 
@@ -243,7 +240,7 @@ class Checker {
         if (!free.modesKnown || free.zeroModes == 0) return;
         const size_t count = size_t(free.zeroModes);
         find(Kind::soft, {m_.file, 0, 0, {}},
-             concat("the springs leave ", count, plural(count, " motion", " motions"),
+             concat("the springs leave ", many(int64_t(count), "motion", "motions"),
                     " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
                     "what is flat (by about 0.12 of its size)"));
     }

@@ -2,6 +2,7 @@
 
 #include "compile/pack.h"
 #include "core/contract.h"
+#include "core/many.h"
 
 #include <algorithm>
 #include <cmath>
@@ -105,7 +106,8 @@ Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements
         return Buffer(context, Buffer::Use::storage, nullptr, elements * sizeof(glm::vec4),
                       concat(what, " of ", group.name).c_str());
     } catch (const gpu::OutOfMemory& error) {
-        throw gpu::OutOfMemory(group.location, concat(error.message(), ", for ", group.count, " molecules"));
+        throw gpu::OutOfMemory(group.location,
+                               concat(error.message(), ", for ", many(group.count, "molecule", "molecules")));
     }
 }
 

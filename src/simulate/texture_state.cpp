@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "core/many.h"
+#include "gpu/buffer.h"
+
 namespace shoal {
 
 using gpu::Format;
@@ -9,11 +12,25 @@ using gpu::Framebuffer;
 using gpu::Texture;
 using gpu::Traffic;
 
-static TwoSided makeSides(gpu::Context& context, size_t groups, int rows, const char* label) {
+// All groups share a texture: of one that does not fit, the largest group is named.
+static Texture makeTexture(gpu::Context& context, const Plan& plan, int rows, const char* label) {
+    try {
+        return Texture(context, Format::rgba32f, stateWidth, rows, label);
+    } catch (const gpu::OutOfMemory& error) {
+        const auto rowsOf = [](const GroupPlan& group) { return group.texture.rows; };
+        const GroupPlan& largest = *std::ranges::max_element(plan.groups, {}, rowsOf);
+        throw gpu::OutOfMemory(
+            largest.location,
+            concat(error.message(), ", for ", many(largest.count, "molecule", "molecules"), " here",
+                   plan.groups.size() > 1 ? " and those of the other groups" : ""));
+    }
+}
+
+static TwoSided makeSides(gpu::Context& context, const Plan& plan, int rows, const char* label) {
     TwoSided sides;
     for (Texture& texture : sides.side)
-        texture = Texture(context, Format::rgba32f, stateWidth, rows, label);
-    sides.now.assign(groups, 0);
+        texture = makeTexture(context, plan, rows, label);
+    sides.now.assign(plan.groups.size(), 0);
     return sides;
 }
 
@@ -22,18 +39,17 @@ TextureState::TextureState(gpu::Context& context, const Plan& plan) : context_(&
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
     };
-    const size_t groups = plan.groups.size();
-    position = makeSides(context, groups, plan.rows, "positions");
-    velocity = makeSides(context, groups, plan.rows, "velocities");
-    if (any(&Needs::acceleration)) acceleration = makeSides(context, groups, plan.rows, "accelerations");
+    position = makeSides(context, plan, plan.rows, "positions");
+    velocity = makeSides(context, plan, plan.rows, "velocities");
+    if (any(&Needs::acceleration)) acceleration = makeSides(context, plan, plan.rows, "accelerations");
     const bool stages = std::any_of(plan.groups.begin(), plan.groups.end(),
                                     [](const GroupPlan& group) { return group.solver == SolverKind::rk4; });
     for (auto* pair : {&stagePosition, &stageVelocity, &sumVelocity, &sumAcceleration})
         for (Texture& texture : *pair)
-            if (stages) texture = Texture(context, Format::rgba32f, stateWidth, plan.rows, "stages");
-    record = makeSides(context, groups, plan.recordRows, "records");
-    if (any(&Needs::normals)) normal = Texture(context, Format::rgba32f, stateWidth, plan.rows, "normals");
-    constant = Texture(context, Format::rgba32f, stateWidth, plan.recordRows, "constants");
+            if (stages) texture = makeTexture(context, plan, plan.rows, "stages");
+    record = makeSides(context, plan, plan.recordRows, "records");
+    if (any(&Needs::normals)) normal = makeTexture(context, plan, plan.rows, "normals");
+    constant = makeTexture(context, plan, plan.recordRows, "constants");
     for (const GroupPlan& group : plan.groups) {
         std::vector<glm::vec4> texels(size_t(group.texture.slabRows) * stateWidth);
         const GroupConstants& c = group.constants;

@@ -122,7 +122,11 @@ TEST_CASE("a reference that ran out of time is no chaos", "[cli]") {
     REQUIRE(outcome.code == 0);
     const JsonValue report = outcome.json();
     CHECK(member(report, "chaotic").kind == JsonValue::Kind::null);
-    CHECK(member(report, "referenceError").number < 0.03);
+    // on a slow machine there may be none, and a word of why
+    if (member(report, "tooStiff").kind == JsonValue::Kind::null)
+        CHECK(member(report, "referenceError").number < 0.03);
+    else
+        CHECK(member(report, "referenceError").kind == JsonValue::Kind::null);
 }
 
 TEST_CASE("what is too stiff for a reference has times, and no errors", "[cli]") {

@@ -1,12 +1,17 @@
 // What the fused path cannot do is said clearly, and `auto` goes on where there is a way.
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <sstream>
 #include <utility>
 
+#include <sys/resource.h>
+#include <unistd.h>
+
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
 #include "gpu/gl.h"
+#include "simulate/texture_state.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"
@@ -81,6 +86,25 @@ class LittleMemory {
     PFNGLDELETEBUFFERSPROC remove_;
     size_t left_;
     std::map<GLuint, size_t> held_;  // bytes by buffer
+};
+
+// So many bytes are left to this process for as long as this lives; never under a sanitizer, which takes all.
+class LittleAddressSpace {
+  public:
+    explicit LittleAddressSpace(size_t bytes) {
+        std::ifstream in("/proc/self/statm");
+        size_t pages = 0;
+        in >> pages;
+        getrlimit(RLIMIT_AS, &before_);
+        const rlimit limit{pages * size_t(sysconf(_SC_PAGESIZE)) + bytes, before_.rlim_max};
+        setrlimit(RLIMIT_AS, &limit);
+    }
+    ~LittleAddressSpace() { setrlimit(RLIMIT_AS, &before_); }
+    LittleAddressSpace(const LittleAddressSpace&) = delete;
+    LittleAddressSpace& operator=(const LittleAddressSpace&) = delete;
+
+  private:
+    rlimit before_{};
 };
 
 }  // namespace
@@ -206,5 +230,21 @@ TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fus
     CHECK(make(one, {.path = Path::fused, .inPlace = true}).warnings().empty());
     CHECK_THAT(messageOf([&] { make(one - 1, {}); }), Catch::Contains("does not fit"));
 }
+
+#if !defined(__SANITIZE_ADDRESS__)
+TEST_CASE("textures that do not fit into memory are refused at the largest group", "[errors]") {
+    if (!testContext().info().software) return;  // its memory is the process's
+    Scene scene = leafScene();
+    scene.groups.push_back(scene.groups[0]);
+    scene.groups[0].location = Location{"two.scene.json", 3, 5, {}};
+    scene.groups[1].location = Location{"two.scene.json", 4, 5, {}};
+    scene.groups[1].count = 40000;
+    const Plan plan = compile(scene);
+    const LittleAddressSpace limit(8 << 20);
+    CHECK_THAT(messageOf([&] { TextureState(testContext(), plan); }),
+               Catch::Contains("two.scene.json:4:5") && Catch::Contains("texture \"positions\"") &&
+                   Catch::Contains("does not fit into memory, for 40000 molecules here and those"));
+}
+#endif
 
 }  // namespace shoal
