@@ -1,6 +1,3 @@
-// Adding a force: its struct in scene/force.h, its formula in shaders/physics/force.glsl, one overload of
-// `emit` here, its numbers in simulate/force_parameters.cpp, its reader in scene/json/forces.cpp, its
-// double-precision twin in reference/forces.cpp, one test.
 #include "compile/generate_forces.h"
 
 #include "compile/generate.h"
@@ -16,30 +13,29 @@ class ForceWriter {
     std::string pulls, thrusts, anyThrusts;  // statements
 
     void add(const Force& force, size_t index) {
-        const std::string comment =
-            concat("    // ", kindName(force.shape), " ", inComment(force.name), "\n");
+        comment_ = concat("    // ", kindName(force.shape), " ", inComment(force.name), "\n");
         const GroupForces::One one{index, result.parameterCount};
-        if (std::holds_alternative<WindForce>(force.shape)) {
-            result.winds.push_back(one);
-        } else if (std::holds_alternative<ThrustForce>(force.shape)) {
-            result.thrusts.push_back(one);
-            const std::string a = slot();
-            thrusts += concat(comment, "    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a,
-                              ".y, ", a, ".z);\n");
-            anyThrusts +=
-                concat("    velocity *= thrustFactor(velocity, exp(", a, ".w * time), ", a, ".z);\n");
-        } else {
-            result.pulls.push_back(one);
-            pulls += concat(comment, "    a += ", call(force.shape, isFar(force)), ";\n");
-        }
+        std::visit([&](const auto& kind) { add(kind, one, isFar(force)); }, force.shape);
     }
 
     std::string slot() { return concat("forceParameters[", result.parameterCount++, "]"); }
 
   private:
-    std::string call(const ForceShape& shape, bool far) {
-        if (const auto* attract = std::get_if<AttractForce>(&shape)) return emit(*attract, far);
-        return emit(std::get<VortexLineForce>(shape), far);
+    void add(const WindForce&, const GroupForces::One& one, bool) { result.winds.push_back(one); }
+
+    void add(const ThrustForce&, const GroupForces::One& one, bool) {
+        result.thrusts.push_back(one);
+        const std::string a = slot();
+        thrusts += concat(comment_, "    velocity *= thrustFactor(velocity, whole ? ", a, ".x : ", a, ".y, ",
+                          a, ".z);\n");
+        anyThrusts += concat("    velocity *= thrustFactor(velocity, exp(", a, ".w * time), ", a, ".z);\n");
+    }
+
+    // Every other kind is an acceleration, whose call `emit` writes.
+    template <typename Pull>
+    void add(const Pull& pull, const GroupForces::One& one, bool far) {
+        result.pulls.push_back(one);
+        pulls += concat(comment_, "    a += ", emit(pull, far), ";\n");
     }
 
     // Takes one more slot of what is far.
@@ -60,6 +56,8 @@ class ForceWriter {
         return concat("vortexLinePull(", relative(at, far), ", ", axis, ".xyz, ", at, ".w, ", axis, ".w, ",
                       size, ".x, ", size, ".y)");
     }
+
+    std::string comment_;
 };
 
 }  // namespace

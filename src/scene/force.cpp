@@ -144,7 +144,13 @@ const Description& describe(const Force*) {
 }
 
 bool hasPlace(const ForceShape& shape) {
-    return std::holds_alternative<AttractForce>(shape) || std::holds_alternative<VortexLineForce>(shape);
+    return std::visit(
+        [](const auto& kind) {
+            return requires {
+                kind.position;
+            };
+        },
+        shape);
 }
 
 // ---- What forces do
@@ -167,23 +173,34 @@ ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
     return {glm::mix(a.offset, b.offset, share), glm::mix(a.factor, b.factor, share)};
 }
 
+// 1/s or rad/s, with the strength times `factor`.
+static double rateOf(const AttractForce& attract, double factor) {
+    const double strength = std::abs(attract.strength) * factor;
+    const bool constant = attract.falloff == AttractForce::Falloff::constant;
+    // the steepest place: the radius, or where the bound is reached
+    const double pull = constant ? strength : attract.most;
+    const double near = constant ? attract.radius : std::sqrt(strength / attract.most);
+    return near > 0 ? std::sqrt(2 * pull / near) : 0;
+}
+
+static double rateOf(const VortexLineForce& line, double factor) {
+    return std::sqrt(factor * std::max(std::abs(line.pull), std::abs(line.turn)) / line.core);
+}
+
+static double rateOf(const ThrustForce& thrust, double factor) {
+    return factor * std::abs(thrust.rate);
+}
+
+static double rateOf(const WindForce&, double) {
+    return 0;
+}
+
 double fastestRate(const Force& force) {
     double factor = 1;
     if (force.path)
         for (const ForcePath::Keyframe& frame : force.path->keyframes)
             factor = std::max(factor, std::abs(frame.factor));
-    if (const auto* attract = std::get_if<AttractForce>(&force.shape)) {
-        const double strength = std::abs(attract->strength) * factor;
-        const bool constant = attract->falloff == AttractForce::Falloff::constant;
-        // the steepest place: the radius, or where the bound is reached
-        const double pull = constant ? strength : attract->most;
-        const double near = constant ? attract->radius : std::sqrt(strength / attract->most);
-        return near > 0 ? std::sqrt(2 * pull / near) : 0;
-    }
-    if (const auto* line = std::get_if<VortexLineForce>(&force.shape))
-        return std::sqrt(factor * std::max(std::abs(line->pull), std::abs(line->turn)) / line->core);
-    if (const auto* thrust = std::get_if<ThrustForce>(&force.shape)) return factor * std::abs(thrust->rate);
-    return 0;
+    return std::visit([&](const auto& kind) { return rateOf(kind, factor); }, force.shape);
 }
 
 bool actsOn(const Force& force, const std::string& group) {

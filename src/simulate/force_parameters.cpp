@@ -22,14 +22,10 @@ class Writer {
 
     std::vector<glm::vec4> write() {
         EXPECTS(frame_.parameters.forces.size() == plan_.forces.size());
-        for (const GroupForces::One& one : group_.forces.pulls)
-            writePull(one);
-        for (const GroupForces::One& one : group_.forces.thrusts)
-            writeThrust(one);
-        glm::dvec3 wind(0);
-        for (const GroupForces::One& one : group_.forces.winds)
-            wind += factorOf(one.force) * std::get<WindForce>(plan_.forces[one.force].shape).velocity;
-        if (!group_.forces.winds.empty()) put(group_.forces.windSlot, wind);
+        for (const auto* kind : {&group_.forces.pulls, &group_.forces.thrusts, &group_.forces.winds})
+            for (const GroupForces::One& one : *kind)
+                write(one);
+        if (!group_.forces.winds.empty()) put(group_.forces.windSlot, wind_);
         return std::move(out_);
     }
 
@@ -58,23 +54,31 @@ class Writer {
 
     static double reach(double radius) { return radius > 0 ? radius : nowhere; }
 
-    void writePull(const GroupForces::One& one) {
-        const ForceShape& shape = plan_.forces[one.force].shape;
-        const double factor = factorOf(one.force);
-        if (const auto* attract = std::get_if<AttractForce>(&shape)) {
-            putPlace(one, 2, attract->position, factor * attract->strength);
-            put(one.slot + 1, {reach(attract->radius), attract->most, 0});
-        } else if (const auto* line = std::get_if<VortexLineForce>(&shape)) {
-            putPlace(one, 3, line->position, factor * line->pull);
-            put(one.slot + 1, glm::normalize(line->axis), factor * line->turn);
-            put(one.slot + 2, {line->core, reach(line->radius), 0});
-        }
+    // The slots of each kind, as its call names them (compile/generate_forces.cpp).
+    void write(const GroupForces::One& one) {
+        std::visit([&](const auto& kind) { write(one, kind, factorOf(one.force)); },
+                   plan_.forces[one.force].shape);
     }
 
-    void writeThrust(const GroupForces::One& one) {
-        const auto& thrust = std::get<ThrustForce>(plan_.forces[one.force].shape);
+    void write(const GroupForces::One& one, const AttractForce& attract, double factor) {
+        putPlace(one, 2, attract.position, factor * attract.strength);
+        put(one.slot + 1, {reach(attract.radius), attract.most, 0});
+    }
+
+    void write(const GroupForces::One& one, const VortexLineForce& line, double factor) {
+        putPlace(one, 3, line.position, factor * line.pull);
+        put(one.slot + 1, glm::normalize(line.axis), factor * line.turn);
+        put(one.slot + 2, {line.core, reach(line.radius), 0});
+    }
+
+    // All winds share one slot.
+    void write(const GroupForces::One&, const WindForce& wind, double factor) {
+        wind_ += factor * wind.velocity;
+    }
+
+    void write(const GroupForces::One& one, const ThrustForce& thrust, double factor) {
         constexpr double most = 40;  // e^40 takes what is too slow for a float's square to no speed at all
-        const double rate = std::clamp(thrust.rate * factorOf(one.force), -1e3 / frame_.h, most / frame_.h);
+        const double rate = std::clamp(thrust.rate * factor, -1e3 / frame_.h, most / frame_.h);
         put(one.slot, {std::exp(rate * frame_.h), std::exp(rate * frame_.h / 2), thrust.limit}, rate);
     }
 
@@ -82,7 +86,8 @@ class Writer {
     const GroupPlan& group_;
     const Frame& frame_;
     std::vector<glm::vec4> out_;
-    double middle_ = 0;  // s
+    double middle_ = 0;   // s
+    glm::dvec3 wind_{0};  // m/s, the sum
 };
 
 }  // namespace
