@@ -114,6 +114,7 @@ void addKeys(const Description& of, JsonValue& properties, std::vector<std::stri
     for (const Key& key : of.keys()) {
         if (key.kind == Kind::variant) continue;
         JsonValue schema = valueSchema(key);
+        std::erase_if(schema.members, [](const JsonMember& member) { return member.first == "description"; });
         schema.add("description", text(sentence(key.says)));
         const JsonValue usual = usualValue(key, of);
         if (usual.kind != JsonValue::Kind::null) schema.add("default", usual);

@@ -127,7 +127,7 @@ TEST_CASE("what is described wrong is located by its key", "[description]") {
     CHECK_THAT(message(R"({"body": "box", "legs": [{"lenght": 1}]})"),
                Catch::Contains("did you mean \"length\"?"));
     CHECK_THAT(message("{\"body\": \"box\",\n \"legs\": [{\"length\": 1}, {\"length\": 2}]}"),
-               Catch::Contains("thing.json:2:36: a leg is longer than the span (at $.legs[1].length)"));
+               Catch::Contains("thing.json:2:37: a leg is longer than the span (at $.legs[1].length)"));
 }
 
 TEST_CASE("what is made in code is held to the same", "[description]") {
