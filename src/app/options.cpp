@@ -305,7 +305,7 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
         "Exit codes: 0 when all went well, 1 when a run failed or a file is wrong, 2 when the command line "
         "is "
         "wrong.");
-    // What the installation is made with (cmake/ShoalInstall.cmake).
+    // The installation is made with the first two (cmake/ShoalInstall.cmake), docs/command.md with the last.
     const auto document = [&app](const char* flag, std::string (*write)(const CLI::App&)) {
         app.add_flag_callback(flag,
                               [&app, write] {
@@ -316,6 +316,7 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
     };
     document("--man-page", manPage);
     document("--bash-completion", bashCompletion);
+    document("--markdown", markdown);
 }
 
 // The command that the words on the command line have come to.
