@@ -21,7 +21,7 @@ struct Curve {
     int marker;  // gnuplot's point type
 };
 
-// Colours that differ for the colour-blind as well (Okabe and Ito).
+// Colours that differ for the colour-blind as well [Okabe 2008].
 constexpr Curve curves[] = {{Subject::pingPong, "ping-pong", "#D55E00", 9},
                             {Subject::scalar, "CPU, scalar", "#999999", 5},
                             {Subject::fused, "fused", "#0072B2", 7},

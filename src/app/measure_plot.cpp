@@ -16,7 +16,7 @@ using namespace measure;
 
 namespace {
 
-// Colours that differ for the colour-blind as well (Okabe and Ito), by the place in the table of solvers.
+// Colours that differ for the colour-blind as well [Okabe 2008], by the place in the table of solvers.
 constexpr const char* colors[] = {"#555555", "#56B4E9", "#0072B2", "#009E73",
                                   "#E69F00", "#D55E00", "#CC79A7", "#8A6FD1"};
 // Of the samplings: line style and marker (gnuplot's dash and point types).
