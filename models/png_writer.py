@@ -2,7 +2,7 @@
 
 Rows are bytes objects, from the top of the picture to the bottom; 16-bit samples are big-endian,
 as PNG has them. Every row uses the filter that leaves the smallest sum of residuals.
-Source: PNG specification, third edition (W3C 2025), sections 5, 9 and 11.
+Source: PNG specification, third edition [W3C 2025], sections 5, 9 and 11.
 """
 
 import struct

@@ -7,7 +7,7 @@ defined everywhere, outside the outline too, so that no dark fringe shows at any
 
 The outline is ovate with saw teeth, as a beech's or elm's; each side vein runs into a tooth, because
 both follow the same coordinate (see vein_coordinate). The mottling between the veins is cellular
-noise (Worley, "A Cellular Texture Basis Function", SIGGRAPH 1996). Same bytes every run.
+noise [Worley 1996]. Same bytes every run.
 """
 
 import functools

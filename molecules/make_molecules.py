@@ -175,8 +175,8 @@ def swimmer(name, comment, length, frequency, stiffness, damping, colors, metall
 
     Every spring that bending about y stretches is a muscle: a fibre at x of a body bent by the curvature c has the
     length l (1 - c x (dz/l)^2). The curvature is that of the wave y(s) = a(s) sin(2 pi (f t - s)) of a swimming fish, s
-    from the snout, whose envelope grows from head to tail like a saithe's, a(s) ~ 0.02 - 0.083 s + 0.163 s^2 (Videler
-    1993). So the bent shape is at rest, and stiff springs do not hinder it; the stalk of the tail, which swings the fin
+    from the snout, whose envelope grows from head to tail like a saithe's, a(s) ~ 0.02 - 0.083 s + 0.163 s^2 [Videler
+    1993]. So the bent shape is at rest, and stiff springs do not hinder it; the stalk of the tail, which swings the fin
     through the water, is stiffer. The masses are the fish's with the water that it carries along, most at the fin.
     """
     #          z   half width, half height, mass of a vertex, kg

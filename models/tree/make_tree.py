@@ -11,10 +11,8 @@ Curves leave along their parent, bend up towards the light, wander, and droop at
 Radii come from the tips downwards by da Vinci's pipe model (a section is the sum of the sections
 it feeds) plus a slope along each axis. Tubes take their frames by parallel transport.
 
-Ideas: da Vinci's pipe model; orders, shape envelopes and tropism after Weber and Penn, "Creation
-and Rendering of Realistic Trees" (SIGGRAPH 1995); targets that pull branches after Runions, Lane
-and Prusinkiewicz, "Modeling Trees with a Space Colonization Algorithm" (2007); frames after
-Bloomenthal, "Calculation of Reference Frames along a Space Curve" (1990).
+Ideas: da Vinci's pipe model; orders, shape envelopes and tropism after [Weber 1995]; targets that
+pull branches after [Runions 2007]; frames after [Bloomenthal 1990].
 
 Data: metres, Y up, the ground near y = 0. Objects: trunk, limbs, branches, twigs. Texture
 coordinates: u once round, v metres along. Vertex colours: bark in sRGB. Same bytes every run.

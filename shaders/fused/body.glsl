@@ -5,7 +5,7 @@
 // moves all of it: dV = p / M, dW = I^-1 (r x p). A vertex alone would give way with its own mass, and the springs, which
 // the implicit solvers damp, would swallow the bounce.
 //
-// Sequential impulses (Guendelman, Bridson, Fedkiw 2003; Catto 2005) over the vertices that touch: each asks for the
+// Sequential impulses [Guendelman 2003], [Catto 2005] over the vertices that touch: each asks for the
 // normal velocity that it would have alone, restitution and all; what is pushed never pulls, and friction stays within
 // mu of it (Coulomb). The way out of the surface is found likewise.
 

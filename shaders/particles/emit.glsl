@@ -28,7 +28,7 @@ vec3 anyDirection(float u, float v)
     return vec3(r * cos(angle), r * sin(angle), z);
 }
 
-// Two unit vectors that make a right-handed frame with the unit vector n (Duff et al. 2017).
+// Two unit vectors that make a right-handed frame with the unit vector n [Duff 2017].
 void frameOf(vec3 n, out vec3 a, out vec3 b)
 {
     float s = n.z < 0.0 ? -1.0 : 1.0;

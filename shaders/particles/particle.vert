@@ -2,8 +2,8 @@
 // here. The middle of a picture's square is (0, 0), its corners are at +-1.
 //
 //   POINTS   a dot of `pixels`
-//   SPRITES  a point as wide as the turned square, which the fragment stage cuts out of it (Latta 2004, section 3.4.6)
-//   else     gl_VertexID: 4 corners of a quad, that of many (Kapoulkine 2008); FACING_VELOCITY, FACING_FREE, else camera
+//   SPRITES  a point as wide as the turned square, which the fragment stage cuts out of it [Latta 2004, section 3.4.6]
+//   else     gl_VertexID: 4 corners of a quad, that of many [Kapoulkine 2008]; FACING_VELOCITY, FACING_FREE, else camera
 //
 // Variants, each only where the type needs it: SIZES (random), GROWS, TURNS (about the line of sight, or free quads
 // about their axis), COLORS (keyframes), IMAGE with TILES (random), FLIP_ONCE or FLIP_AGAIN, FADES (between

@@ -86,7 +86,7 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     return Contact(outside ? x : position, outside ? v : velocity);
 }
 
-// Contact as a constraint on the position (Jakobsen 2001; Latta 2004, section 3.4.3), for verlet: the vertex is moved
+// Contact as a constraint on the position [Jakobsen 2001], [Latta 2004, section 3.4.3], for verlet: the vertex is moved
 // out of the surface, and its velocity is what that leaves of the substep's way, v + moved / h = (x' - x_before) / h.
 // Nothing bounces. Friction takes back the way along the surface, by at most mu times the depth (Coulomb: a depth of h^2 g
 // is a pressure of g); what is caught leaves at no more than pushSpeed.

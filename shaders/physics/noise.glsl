@@ -1,9 +1,9 @@
 // Lattice gradient noise. Integer hashes only, so that the lattice is the same on every device and on the CPU.
 //
 // At lattice point c of a 3D or 4D integer lattice, with a seed, the gradients are made from
-//   pcg4d(uvec4(c.x, c.y, c.z, c.w or seed) + seeds)       (Jarzynski and Olano 2020, JCGT 9(3))
+//   pcg4d(uvec4(c.x, c.y, c.z, c.w or seed) + seeds)       [Jarzynski 2020]
 // by taking a word's four bytes b: gradient component = b / 127.5 - 1, in [-1, 1].
-// Interpolation is Perlin's quintic fade(t) = t^3 (6 t^2 - 15 t + 10) in every dimension (Perlin 2002).
+// Interpolation is Perlin's quintic fade(t) = t^3 (6 t^2 - 15 t + 10) in every dimension [Perlin 2002].
 // Read as C++ through GLM by the tests: no swizzles, floats marked f, results returned as structs.
 
 uvec4 pcg4d(uvec4 v)

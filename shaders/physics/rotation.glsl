@@ -13,7 +13,7 @@ vec3 turnedBack(vec4 q, vec3 v)
     return turned(vec4(-q.x, -q.y, -q.z, q.w), v);
 }
 
-// Every rotation alike, from three numbers uniform in [0, 1) (Shoemake, Graphics Gems III, 1992).
+// Every rotation alike, from three numbers uniform in [0, 1) [Shoemake 1992].
 vec4 anyRotation(float u, float v, float w)
 {
     float one = 6.2831853f * v;

@@ -1,4 +1,4 @@
-// How those of a school steer (Reynolds, "Flocks, herds, and schools", SIGGRAPH 1987), as accelerations in m/s^2. None
+// How those of a school steer [Reynolds 1987], as accelerations in m/s^2. None
 // is singular: those in the same place do not part by separation. Read as C++ through GLM by the tests.
 
 // Away from another at -d (m), within a radius: 1 at the distance 0, none at the radius.

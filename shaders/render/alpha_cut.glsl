@@ -10,7 +10,7 @@ float coverage(float alpha)
 }
 
 // Averaging thins a shape out as mip levels shrink: its alpha grows by a quarter each level to keep its area
-// (Golus 2017, "Anti-aliased alpha test").
+// [Golus 2017].
 float keptAlpha(float alpha, vec2 uv)
 {
     vec2 size = vec2(textureSize(image, 0));

@@ -72,7 +72,7 @@ float crownOpenness(vec3 place, vec3 normal)
     return mix(0.25, 1.0 - hidden, 1.0 / (relative * relative));
 }
 
-// Distribution and visibility of GGX in Karis's approximation (2013, "Real shading in Unreal Engine 4"),
+// Distribution and visibility of GGX in the approximation of [Karis 2013],
 // for a dielectric that reflects 4 % head on.
 float sheen(vec3 normal, vec3 toEye, float roughness)
 {
@@ -82,7 +82,7 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
     float nh = max(dot(normal, halfway), 0.0);
     float lh = max(dot(sunDirection, halfway), 0.05);
     float d = nh * nh * (a2 - 1.0) + 1.0;
-    // Rough surfaces shadow their own grazing reflections (Lagarde 2011).
+    // Rough surfaces shadow their own grazing reflections [Lagarde 2011].
     float fresnel = 0.04 + max(0.96 - roughness, 0.0) * pow(1.0 - lh, 5.0);
     return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }

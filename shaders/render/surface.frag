@@ -30,7 +30,7 @@ float grain(vec3 p, vec3 stretch, float wavelength, float footprint, uint seed)
 }
 
 // The normal of a surface raised by `height` along n, without texture coordinates
-// (Mikkelsen 2010, "Bump mapping unparametrized surfaces on the GPU").
+// [Mikkelsen 2010].
 vec3 bumped(vec3 n, vec3 p, float height)
 {
     vec3 dx = dFdx(p);

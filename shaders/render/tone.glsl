@@ -13,7 +13,7 @@ vec3 unsqueeze(vec3 radiance)
 }
 #else
 // Samples are averaged by the resolve after being squeezed by their brightest channel, so that one sample of
-// the sun does not outweigh its three dark neighbours and edges stay smooth (Karis 2013, "Tone mapping").
+// the sun does not outweigh its three dark neighbours and edges stay smooth [Karis 2013].
 vec3 squeeze(vec3 radiance)
 {
     return radiance / (1.0 + max(radiance.r, max(radiance.g, radiance.b)));
@@ -25,7 +25,7 @@ vec3 unsqueeze(vec3 squeezed)
 }
 #endif
 
-// A fit of the ACES reference film curve (Narkowicz 2016, "ACES filmic tone mapping curve"): deep shadows, and
+// A fit of the ACES reference film curve [Narkowicz 2016]: deep shadows, and
 // highlights that roll off instead of clipping.
 vec3 toneMap(vec3 radiance)
 {

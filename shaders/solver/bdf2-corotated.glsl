@@ -1,11 +1,11 @@
 // bdf2-corotated: BDF2 (fused/bdf2.glsl) whose stage is solved by two quasi-Newton steps with the matrix of the rest
-// shape, turned with the molecule (Mueller et al. 2002, corotational):
+// shape, turned with the molecule (corotational, [Mueller 2002]):
 //
 //   A = beta M + sum (k + c/eta) n n^T over the springs at rest;   q += R A^-1 R^T (f(x + q, (q - z)/eta) - beta M (q - q0))
 //
 // Every molecule of a type shares the factors of A: computed on the CPU in double (compile/corotated.h), the block Factors of
 // generated/factors.glsl. R turns the rest shape onto the predicted one, and for the second step onto
-// what the first has made of it (Mueller, Bender, Chentanez, Macklin 2016).
+// what the first has made of it [Mueller 2016].
 // Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
 // step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps go ahead as in
 // bdf2-xpbd. Sweeps alone can hold a pinned molecule in a shape at which its springs are far from rest and the stage far

@@ -1,5 +1,4 @@
-// xpbd: small steps, one sweep over the springs each, order 1 (Macklin et al. 2019, "Small steps in physics
-// simulation").
+// xpbd: small steps, one sweep over the springs each, order 1 [Macklin 2019].
 //   v += drag and gravity at x, t;  q = h v;  one sweep moves q;  v = q / h;  x += q;  contact
 
 void beginSolver()

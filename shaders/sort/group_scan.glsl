@@ -1,4 +1,4 @@
-// Sums over a workgroup of LANES lanes in shared memory (Hillis and Steele, CACM 29, 1986).
+// Sums over a workgroup of LANES lanes in shared memory [Hillis 1986].
 #include "sort/wait.glsl"
 
 shared uint scanned[LANES];

@@ -2,7 +2,7 @@
 // `fastestSurface` of generated/colliders.glsl.
 //
 // The way of the substep is taken as a straight line. Distances change no faster than the vertex and the surfaces move,
-// so that a step along the line by what is free (conservative advancement; Mirtich 1996) passes through nothing.
+// so that a step along the line by what is free (conservative advancement, [Mirtich 1996]) passes through nothing.
 // Where it touches, the surface counts as a plane from there on, and `respond` answers as for any other plane: a bounce
 // keeps its height whatever the phase and the speed. What remains of the way is looked at again.
 //

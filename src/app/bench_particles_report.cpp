@@ -183,9 +183,10 @@ JsonValue asJson(const ParticleTimes& t) {
 }
 
 constexpr const char* papers =
-    "UberFlow: frames a second with drawing, table 2 (Kipfer, Segal, Westermann 2004; ATI Radeon 9800 Pro,\n"
+    "UberFlow: frames a second with drawing, table 2 ([Kipfer 2004]; ATI Radeon 9800 Pro,\n"
     "  Pentium 4 of 2 GHz; its loop on the CPU stands beside std::sort).\n"
-    "Latta 2004, section 4, states no times: 1024 x 1024 particles \"in real-time only with few effects and\n"
+    "[Latta 2004, section 4] states no times: 1024 x 1024 particles \"in real-time only with few effects "
+    "and\n"
     "  without sorting\", 512 x 512 with all of them, on the first graphics cards with floating point.\n";
 
 }  // namespace

@@ -7,7 +7,6 @@
 #include "app/gnuplot.h"
 #include "app/options.h"
 #include "core/error.h"
-#include "core/file.h"
 
 namespace shoal::app {
 
@@ -21,7 +20,7 @@ struct Curve {
     int marker;  // gnuplot's point type
 };
 
-// Colours that differ for the colour-blind as well (Okabe and Ito).
+// Colours that differ for the colour-blind as well [Okabe 2008].
 constexpr Curve curves[] = {{Subject::pingPong, "ping-pong", "#D55E00", 9},
                             {Subject::scalar, "CPU, scalar", "#999999", 5},
                             {Subject::fused, "fused", "#0072B2", 7},
@@ -66,18 +65,14 @@ static std::string plotScript(const std::string& file, const std::string& title,
               << curves[i].title << "' with linespoints linewidth 2.5 pointsize 1.3 pointtype "
               << curves[i].marker << " linecolor rgb '" << curves[i].color << "'";
     }
-    const bool svg = lowerExtension(file) == ".svg";
-    out << "set encoding utf8\n"
-        << (svg ? "set terminal svg size 960,600 dynamic font 'DejaVu Sans,15' background rgb 'white'\n"
-                : "set terminal pngcairo size 1440,900 font 'DejaVu Sans,20' linewidth 1.5\n")
-        << "set title " << quoted("euler, 4 substeps a frame; " + title) << " noenhanced\n"
+    out << plotStart(file, 960, 600, 15) << "set title " << quoted("euler, 4 substeps a frame; " + title)
+        << " noenhanced\n"
         << "set xlabel 'quads' offset 0,-0.3\nset ylabel 'nanoseconds a quad and frame'\n"
-        << "set logscale xy\nset xrange [700:1500000]\n"
+        << "set xrange [700:1500000]\n"
         << "set yrange [" << low / 1.6 << ":" << high * 1.6 << "]\n"
         << "set xtics ('1,024' 1024, '16,384' 16384, '131,072' 131072, '1,048,576' 1048576)\n"
         << "set ytics ('1' 1, '10' 10, '100' 100, '1,000' 1e3, '10,000' 1e4, '100,000' 1e5)\n"
         << "do for [decade = -2:5] { do for [i = 2:9] { set ytics add ('' i * 10.0**decade 1) } }\n"
-        << "set border 3 linecolor rgb '#555555'\nset tics nomirror\n"
         << "set grid xtics ytics mytics linetype 1 linecolor rgb '#BBBBBB' linewidth 0.7, "
            "linetype 1 linecolor rgb '#E4E4E4' linewidth 0.5\n"
         << "set key outside right center Left reverse samplen 2 spacing 1.4\n"

@@ -61,22 +61,37 @@ struct Letters {
     }
 };
 
+const Letters& letters() {
+    static const Letters out;
+    return out;
+}
+
+const ImFontGlyph* glyphOf(char c) {
+    return letters().font->FindGlyph(ImWchar(static_cast<unsigned char>(c)));
+}
+
 }  // namespace
 
+int Canvas::widthOf(const std::string& words, int scale) {
+    float out = 0;
+    for (const char c : words)
+        if (const ImFontGlyph* glyph = glyphOf(c)) out += glyph->AdvanceX * float(scale);
+    return int(out);
+}
+
 void Canvas::text(glm::ivec2 place, const std::string& words, const Color& color, int scale) {
-    static const Letters letters;
     float pen = float(place.x);
     for (const char c : words) {
-        const ImFontGlyph* glyph = letters.font->FindGlyph(ImWchar(static_cast<unsigned char>(c)));
+        const ImFontGlyph* glyph = glyphOf(c);
         if (!glyph) continue;
-        const int u = int(std::lround(glyph->U0 * float(letters.width))),
-                  v = int(std::lround(glyph->V0 * float(letters.height)));
+        const int u = int(std::lround(glyph->U0 * float(letters().width))),
+                  v = int(std::lround(glyph->V0 * float(letters().height)));
         const int wide = int(std::lround(glyph->X1 - glyph->X0)),
                   high = int(std::lround(glyph->Y1 - glyph->Y0));
         for (int y = 0; y < high * scale; ++y)
             for (int x = 0; x < wide * scale; ++x) {
-                const int at = (v + y / scale) * letters.width + u + x / scale;
-                const float share = float(letters.texels[at]) / 255;
+                const int at = (v + y / scale) * letters().width + u + x / scale;
+                const float share = float(letters().texels[at]) / 255;
                 if (share > 0)
                     blend(int(pen) + int(glyph->X0) * scale + x, place.y + int(glyph->Y0) * scale + y, color,
                           share);

@@ -20,6 +20,7 @@ class Canvas {
     void dot(glm::vec2 middle, float radius, const Color& color) { line(middle, middle, 2 * radius, color); }
     void square(glm::vec2 middle, float half, const Color& color);
     void text(glm::ivec2 place, const std::string& words, const Color& color, int scale = 1);
+    static int widthOf(const std::string& words, int scale = 1);  // pixels that text() takes
     // Copies a picture of the part's size or less into it.
     void paste(const Image& picture);
 

@@ -33,4 +33,15 @@ inline CLI::Validator kindOf(bool (*test)(const std::string&), const std::string
         "");
 }
 
+// `option` means something only beside `other`.
+inline void needs(CLI::App& command, const char* option, const char* other) {
+    command.get_option(option)->needs(command.get_option(other));
+}
+
+// `option` stands beside none of the others.
+inline void excludes(CLI::App& command, const char* option, std::initializer_list<const char*> others) {
+    for (const char* other : others)
+        command.get_option(option)->excludes(command.get_option(other));
+}
+
 }  // namespace shoal::app

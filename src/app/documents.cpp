@@ -79,6 +79,35 @@ void addCommand(std::string& out, const CLI::App& command, const std::string& na
         addCommand(out, *below, name + " " + below->get_name());
 }
 
+// ---- Markdown
+
+// Text in a cell of a table.
+std::string cell(const std::string& text) {
+    std::string out;
+    for (const char c : text)
+        out += (c == '|' || c == '<' ? "\\" : "") + std::string(1, c);
+    return out;
+}
+
+// A command and those below it: a heading, then a row for each argument and option.
+void addSection(std::string& out, const CLI::App& command, const std::string& name) {
+    out += "\n## " + name + "\n\n" + command.get_description() + ".\n";
+    std::string rows;
+    for (const bool positional : {true, false})
+        for (const CLI::Option* option : command.get_options()) {
+            if (option->get_positional() != positional || option == command.get_help_ptr()) continue;
+            std::string names = option->get_type_name();
+            if (!positional) {
+                if (option->get_type_size() == 0) names.clear();
+                names = option->get_name(false, true) + (names.empty() ? "" : " " + names);
+            }
+            rows += "| `" + cell(names) + "` | " + cell(describe(*option)) + " |\n";
+        }
+    if (!rows.empty()) out += "\n| option | meaning |\n|---|---|\n" + rows;
+    for (const CLI::App* below : commandsOf(command))
+        addSection(out, *below, name + " " + below->get_name());
+}
+
 // ---- bash
 
 std::string joined(const std::vector<std::string>& words) {
@@ -153,6 +182,13 @@ std::string manPage(const CLI::App& app) {
     for (const CLI::App* command : commandsOf(app))
         addCommand(out, *command, app.get_name() + " " + command->get_name());
     return out + ".SH NOTES\n" + roff(app.get_footer()) + "\n";
+}
+
+std::string markdown(const CLI::App& app) {
+    std::string out;
+    for (const CLI::App* command : commandsOf(app))
+        addSection(out, *command, app.get_name() + " " + command->get_name());
+    return out;
 }
 
 std::string bashCompletion(const CLI::App& app) {

@@ -15,6 +15,9 @@ std::shared_ptr<CLI::FormatterBase> helpFormat();
 // In the language of man (section 1).
 std::string manPage(const CLI::App& app);
 
+// In Markdown: a section a command with a table of its options (docs/command.md).
+std::string markdown(const CLI::App& app);
+
 // For bash: commands, options, the words that an option takes, scenes by their names, and files.
 std::string bashCompletion(const CLI::App& app);
 

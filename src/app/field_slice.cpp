@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "app/small_font.h"
+#include "app/canvas.h"
 #include "core/error.h"
 
 namespace shoal::app {
@@ -29,8 +29,10 @@ class SliceCanvas {
         pixel_ = std::max(extent[across_] / wide, extent[up_] / high);
         columns_ = std::max(1, int(extent[across_] / pixel_));
         rows_ = std::max(1, int(extent[up_] / pixel_));
-        picture_.image = {std::max(columns_ + 2 * border, 320), rows_ + border + legendHeight, 3, {}};
-        picture_.image.pixels.assign(size_t(picture_.image.width) * size_t(picture_.image.height) * 3, 250);
+        picture_.image = {std::max(columns_ + 2 * border, 320), rows_ + border + legendHeight, 4, {}};
+        picture_.image.pixels.assign(size_t(picture_.image.width) * size_t(picture_.image.height) * 4, 250);
+        for (size_t alpha = 3; alpha < picture_.image.pixels.size(); alpha += 4)
+            picture_.image.pixels[alpha] = 255;
         left_ = (picture_.image.width - columns_) / 2;
         findRange();
     }
@@ -39,8 +41,9 @@ class SliceCanvas {
         for (int y = 0; y < rows_; ++y)
             for (int x = 0; x < columns_; ++x)
                 set(left_ + x, border + y, shade(x, y));
+        Canvas lines(picture_.image, {left_, border}, {columns_, rows_});
         for (const glm::ivec3& t : mesh.triangles)
-            drawCut(mesh, t);
+            drawCut(lines, mesh, t);
         drawLegend();
         return std::move(picture_);
     }
@@ -97,7 +100,7 @@ class SliceCanvas {
     }
 
     // Where the plane cuts a triangle.
-    void drawCut(const Mesh& mesh, const glm::ivec3& t) {
+    void drawCut(Canvas& lines, const Mesh& mesh, const glm::ivec3& t) {
         glm::dvec2 ends[3];
         int count = 0;
         for (int i = 0; i < 3; ++i) {
@@ -106,19 +109,7 @@ class SliceCanvas {
             if ((da < 0) == (db < 0)) continue;
             ends[count++] = pixelOf(glm::mix(a, b, da / (da - db)));
         }
-        if (count == 2) drawLine(ends[0], ends[1]);
-    }
-
-    void drawLine(const glm::dvec2& a, const glm::dvec2& b) {
-        const glm::dvec2 low = glm::min(a, b) - 2.0, high = glm::max(a, b) + 2.0, along = b - a;
-        const double squared = std::max(glm::dot(along, along), 1e-12);
-        for (int y = std::max(0, int(low.y)); y <= std::min(rows_ - 1, int(high.y)); ++y)
-            for (int x = std::max(0, int(low.x)); x <= std::min(columns_ - 1, int(high.x)); ++x) {
-                const glm::dvec2 p(x, y);
-                const double share = std::clamp(glm::dot(p - a, along) / squared, 0.0, 1.0);
-                const double drawn = cover(glm::distance(p, a + share * along), 0.7);
-                set(left_ + x, border + y, glm::mix(get(left_ + x, border + y), glm::dvec3(1), drawn));
-            }
+        if (count == 2) lines.line(glm::vec2(ends[0]) + 0.5f, glm::vec2(ends[1]) + 0.5f, 0.7f, glm::vec4(1));
     }
 
     // The colours from the least to the largest distance seen, with every fifth contour's number.
@@ -135,21 +126,19 @@ class SliceCanvas {
             for (int y = 0; y < 12; ++y)
                 set(from + x, top + y, color);
         }
+        Canvas numbers(picture_.image, {0, 0}, {picture_.image.width, picture_.image.height});
         for (int n = int(std::ceil(low_ / step)); n * step <= high_; ++n) {
             if (n % 5 != 0) continue;
             std::string text = concat(std::round(n * step * 1e9) / 1e9);
             if (n == 0) text = "0 m";
-            drawText(picture_.image, from + int((n * step - low_) / scale) - textWidth(text) / 2, top + 16,
-                     text);
+            const int middle = from + int((n * step - low_) / scale);
+            numbers.text({middle - Canvas::widthOf(text, 2) / 2, top + 10}, text,
+                         glm::vec4(0.24, 0.24, 0.24, 1), 2);
         }
     }
 
-    glm::dvec3 get(int x, int y) const {
-        const uint8_t* p = &picture_.image.pixels[(size_t(y) * size_t(picture_.image.width) + size_t(x)) * 3];
-        return glm::dvec3(p[0], p[1], p[2]) / 255.0;
-    }
     void set(int x, int y, const glm::dvec3& color) {
-        uint8_t* p = &picture_.image.pixels[(size_t(y) * size_t(picture_.image.width) + size_t(x)) * 3];
+        uint8_t* p = &picture_.image.pixels[(size_t(y) * size_t(picture_.image.width) + size_t(x)) * 4];
         for (int i = 0; i < 3; ++i)
             p[i] = uint8_t(std::lround(255 * std::clamp(color[i], 0.0, 1.0)));
     }

@@ -13,6 +13,7 @@
 #include <sstream>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "core/part_file.h"
 #include "core/printable.h"
 
@@ -80,6 +81,17 @@ std::string quoted(const std::string& given) {
     for (size_t at = 0; (at = text.find('\'', at)) != std::string::npos; at += 2)
         text.insert(at, "'");
     return "'" + text + "'";
+}
+
+std::string plotStart(const std::string& file, int width, int height, int font) {
+    return concat(
+        "set encoding utf8\n",
+        lowerExtension(file) == ".svg"
+            ? concat("set terminal svg size ", width, ",", height, " dynamic font 'DejaVu Sans,", font,
+                     "' background rgb 'white'\n")
+            : concat("set terminal pngcairo size ", width * 3 / 2, ",", height * 3 / 2, " font 'DejaVu Sans,",
+                     font, "' fontscale ", font < 14 ? 1.25 : 1.5, " linewidth 1.5 pointscale 1.5\n"),
+        "set logscale xy\nset border 3 linecolor rgb '#555555'\nset tics nomirror\n");
 }
 
 void needGnuplot(const std::string& file) {

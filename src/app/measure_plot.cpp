@@ -7,7 +7,6 @@
 
 #include "app/gnuplot.h"
 #include "core/error.h"
-#include "core/file.h"
 #include "measure/pareto.h"
 
 namespace shoal::app {
@@ -16,7 +15,7 @@ using namespace measure;
 
 namespace {
 
-// Colours that differ for the colour-blind as well (Okabe and Ito), by the place in the table of solvers.
+// Colours that differ for the colour-blind as well [Okabe 2008], by the place in the table of solvers.
 constexpr const char* colors[] = {"#555555", "#56B4E9", "#0072B2", "#009E73",
                                   "#E69F00", "#D55E00", "#CC79A7", "#8A6FD1"};
 // Of the samplings: line style and marker (gnuplot's dash and point types).
@@ -130,18 +129,7 @@ class Script {
     std::ostringstream data_, lines_;
 };
 
-std::string terminal(const std::string& output, int width, int height, int font) {
-    const bool svg = lowerExtension(output) == ".svg";
-    return concat(
-        "set encoding utf8\n",
-        svg ? concat("set terminal svg size ", width, ",", height, " dynamic font 'DejaVu Sans,", font,
-                     "' background rgb 'white'\n")
-            : concat("set terminal pngcairo size ", width * 3 / 2, ",", height * 3 / 2, " font 'DejaVu Sans,",
-                     font, "' fontscale ", font < 14 ? 1.25 : 1.5, " linewidth 1.5 pointscale 1.5\n"));
-}
-
 const char* axes =
-    "set logscale xy\nset border 3 linecolor rgb '#555555'\nset tics nomirror\n"
     "set format y '10^{%T}'\n"
     "set xtics ('0.1' 0.1, '1' 1, '10' 10, '100' 100, '1 µs' 1e3, '10 µs' 1e4, '100 µs' 1e5, '1 ms' 1e6, "
     "'10 ms' 1e7)\n"
@@ -176,7 +164,7 @@ std::string gridScript(const std::string& output, const std::string& title, int 
     constexpr int cell = 300, head = 46, foot = 150;
     const int width = cell * columns + 60, height = cell * rows + head + foot;
     std::ostringstream out;
-    out << terminal(output, width, height, 11) << "set multiplot\n"
+    out << plotStart(output, width, height, 11) << "set multiplot\n"
         << "set label 1 " << quoted(title) << " at screen 0.5," << 1 - 0.45 * head / height
         << " center font ',15' noenhanced\n"
         << axes << "set xtics add ('' 10, '' 1e4, '' 1e6)\nunset key\n";
@@ -217,7 +205,7 @@ static std::string accuracyScript(const std::string& output, const AccuracyPanel
     if (!limits.any()) limits.add(panel.points, std::numeric_limits<double>::infinity());
     std::ostringstream out;
     const size_t curves = methodsOf(panel.points).size();
-    out << terminal(output, 1080, 680 + (curves > 18 ? 160 : 0), 14) << "set tmargin 5\nset label 1 "
+    out << plotStart(output, 1080, 680 + (curves > 18 ? 160 : 0), 14) << "set tmargin 5\nset label 1 "
         << quoted(panel.title) << " at graph 0, screen 0.955 left noenhanced font ',17'\n"
         << "set label 2 " << quoted(panel.subtitle)
         << " at graph 0, screen 0.912 left noenhanced font ',11' textcolor rgb '#666666'\n"

@@ -75,6 +75,7 @@ void addEdit(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--frames", options.frames, "Close after so many frames")->check(wholeNumber());
     command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG")
         ->type_name("FILE");
+    needs(command, "--screenshot", "--frames");
 }
 
 void addRun(CLI::App& command, Options& options, Texts& texts) {
@@ -136,6 +137,14 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
         ->check(kindOf(isAll<double>, "a factor such as 1.5"));
     command.add_option("--screenshot", options.screenshot, "Save its picture after --frames and close")
         ->type_name("FILE");
+    needs(command, "--save-frames", "--save");
+    needs(command, "--export-frames", "--export");
+    needs(command, "--export-every", "--export");
+    needs(command, "--export-cells", "--export");
+    needs(command, "--capture-every", "--capture");
+    needs(command, "--screenshot", "--frames");
+    excludes(command, "--export-every", {"--export-frames"});
+    excludes(command, "--screenshot", {"--headless", "--capture", "--export", "--json", "--timings"});
 }
 
 void readExportCells(const std::string& word, Options& options) {
@@ -218,14 +227,7 @@ void checkRanges(const Options& options) {
         throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
     for (const int frame : options.saveFrames)
         atLeast("--save-frames", frame, 0);
-    if (!options.saveFrames.empty() && options.save.empty()) throw Error("--save-frames needs --save");
-    if (!options.exportFrames.empty() && options.exports.empty())
-        throw Error("--export-frames needs --export");
-    if (options.exportEvery && options.exports.empty()) throw Error("--export-every needs --export");
-    if (options.exportEvery && !options.exportFrames.empty())
-        throw Error("--export-every and --export-frames exclude each other");
     atLeast("--export-every", options.exportEvery, 1);
-    if (options.captureEvery != 1 && options.capture.empty()) throw Error("--capture-every needs --capture");
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
@@ -236,12 +238,9 @@ void checkRanges(const Options& options) {
         throw Error(concat("--plot: expected a name ending in .svg or .png, found \"", options.plot, "\""));
     checkTarget("--capture", options.capture, {".png", ".mp4", ".mkv", ".webm", ".mov"});
     checkTarget("--export", options.exports, {".csv", ".ply", ".vtp", ".pvd"});
-    if (!options.screenshot.empty() && (options.headless || !options.frames))
-        throw Error(
-            "--screenshot is of the window after --frames: it needs --frames and excludes --headless");
     const bool headlessWork =
         !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
-    if (headlessWork && (options.context == gpu::ContextKind::window || !options.screenshot.empty()))
+    if (headlessWork && options.context == gpu::ContextKind::window)
         throw Error(
             "--capture, --export, --json and --timings are of headless runs: leave out the window's options");
     if (options.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
@@ -305,7 +304,7 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
         "Exit codes: 0 when all went well, 1 when a run failed or a file is wrong, 2 when the command line "
         "is "
         "wrong.");
-    // What the installation is made with (cmake/ShoalInstall.cmake).
+    // The installation is made with the first two (cmake/ShoalInstall.cmake), docs/command.md with the last.
     const auto document = [&app](const char* flag, std::string (*write)(const CLI::App&)) {
         app.add_flag_callback(flag,
                               [&app, write] {
@@ -316,6 +315,7 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
     };
     document("--man-page", manPage);
     document("--bash-completion", bashCompletion);
+    document("--markdown", markdown);
 }
 
 // The command that the words on the command line have come to.
@@ -354,7 +354,7 @@ static void finish(const CLI::App& app, Options& options, const Texts& texts) {
     if (options.fieldSampling) options.sampling = samplingNamed("--field-sampling", *options.fieldSampling);
     readExportCells(texts.exportCells, options);
     checkField(options, texts.slice);
-    finishMeasure(texts, *app.get_subcommand("measure"), options);
+    finishMeasure(texts, options);
 }
 
 std::optional<Options> parseOptions(int argc, char** argv) {

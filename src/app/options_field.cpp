@@ -28,6 +28,8 @@ void addField(CLI::App& command, Options& options, std::string& slice, std::stri
         ->capture_default_str();
     command.add_option("--only", options.only, "Of a scene: fields with this in their name");
     command.add_flag("--json", options.json, "Report as JSON on standard output");
+    needs(command, "--slice", "--capture");
+    excludes(command, "--resolution", {"--error"});
 }
 
 // x, y or z, and where.
@@ -45,7 +47,6 @@ void checkField(Options& options, const std::string& slice) {
     if (options.command != Options::Command::field) return;
     readSlice(slice, options);
     const Options::Field& field = options.field;
-    if (field.resolution && field.error) throw Error("expected either --resolution or --error, found both");
     if (field.resolution && (*field.resolution < leastResolution || *field.resolution > mostResolution))
         throw Error(concat("--resolution: expected ", leastResolution, " to ", mostResolution, ", found ",
                            *field.resolution));
@@ -59,7 +60,6 @@ void checkField(Options& options, const std::string& slice) {
     above("--thickness", field.thickness, true);
     if (!options.capture.empty() && lowerExtension(options.capture) != ".png")
         throw Error(concat("--capture: expected a name ending in .png, found \"", options.capture, "\""));
-    if (field.sliceAxis && options.capture.empty()) throw Error("--slice needs --capture and a file's name");
 }
 
 }  // namespace shoal::app

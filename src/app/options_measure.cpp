@@ -34,9 +34,6 @@ void checkMeasure(const Options& options) {
     if (options.command != Options::Command::measure) return;
     if (options.files.empty() == options.report.empty())
         throw Error("measure: expected a scene file, or --report and a folder");
-    if (!options.report.empty() && (!options.csv.empty() || !options.plot.empty() || options.json))
-        throw Error("--report writes files of its own: leave out --json, --csv and --plot");
-    if (options.report.empty() && !options.only.empty()) throw Error("--only chooses scenes of --report");
     if (!(options.duration > 0 && options.duration <= 100))
         throw Error(concat("--duration: expected a time above 0, at most 100 s, found ", options.duration));
     if (options.molecules < 1 || options.molecules > 1024)
@@ -55,14 +52,6 @@ void checkBench(const Options& options) {
         throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")
         throw Error("--only is not of bench sort, which measures everything: leave it out");
-}
-
-// The report's scenes have their own.
-void checkReport(const Options& options, const CLI::App& measure) {
-    if (options.report.empty()) return;
-    for (const char* own : {"--duration", "--seed"})
-        if (measure.count(own) > 0)
-            throw Error(concat("--report: its scenes have their own times and seeds: leave out ", own));
 }
 
 }  // namespace
@@ -144,6 +133,9 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
     addCountAndSeed(command, options);
     addPath(command, options, texts);
     addContext(command, options, texts);
+    // The report writes files of its own, and its scenes have their own times and seeds.
+    excludes(command, "--report", {"--json", "--csv", "--plot", "--duration", "--seed"});
+    needs(command, "--only", "--report");
 }
 
 std::optional<SolverKind> solverNamed(const char* option, const std::string& word) {
@@ -164,11 +156,10 @@ FieldSampling samplingNamed(const char* option, const std::string& word) {
     throw Error(concat(option, ": unknown sampling \"", word, "\"", suggestion(word, words)));
 }
 
-void finishMeasure(const Texts& texts, const CLI::App& measure, Options& options) {
+void finishMeasure(const Texts& texts, Options& options) {
     readLists(texts, options);
     checkMeasure(options);
     checkBench(options);
-    checkReport(options, measure);
 }
 
 }  // namespace shoal::app

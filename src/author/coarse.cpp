@@ -58,7 +58,7 @@ Triangles collapse(Triangles triangles, const std::vector<glm::vec3>& positions,
     return best;
 }
 
-// Seeds far from one another (Gonzalez 1985), every vertex to its nearest seed, and the triangles between
+// Seeds far from one another [Gonzalez 1985], every vertex to its nearest seed, and the triangles between
 // three.
 Triangles gather(const Triangles& triangles, const std::vector<glm::dvec3>& positions, size_t most) {
     const std::set<unsigned> used(triangles.begin(), triangles.end());

@@ -17,7 +17,7 @@ struct CoarseMesh {
 };
 
 // At most `vertices` of them, 3 or more; fewer when the mesh has fewer. Edges collapse by the quadric error
-// metric (Garland and Heckbert 1997; meshoptimizer); where its topology stops that too early, and for flat
+// metric ([Garland 1997], by meshoptimizer); where its topology stops that too early, and for flat
 // meshes, of which every collapse costs nothing, vertices are gathered about seeds far from one another.
 CoarseMesh simplify(const Mesh& mesh, int vertices);
 

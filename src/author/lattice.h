@@ -1,5 +1,5 @@
-// Tetrahedra of a body-centred cubic lattice that fill a volume (Molino and others, "A crystalline, red green
-// strategy for meshing highly deformable objects with tetrahedra", 2003: the lattice, not its refinement).
+// Tetrahedra of a body-centred cubic lattice that fill a volume ([Molino 2003]: the lattice, not its
+// refinement).
 #pragma once
 
 #include <array>

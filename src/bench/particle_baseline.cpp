@@ -56,7 +56,7 @@ struct Part {
     Part& operator=(const Part&) = delete;
 
     float* of(int component) const { return data + size_t(component) * stride; }
-    float uniform() {  // in [0, 1), xorshift (Marsaglia 2003)
+    float uniform() {  // in [0, 1), xorshift [Marsaglia 2003]
         random ^= random << 13;
         random ^= random >> 17;
         random ^= random << 5;

@@ -6,7 +6,7 @@
 namespace shoal::bench {
 
 // Back onto the height field, where a particle is below it: bilinear heights, the normal from their slopes,
-// reflected as Latta does (2004, section 3.4.2, 4 and 5).
+// reflected as in [Latta 2004, section 3.4.2, (4) and (5)].
 template <class V>
 SHOAL_INLINE void landParticles(V& x, V& y, V& z, V& vx, V& vy, V& vz, const ParticleKernelStep& step) {
     using Mask = typename V::Mask;

@@ -1,9 +1,9 @@
 // Point particles: what `shoal bench particles` measures.
 //
-// Latta's and UberFlow's settings (2004) on squares of particles: they fall with drag through a uniform wind,
-// one substep of 1/60 s a frame, from half a second after their start; alone, over a height field, sorted,
-// with contact, being born and dying, drawn. Beside them the loop that one would write for the CPU, with an
-// upload of its positions every frame (bench/particle_baseline.h), and a copy of the state.
+// The settings of [Latta 2004] and [Kipfer 2004] on squares of particles: they fall with drag through a
+// uniform wind, one substep of 1/60 s a frame, from half a second after their start; alone, over a height
+// field, sorted, with contact, being born and dying, drawn. Beside them the loop that one would write for the
+// CPU, with an upload of its positions every frame (bench/particle_baseline.h), and a copy of the state.
 //
 // All cases of a group take turns, round after round. A sample: to the start (but where they are born and
 // die: that goes on), a frame that is not timed, then some between two waits.

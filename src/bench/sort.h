@@ -1,5 +1,5 @@
 // The sorts of src/sort against each other, UberFlow's figures, std::sort and a copy of the same bytes:
-// UberFlow's table of sorts (Kipfer, Segal, Westermann, Graphics Hardware 2004, table 1), a square of pairs
+// UberFlow's table of sorts [Kipfer 2004, table 1], a square of pairs
 // at a time.
 //
 // All cases of a size take turns, round after round, like those of bench/bench.h. A sample: the unsorted

@@ -1,4 +1,4 @@
-// UberFlow's five experiments (Kipfer, Segal, Westermann, Graphics Hardware 2004, section 5, table 2) on
+// UberFlow's five experiments [Kipfer 2004, section 5, table 2] on
 // squares of particles, all of which are drawn:
 //
 //   E1   motion through a vector field

@@ -10,7 +10,7 @@ namespace shoal {
 
 namespace {
 
-// Exact, by transformed rejection from a mean of 10 (Hoermann 1993, PTRS), below by Knuth's product.
+// Exact, by transformed rejection from a mean of 10 ([Hoermann 1993], PTRS), below by Knuth's product.
 double poisson(double mean, Random& random) {
     if (mean < 10) {
         const double least = std::exp(-mean);

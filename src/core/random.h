@@ -1,5 +1,4 @@
-// Random numbers that are the same on every machine: PCG (M. E. O'Neill, "PCG: A Family of Simple Fast
-// Space-Efficient Statistically Good Algorithms for Random Number Generation", HMC-CS-2014-0905, 2014).
+// Random numbers that are the same on every machine: PCG [O'Neill 2014].
 // The standard library's distributions are not used: their results differ between implementations.
 #pragma once
 

@@ -1,6 +1,5 @@
-// The point of a mesh that is nearest to another, and how thick the mesh is there. Embree's hierarchy (Wald
-// et al. 2014) finds the triangles, in single precision and generously; distances to them are ours, in
-// double.
+// The point of a mesh that is nearest to another, and how thick the mesh is there. Embree's hierarchy [Wald
+// 2014] finds the triangles, in single precision and generously; distances to them are ours, in double.
 #pragma once
 
 #include <limits>

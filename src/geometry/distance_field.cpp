@@ -1,5 +1,5 @@
 // Baking. Every sample: the unsigned distance by a closest point; its sign by the winding number, which
-// unlike pseudo-normals (Baerentzen and Aanaes 2005) is right inside shells that overlap, and unlike parities
+// unlike pseudo-normals [Baerentzen 2005] is right inside shells that overlap, and unlike parities
 // of rays does not miscount where a ray meets an edge. What lies inside other shells is then no surface at
 // all.
 #include "geometry/distance_field.h"

@@ -8,7 +8,7 @@
 namespace shoal {
 
 // Solves |grad d| = 1 inwards (d negative) for the samples that are marked, from all others, by fast sweeping
-// (Zhao 2005): of first order in the cell.
+// [Zhao 2005]: of first order in the cell.
 void continueInwards(std::vector<float>& distances, const std::vector<char>& marked, const SampleGrid& grid);
 
 }  // namespace shoal

@@ -63,7 +63,7 @@ glm::dvec3 unit(const glm::dvec3& v, const glm::dvec3& otherwise) {
 }
 
 // The triangle's normal times its angle at a corner: sums do not depend on how polygons were cut
-// (Thuermer and Wuethrich 1998). On a three-sided twig a sum weighted by areas would lie along a side.
+// [Thuermer 1998]. On a three-sided twig a sum weighted by areas would lie along a side.
 glm::dvec3 angleNormal(const Mesh& mesh, const glm::ivec3& t, int corner) {
     const glm::dvec3& at = mesh.positions[size_t(t[corner])];
     const glm::dvec3 next = mesh.positions[size_t(t[(corner + 1) % 3])] - at;

@@ -1,6 +1,6 @@
 // Hanging a mesh on a molecule's few vertices, as its skin.
 //
-// Moving least squares (Lancaster and Salkauskas 1981) over the nearest vertices, at most Skin::mostWeights:
+// Moving least squares [Lancaster 1981] over the nearest vertices, at most Skin::mostWeights:
 // of all weights that add up to 1 and reproduce the point, those with the least sum of weight^2 / kernel. The
 // kernel falls to 0 at the first vertex that is left out, so that weights change smoothly along the skin.
 #pragma once

@@ -83,7 +83,7 @@ class Heights {
         return glm::normalize(bilinear(*field_, p, [this](int x, int z) { return sampleNormal(x, z); }));
     }
 
-    // From the heights a cell away, towards the inside at the far border (Latta 2004, 3.4.2).
+    // From the heights a cell away, towards the inside at the far border [Latta 2004, section 3.4.2].
     glm::dvec3 threeSampleNormal(const glm::dvec2& p) const {
         const double x = p.x + 1 <= field_->columns - 1 ? 1 : -1, z = p.y + 1 <= field_->rows - 1 ? 1 : -1;
         const double here = at(p);

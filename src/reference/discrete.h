@@ -1,5 +1,5 @@
 // The explicit methods of the GPU, step for step, in double precision: what the passes would compute if
-// floats had no rounding. `euler` is symplectic Euler (Latta 2004, 3 and 8), `leapfrog` its second-order
+// floats had no rounding. `euler` is symplectic Euler [Latta 2004, (3) and (8)], `leapfrog` its second-order
 // relative. All but rk4 take gravity and drag exactly over the step they are given:
 //   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma,
 // with the scene's forces in g. Thrust acts exactly, over h before a step of order 1, else over h/2 before

@@ -4,8 +4,8 @@
 //
 // A stage over eta finds the displacements q of the step with
 //   m (q - z) / eta = m w + eta (f(x + q, (q - z) / eta) + m g + m gamma (u - (q - z) / eta))
-// from the solution without springs: by Gauss-Seidel sweeps over the springs as compliant constraints (XPBD;
-// Macklin et al. 2016 and 2019), or by two quasi-Newton steps with the matrix of the rest shape, turned.
+// from the solution without springs: by Gauss-Seidel sweeps over the springs as compliant constraints (XPBD,
+// [Macklin 2016] and [Macklin 2019]), or by two quasi-Newton steps with the matrix of the rest shape, turned.
 #pragma once
 
 #include "reference/problem.h"

@@ -1,10 +1,10 @@
 // The lattice noises of the vector fields in double precision, written from their definition: shaders share
 // the lattice (the hash, its seeds, a byte's meaning) and nothing else with this file.
 //
-// A lattice point's hash is pcg4d(x, y, z, w) in 32-bit integers (Jarzynski and Olano 2020, JCGT 9(3)); the
+// A lattice point's hash is pcg4d(x, y, z, w) in 32-bit integers [Jarzynski 2020]; the
 // four bytes b of one word, lowest first, are the gradient's components b / 127.5 - 1. The noise at p is the
 // sum over the corners of p's cell of (gradient . (p - corner)), weighted by Perlin's quintic in every
-// dimension (Perlin 2002): twice continuously differentiable, 0 at lattice points.
+// dimension [Perlin 2002]: twice continuously differentiable, 0 at lattice points.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct Potential {
 };
 Potential vectorPotential(const glm::dvec3& p, double t, uint32_t seed);
 
-// The potential's curl over p, free of divergence (Bridson et al. 2007).
+// The potential's curl over p, free of divergence [Bridson 2007].
 glm::dvec3 curlNoise(const glm::dvec3& p, double t, uint32_t seed);
 
 }  // namespace shoal::reference

@@ -2,8 +2,8 @@
 // caustics, drawn anew for every picture from the waves of the surface, and the waves themselves.
 //
 // Waves repeat on square tiles of the surface, eight meshes wide. Where refraction carries the light that
-// enters a small triangle of the surface is again a triangle, as much brighter as it is smaller (Arvo 1986,
-// "Backward ray tracing"; drawn as Wallace 2011 does, "WebGL water").
+// enters a small triangle of the surface is again a triangle, as much brighter as it is smaller [Arvo 1986];
+// it is drawn as in [Wallace 2011].
 #pragma once
 
 #include <array>

@@ -17,7 +17,7 @@ struct ColorScale {
     };
     Quantity quantity = Quantity::speed;
     double from = 0, to = 1;  // of the quantity; to above from
-    // Linear RGB in [0, 1], 2 to 8. These have even steps of lightness in OKLab (Ottosson 2020), from 0.32 to
+    // Linear RGB in [0, 1], 2 to 8. These have even steps of lightness in OKLab [Ottosson 2020], from 0.32 to
     // 0.92, and turn from blue over green to yellow: what is faster is lighter, also in a grey print.
     std::vector<glm::dvec3> colors = {{0.03, 0.012, 0.186},  {0.005, 0.057, 0.304}, {0.001, 0.141, 0.289},
                                       {0.001, 0.25, 0.322},  {0.002, 0.4, 0.334},   {0.057, 0.584, 0.268},

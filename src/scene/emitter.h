@@ -19,7 +19,7 @@ namespace shoal {
 enum class Allocator {
     gpu,    // the smallest free places, found on the GPU: no byte crosses the bus
     ring,   // one after another, over the oldest (UberFlow's time stamp modulo the capacity)
-    stack,  // the place that was freed last, from the CPU (Latta 2004, section 3.4.1)
+    stack,  // the place that was freed last, from the CPU [Latta 2004, section 3.4.1]
     heap,   // the smallest free place, from the CPU (the same)
 };
 const char* name(Allocator allocator);

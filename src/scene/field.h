@@ -74,7 +74,7 @@ struct TaylorGreenField {
 };
 
 // Curl of three gradient noises in (x / length, t / period): divergence-free and unbiased because it
-// evolves in time instead of being scrolled (Bridson et al. 2007).
+// evolves in time instead of being scrolled [Bridson 2007].
 struct CurlNoiseField {
     double speed = 1;   // m/s, about the RMS of u
     double length = 2;  // m, of the largest eddies
@@ -110,7 +110,7 @@ struct WaveTrain {
     double phase = 0;               // rad, at the origin at time 0
 };
 
-// Water under waves (Fournier and Reeves 1986, "A simple model of ocean waves"): orbits are circles whose
+// Water under waves [Fournier 1986]: orbits are circles whose
 // radius falls as e^(ky) in deep water, and ellipses that flatten to lines at the bottom of shallow water.
 // For y from -depth to the sum of the amplitudes, and beyond as there,
 //   u = amplitude omega (cosh k(y + depth) cos a, sinh k(y + depth) sin a) / sinh(k depth), a as above,
@@ -122,7 +122,7 @@ struct WavesField {
     std::vector<WaveTrain> trains;
 };
 
-// Holland's gradient wind (1980, "An analytic model of the wind and pressure profiles in hurricanes", eq. 5)
+// Holland's gradient wind [Holland 1980, eq. 5]
 // around the vertical, anticlockwise seen from above where `speed` is positive, with an inflow below and an
 // outflow above. With r from the axis, h above the origin, s = (radius / r)^shape, f = coriolis:
 //   V(r) = sqrt(speed^2 s e^(1 - s) + (r f / 2)^2) - r f / 2

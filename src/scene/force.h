@@ -27,7 +27,7 @@ struct AttractForce {
     double most = 0;    // m/s^2; inverseSquare, above 0
 };
 
-// Towards the closest point of a line, and around it (Latta 2004, section 3.4.2), within a radius: both grow
+// Towards the closest point of a line, and around it [Latta 2004, section 3.4.2], within a radius: both grow
 // with the distance up to the core and fall off beyond it as core / distance.
 struct VortexLineForce {
     glm::dvec3 position{0};

@@ -1,5 +1,5 @@
 // A type of point particle: its mass and its looks. What changes with age is computed from age and seed where
-// it is drawn, never stored (Latta 2004, section 3.3). A group of particles has one type.
+// it is drawn, never stored [Latta 2004, section 3.3]. A group of particles has one type.
 #pragma once
 
 #include <optional>
@@ -45,8 +45,8 @@ struct ParticleImage {
 
 enum class ParticleShape {
     points,   // of a fixed number of pixels: the cheapest
-    sprites,  // GL_POINTS, turned and cut out of the image in the fragment stage (Latta, section 3.4.6)
-    quads,    // instances of four corners that all share (Kapoulkine 2008)
+    sprites,  // GL_POINTS, turned and cut out of the image in the fragment stage [Latta 2004, section 3.4.6]
+    quads,    // instances of four corners that all share [Kapoulkine 2008]
 };
 enum class ParticleFacing {
     camera,    // turned about the line of sight

@@ -25,7 +25,7 @@ glm::dvec3 up() {
     return {0, 1, 0};
 }
 
-// splitmix64's finaliser (Steele, Lea, Flood 2014).
+// splitmix64's finaliser [Steele 2014].
 uint64_t mix(uint64_t x) {
     x = (x ^ (x >> 30)) * 0xBF58476D1CE4E5B9u;
     x = (x ^ (x >> 27)) * 0x94D049BB133111EBu;
@@ -54,7 +54,7 @@ glm::dquat arc(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& other
     return glm::normalize(glm::dquat(1 + cosine, axis.x, axis.y, axis.z));
 }
 
-// Shoemake's uniform random rotation (Graphics Gems III, 1992).
+// Shoemake's uniform random rotation [Shoemake 1992].
 glm::dquat anyRotation(Random& random) {
     const double u = random.uniform(), v = 2 * pi * random.uniform(), w = 2 * pi * random.uniform();
     const double a = std::sqrt(1 - u), b = std::sqrt(u);
@@ -144,7 +144,7 @@ class Hosts {
         const auto found = std::upper_bound(areas_.begin(), areas_.end(), area);
         const auto last = areas_.end() - 1;
         const int t = selected_.triangles[size_t(std::min(found, last) - areas_.begin())];
-        // Uniform over the triangle (Turk, Graphics Gems, 1990).
+        // Uniform over the triangle [Turk 1990].
         const double root = std::sqrt(random.uniform()), v = random.uniform();
         const glm::dvec3 position =
             (1 - root) * corner(t, 0) + root * (1 - v) * corner(t, 1) + root * v * corner(t, 2);

@@ -1,7 +1,6 @@
-// How the molecules of a group steer by one another: separation, alignment and cohesion (Reynolds, "Flocks,
-// herds, and schools", SIGGRAPH 1987), flight from other groups and hunting them, walls, a depth and a home
-// that they like. Each swims along the +Z of its rest shape, with +Y up. Method and what each number does:
-// docs/school.md.
+// How the molecules of a group steer by one another: separation, alignment and cohesion [Reynolds 1987],
+// flight from other groups and hunting them, walls, a depth and a home that they like. Each swims along the
+// +Z of its rest shape, with +Y up. Method and what each number does: docs/school.md.
 #pragma once
 
 #include <optional>

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-// Moeller and Trumbore 1997, "Fast, minimum storage ray-triangle intersection"; from both sides.
+// [Moeller 1997]; from both sides.
 double meets(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(ray.along, ac);
     const double determinant = glm::dot(ab, p);

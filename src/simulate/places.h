@@ -1,4 +1,4 @@
-// The allocators on the CPU (Latta 2004, section 3.4.1): which places are free, known from when what is in
+// The allocators on the CPU [Latta 2004, section 3.4.1]: which places are free, known from when what is in
 // them dies of age. What dies earlier keeps its place until then.
 #pragma once
 

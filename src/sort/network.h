@@ -11,17 +11,16 @@
 
 namespace shoal {
 
-// Odd-even merge sort: Batcher, "Sorting networks and their applications", AFIPS 1968; Latta, "Building a
-// million particle system", section 3.4.4. Elements e and e + distance are compared where both lie in the
-// same block of 2 * run and e - (distance mod run) has not the bit `distance`. t (t + 1) / 2 passes for up to
-// 2^t elements.
+// Odd-even merge sort: [Batcher 1968]; [Latta 2004, section 3.4.4]. Elements e and e + distance are compared
+// where both lie in the same block of 2 * run and e - (distance mod run) has not the bit `distance`. t (t +
+// 1) / 2 passes for up to 2^t elements.
 struct OddEvenPass {
     int run;  // sorted runs of this length are merged in pairs
     int distance;
 };
 std::vector<OddEvenPass> oddEvenMergePasses(size_t count);
 
-// Bitonic sort: Batcher 1968; Kipfer, Segal, Westermann, "UberFlow", Graphics Hardware 2004, section 4.3.3,
+// Bitonic sort: [Batcher 1968]; UberFlow [Kipfer 2004, section 4.3.3],
 // with two elements a texel: texel t holds the elements 2 t and 2 t + 1. The texels t and t ^ mask are
 // compared, their elements crosswise in the first pass of a merge (which reads the other run backwards, where
 // UberFlow reverses rows) and straight in the others. Merging the two elements of a texel takes no pass of

@@ -9,8 +9,7 @@
 //           of up to 11 bits. For CPU rasterisers: nothing is shared and nobody waits.
 //   tiles:  a workgroup sorts a tile of 2,048 pairs by the digit in shared memory, then writes its runs, in
 //           digits of up to 8 bits. For GPUs: neighbouring lanes write neighbouring memory.
-// Sources: Zagha, Blelloch, "Radix sort for vector multiprocessors", SC 1991 (pieces); Satish, Harris,
-// Garland, "Designing efficient sorting algorithms for manycore GPUs", IPDPS 2009 (tiles).
+// Sources: [Zagha 1991] (pieces), [Satish 2009] (tiles).
 #pragma once
 
 #include <cstddef>

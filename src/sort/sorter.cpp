@@ -14,11 +14,10 @@ namespace {
 
 constexpr SortMethodRow methods[] = {
     {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, false, true, "fragment passes, a pair a texel",
-     "Batcher 1968; Latta 2004, section 3.4.4"},
+     "[Batcher 1968]; [Latta 2004, section 3.4.4]"},
     {SortMethod::bitonic, "bitonic", false, 3, 3, true, false, "fragment passes, two pairs a texel",
-     "Batcher 1968; UberFlow 2004, section 4.3.3"},
-    {SortMethod::radix, "radix", true, 4, 3, false, false, "compute shaders",
-     "Zagha, Blelloch 1991; Satish, Harris, Garland 2009"},
+     "[Batcher 1968]; [Kipfer 2004, section 4.3.3]"},
+    {SortMethod::radix, "radix", true, 4, 3, false, false, "compute shaders", "[Zagha 1991]; [Satish 2009]"},
     {SortMethod::cpu, "cpu", true, 3, 3, false, false, "read back, std::stable_sort, uploaded",
      "the baseline"},
 };

@@ -82,7 +82,7 @@ TEST_CASE("frames count on from where the run was saved", "[cli]") {
             "--export-frames: frame 5 is before 6, where the run goes on");
     refusal(words(4, with({"--save", scratch.path("x"), "--save-frames", "11"})),
             "--save-frames: frame 11 is beyond the last, 10");
-    refusal(words(4, {"--save-frames", "1"}), "--save-frames needs --save");
+    refusal(words(4, {"--save-frames", "1"}), "--save-frames requires --save");
 }
 
 TEST_CASE("what cannot be resumed or saved says why, in one line", "[cli]") {

@@ -65,7 +65,9 @@ TEST_CASE("values out of range are refused", "[cli]") {
         {"--export-frames", "1,x", "--export-frames: expected a whole number, found \"x\""},
     };
     for (const Case& one : cases)
-        refusal({"run", helloScene(), "--headless", concat(one.option, "=", one.value)}, one.message);
+        refusal({"run", helloScene(), "--headless", "--capture", "x", "--export", "x.csv",
+                 concat(one.option, "=", one.value)},
+                one.message);
     refusal({"run", helloScene(), "--headless", "--frames"}, "--frames");
     refusal({"run", helloScene(), "--headless", "--frames", "2", "--export", "x.csv", "--export-frames", "3"},
             "frame 3 is beyond the last, 2");

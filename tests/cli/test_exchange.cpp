@@ -178,10 +178,11 @@ TEST_CASE("wrong words of --export", "[cli][exchange]") {
         refusal(all, part);
     };
     refused({"--export", "x.obj"}, "cannot write \".obj\"");
-    refused({"--export-every", "2"}, "--export-every needs --export");
+    refused({"--export-every", "2"}, "--export-every requires --export");
     refused({"--export", "x.vtp", "--export-every", "0"}, "--export-every: expected at least 1, found 0");
     refused({"--export", "x.vtp", "--export-every", "3"}, "--export-every 3 is beyond the last frame, 2");
-    refused({"--export", "x.vtp", "--export-every", "1", "--export-frames", "1"}, "exclude each other");
+    refused({"--export", "x.vtp", "--export-every", "1", "--export-frames", "1"},
+            "--export-frames excludes --export-every");
     refused({"--export", "x.vtp", "--export-cells", "spring"}, "did you mean \"springs\"");
     refused({"--export", "x.csv", "--export-cells", "springs"},
             "--export-cells is of --export to .vtp or .pvd");

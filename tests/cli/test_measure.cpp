@@ -231,9 +231,9 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
 TEST_CASE("measure refuses what it cannot do", "[cli]") {
     refusal({"measure"}, "measure: expected a scene file, or --report and a folder");
     refusal({"measure", helloScene(), "--report", "x"}, "measure: expected a scene file, or --report");
-    refusal({"measure", "--report", "x", "--json"}, "--report writes files of its own");
-    refusal({"measure", "--report", "x", "--duration", "1"}, "leave out --duration");
-    refusal({"measure", "--report", "x", "--seed", "1"}, "leave out --seed");
+    refusal({"measure", "--report", "x", "--json"}, "--report excludes --json");
+    refusal({"measure", "--report", "x", "--duration", "1"}, "--duration excludes --report");
+    refusal({"measure", "--report", "x", "--seed", "1"}, "--report excludes --seed");
     refusal({"measure", helloScene(), "--solvers", "eulr"},
             "--solvers: unknown solver \"eulr\" (did you mean");
     refusal({"measure", helloScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");

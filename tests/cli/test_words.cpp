@@ -206,3 +206,11 @@ TEST_CASE("bash completes commands, options, their words and scenes, and expands
     CHECK(completed(shoal + " run '$'").size() == 1);
     CHECK_FALSE(std::filesystem::exists(scratch / "pwned"));
 }
+
+TEST_CASE("docs/command.md has every option of every command as it is declared, and nothing more", "[cli]") {
+    const std::string page = readFile(sourceFile("docs/command.md")), mark = "<!-- shoal --markdown -->\n";
+    const size_t at = page.find(mark);
+    REQUIRE(at != std::string::npos);
+    INFO("to renew it, put what shoal --markdown prints behind the mark");
+    CHECK(page.substr(at + mark.size()) == runShoal({"--markdown"}).out);
+}

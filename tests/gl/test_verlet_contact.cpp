@@ -1,4 +1,4 @@
-// verlet's contact as a constraint on the position (Jakobsen 2001; Latta 2004): what entered is moved out,
+// verlet's contact as a constraint on the position [Jakobsen 2001], [Latta 2004]: what entered is moved out,
 // and the velocity is what the moved positions leave.
 #include <cmath>
 #include <numbers>

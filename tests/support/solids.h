@@ -95,8 +95,7 @@ inline double boxDistance(const glm::dvec3& low, const glm::dvec3& high, const g
     return glm::length(glm::max(q, 0.0)) + std::min(std::max({q.x, q.y, q.z}), 0.0);
 }
 
-// The generalised winding number: solid angles over 4 pi (van Oosterom and Strackee 1983; Jacobson et al.
-// 2013).
+// The generalised winding number: solid angles over 4 pi [van Oosterom 1983], [Jacobson 2013].
 inline double solidAngles(const Mesh& mesh, const glm::dvec3& x) {
     double sum = 0;
     for (const glm::ivec3& t : mesh.triangles) {
@@ -109,7 +108,7 @@ inline double solidAngles(const Mesh& mesh, const glm::dvec3& x) {
     return sum / (4 * std::numbers::pi);
 }
 
-// Brute force, after Ericson's regions (2005), which the library does not use.
+// Brute force, after the regions of [Ericson 2005], which the library does not use.
 inline double bruteDistance(const Mesh& mesh, const glm::dvec3& x) {
     double least = 1e300;
     for (const glm::ivec3& t : mesh.triangles) {
