@@ -52,7 +52,7 @@ def declared(room):
             if not found or without.search(text) or "=" in text[: found.start()] or not scopes:
                 continue
             # a member or a variable with a bracketed initialiser has no parameters but expressions; none of ours do
-            if re.search(r"std::function<", text[: found.start()]):
+            if re.search(r"std::function<", text[: found.start()]) or text[found.end() :].startswith("*"):
                 continue
             out["::".join(scopes + [re.sub(r"\s", "", found.group(1))])] += 1
     return out
