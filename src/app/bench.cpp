@@ -37,9 +37,9 @@ class BulletRunner : public BenchRunner {
     }
     void restart() override {
         bullet_ = std::make_unique<BulletBaseline>(molecule_, one_.count,
-                                                    one_.subject == Subject::bulletMerged
-                                                        ? BulletBaseline::Form::merged
-                                                        : BulletBaseline::Form::bodies);
+                                                   one_.subject == Subject::bulletMerged
+                                                       ? BulletBaseline::Form::merged
+                                                       : BulletBaseline::Form::bodies);
     }
     void frame() override {
         for (int i = 0; i < one_.substeps; ++i)

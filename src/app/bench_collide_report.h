@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "app/machine.h"
-#include "core/json.h"
 #include "bench/collide.h"
 #include "bench/search.h"
 #include "bench/uberflow.h"
+#include "core/json.h"
 
 namespace shoal::app {
 

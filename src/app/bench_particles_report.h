@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "app/machine.h"
-#include "core/json.h"
 #include "bench/particles.h"
+#include "core/json.h"
 
 namespace shoal::app {
 

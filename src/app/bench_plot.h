@@ -12,7 +12,6 @@ namespace shoal::app {
 void checkPlot(const std::string& file, const std::vector<bench::BenchCase>& cases);
 
 // `file`: .svg or .png. Error: gnuplot fails, the file cannot be written.
-void plot(const std::string& file, const std::string& title,
-          const std::vector<bench::BenchResult>& results);
+void plot(const std::string& file, const std::string& title, const std::vector<bench::BenchResult>& results);
 
 }  // namespace shoal::app

@@ -4,13 +4,13 @@
 #include <string>
 #include <vector>
 
-#include "core/json.h"
-#include "gpu/context.h"
 #include "bench/bench.h"
 #include "bench/error.h"
 #include "bench/passes.h"
 #include "bench/start.h"
 #include "bench/verdict.h"
+#include "core/json.h"
+#include "gpu/context.h"
 
 namespace shoal::app {
 

@@ -5,9 +5,9 @@
 
 #include "app/commands.h"
 #include "app/machine.h"
+#include "bench/school.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "bench/school.h"
 #include "measure/pin_threads.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"

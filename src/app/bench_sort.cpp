@@ -6,9 +6,9 @@
 
 #include "app/commands.h"
 #include "app/machine.h"
+#include "bench/sort.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "bench/sort.h"
 #include "measure/pin_threads.h"
 #include "run/data_paths.h"
 #include "run/progress.h"

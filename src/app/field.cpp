@@ -6,8 +6,8 @@
 #include "core/file.h"
 #include "core/json.h"
 #include "core/printable.h"
-#include "run/progress.h"
 #include "geometry/load_model.h"
+#include "run/progress.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {

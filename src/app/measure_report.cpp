@@ -6,8 +6,8 @@
 #include <iomanip>
 #include <sstream>
 
-#include "core/printable.h"
 #include "bench/case.h"
+#include "core/printable.h"
 #include "measure/calibration_store.h"
 #include "measure/pareto.h"
 

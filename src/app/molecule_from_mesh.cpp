@@ -10,9 +10,9 @@
 #include "core/json.h"
 #include "core/many.h"
 #include "core/printable.h"
+#include "geometry/load_model.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
-#include "geometry/load_model.h"
 
 namespace shoal::app {
 

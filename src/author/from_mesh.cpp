@@ -15,9 +15,9 @@
 #include "author/springs.h"
 #include "compile/path.h"
 #include "core/error.h"
-#include "molecule/bind_skin.h"
 #include "geometry/closed_surface.h"
 #include "geometry/load_model.h"
+#include "molecule/bind_skin.h"
 
 namespace shoal {
 

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "author/pins.h"
+#include "geometry/mesh.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule.h"
-#include "geometry/mesh.h"
 
 namespace shoal {
 

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "molecule/bind_skin.h"
 #include "geometry/mesh.h"
+#include "molecule/bind_skin.h"
 
 namespace shoal {
 

@@ -5,11 +5,11 @@
 #include <cstdlib>
 #include <new>
 
-#include "core/contract.h"
 #include "bench/baseline_kernels.h"
 #include "bench/baseline_scalar.h"
 #include "bench/baseline_threads.h"
 #include "bench/baseline_topologies.h"
+#include "core/contract.h"
 
 namespace shoal::bench {
 

@@ -24,8 +24,8 @@ namespace shoal::bench {
 
 struct BenchResult {
     BenchCase one;
-    std::string leftOut;  // why it was not measured; empty: it was
-    measure::Spread frame;         // s
+    std::string leftOut;    // why it was not measured; empty: it was
+    measure::Spread frame;  // s
     int framesPerSample = 1;
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
     double operations = 0;                  // BenchRunner's

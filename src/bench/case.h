@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "compile/path.h"
 #include "bench/baseline.h"
+#include "compile/path.h"
 #include "scene/scene.h"
 
 namespace shoal::bench {
@@ -28,7 +28,7 @@ enum class Subject {
 };
 const char* name(Subject subject);  // "fused", "ping-pong", "AVX-512", …
 bool isPath(Subject subject);       // fused or ping-pong
-bool isBaseline(Subject subject);  // AVX-512, AVX2 or scalar
+bool isBaseline(Subject subject);   // AVX-512, AVX2 or scalar
 bool isCopy(Subject subject);       // moves the state and does nothing else
 Simd simdOf(Subject subject);       // of a baseline
 bool isBullet(Subject subject);

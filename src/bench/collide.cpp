@@ -6,8 +6,8 @@
 #include <memory>
 #include <random>
 
-#include "gpu/gl.h"
 #include "bench/contact_baseline.h"
+#include "gpu/gl.h"
 #include "measure/pin_threads.h"
 #include "simulate/simulation.h"
 

@@ -31,12 +31,12 @@ struct ContactTimes {
     ContactCase one;
     std::string leftOut;  // why it was not measured; empty: it was
     size_t spheres = 0, contacts = 0;
-    uint32_t dropped = 0;                    // contacts that did not fit into a list
-    size_t baselineContacts = 0;            // differ by what rounding decides
-    size_t bytes = 0;                        // of contact, on the device
+    uint32_t dropped = 0;                             // contacts that did not fit into a list
+    size_t baselineContacts = 0;                      // differ by what rounding decides
+    size_t bytes = 0;                                 // of contact, on the device
     measure::Spread fused;                            // s, of the step before: two substeps, without contact
     measure::Spread grid, search, response, contact;  // s; contact: all three
-    measure::Spread baseline;                        // s
+    measure::Spread baseline;                         // s
     double perQuad() const { return contact.min / one.quads; }  // s, by the shortest
     double ratio() const { return contact.min / baseline.min; }
 };

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "compile/contact_plan.h"
 #include "bench/baseline_threads.h"
+#include "compile/contact_plan.h"
 
 namespace shoal::bench {
 

@@ -1,6 +1,6 @@
 
-#include "core/contract.h"
 #include "bench/case.h"
+#include "core/contract.h"
 #include "molecule/molecule_file.h"
 
 namespace shoal::bench {

@@ -5,9 +5,9 @@
 #include <limits>
 #include <new>
 
-#include "core/contract.h"
 #include "bench/baseline_simd.h"
 #include "bench/baseline_threads.h"
+#include "core/contract.h"
 
 namespace shoal::bench {
 

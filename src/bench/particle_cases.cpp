@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "core/error.h"
 #include "bench/particles.h"
+#include "core/error.h"
 
 namespace shoal::bench {
 

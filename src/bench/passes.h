@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "gpu/pass_timers.h"
 #include "bench/runner.h"
+#include "gpu/pass_timers.h"
 #include "measure/statistics.h"
 
 namespace shoal::bench {

@@ -2,11 +2,11 @@
 
 #include <cstring>
 
+#include "bench/baseline_threads.h"
 #include "gpu/barrier.h"
 #include "gpu/buffer_texture.h"
 #include "gpu/gl.h"
 #include "gpu/program.h"
-#include "bench/baseline_threads.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
@@ -250,8 +250,7 @@ std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, con
 std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,
                                         const BenchStart& start, const BenchDevice& device) {
     if (isPath(one.subject)) return std::make_unique<PathRunner>(one, molecule, start, device);
-    if (isBaseline(one.subject))
-        return std::make_unique<BaselineRunner>(one, molecule, start, device.cores);
+    if (isBaseline(one.subject)) return std::make_unique<BaselineRunner>(one, molecule, start, device.cores);
     if (one.subject == Subject::memoryCopy) {
         const size_t bytes = (6 * molecule.vertices.size() + 3) * sizeof(float) * size_t(one.count);
         return std::make_unique<MemoryCopy>(bytes, device.cores);

@@ -9,10 +9,10 @@
 
 #include <glm/glm.hpp>
 
+#include "bench/case.h"
 #include "compile/plan.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
-#include "bench/case.h"
 #include "simulate/state_view.h"
 
 namespace shoal::bench {

@@ -23,7 +23,7 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry);
 
 struct SchoolTimes {
     SchoolCase one;
-    measure::Spread frame;                                             // s
+    measure::Spread frame;                                    // s
     double perFish() const { return frame.min / one.count; }  // s
 };
 

@@ -7,10 +7,10 @@ namespace shoal::bench {
 
 struct SearchShare {
     ContactSearch search = ContactSearch::exact;
-    double perCell = 0;   // spheres
-    size_t contacts = 0;  // by brute force
-    size_t found = 0;     // of those
-    measure::Spread time;          // s, of grid and search
+    double perCell = 0;    // spheres
+    size_t contacts = 0;   // by brute force
+    size_t found = 0;      // of those
+    measure::Spread time;  // s, of grid and search
     double share() const { return contacts > 0 ? double(found) / double(contacts) : 1; }
     double perContact() const { return found > 0 ? time.min / double(found) : 0; }  // s
 };

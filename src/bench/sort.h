@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "bench/bench.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
-#include "bench/bench.h"
 #include "measure/statistics.h"
 #include "sort/sorter.h"
 
@@ -22,10 +22,10 @@ struct SortTime {
     std::string name = {};
     std::optional<SortMethod> method = {};  // none: std::sort, or the copy
     bool rowsOnly = false;
-    bool copy = false;         // of the pairs, once, by the device
-    int passes = 0;            // over the pairs; 0: not of passes
-    std::string leftOut = {};  // why it was not measured; empty: it was
-    measure::Spread seconds = {};       // of one sort
+    bool copy = false;             // of the pairs, once, by the device
+    int passes = 0;                // over the pairs; 0: not of passes
+    std::string leftOut = {};      // why it was not measured; empty: it was
+    measure::Spread seconds = {};  // of one sort
 };
 
 struct SortTable {

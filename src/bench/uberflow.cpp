@@ -273,7 +273,8 @@ std::vector<int> uberFlowSides(bool quick) {
 }
 
 std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, const BenchDevice& device,
-                                           const measure::Schedule& schedule, const CollideProgress& progress) {
+                                           const measure::Schedule& schedule,
+                                           const CollideProgress& progress) {
     std::vector<std::unique_ptr<Entrant>> entrants;
     std::vector<double> cost;
     for (const Experiment& one : experiments()) {

@@ -32,6 +32,7 @@ std::vector<int> uberFlowSides(bool quick);
 
 // Cases of one size. `point`: a molecule of one vertex. Error: the driver refuses a shader.
 std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, const BenchDevice& device,
-                                           const measure::Schedule& schedule, const CollideProgress& progress);
+                                           const measure::Schedule& schedule,
+                                           const CollideProgress& progress);
 
 }  // namespace shoal::bench

@@ -37,7 +37,7 @@ bool comparable(const BenchCase& one) {
 
 // The baselines run the uniform wind and draw nothing.
 std::optional<double> againstBaseline(const BenchResult& result, const std::vector<BenchResult>& all,
-                                       Subject subject) {
+                                      Subject subject) {
     const BenchCase& one = result.one;
     if (one.drawn || one.wind != Wind::uniform || !comparable(one)) return std::nullopt;
     return over(&result, find(all, [&](const BenchCase& other) {

@@ -9,10 +9,10 @@
 #include <cmath>
 
 #include "core/error.h"
-#include "geometry/closest_point.h"
-#include "geometry/eikonal.h"
-#include "geometry/distance_field_error.h"
 #include "core/parallel.h"
+#include "geometry/closest_point.h"
+#include "geometry/distance_field_error.h"
+#include "geometry/eikonal.h"
 
 namespace shoal {
 

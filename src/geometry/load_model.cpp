@@ -13,10 +13,10 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/sandbox.h"
-#include "core/confined.h"
 
 namespace shoal {
 

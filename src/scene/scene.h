@@ -12,14 +12,14 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/error.h"
+#include "geometry/distance_field.h"
+#include "geometry/mesh.h"
 #include "molecule/molecule.h"
 #include "scene/collider_path.h"
 #include "scene/color_scale.h"
-#include "geometry/distance_field.h"
 #include "scene/emitter.h"
 #include "scene/field.h"
 #include "scene/force.h"
-#include "geometry/mesh.h"
 #include "scene/particle.h"
 #include "scene/placement.h"
 #include "scene/school.h"

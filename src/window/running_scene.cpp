@@ -6,9 +6,9 @@
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
+#include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "scene/json/scene_files.h"
-#include "scene/json/saver.h"
 #include "simulate/carry_over.h"
 
 namespace shoal::window {

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "compile/birth_schedule.h"
-#include "gl/births.h"
 #include "geometry/load_model.h"
+#include "gl/births.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 

@@ -12,9 +12,9 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "core/confined.h"
 #include "core/file.h"
 #include "core/image.h"
-#include "core/confined.h"
 #include "geometry/load_model.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"

@@ -5,10 +5,10 @@
 
 #include "author/from_mesh.h"
 #include "author/material_scale.h"
+#include "geometry/closed_surface.h"
 #include "molecule/bind_skin.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
-#include "geometry/closed_surface.h"
 #include "support/bent.h"
 #include "support/catch.h"
 #include "support/meshes.h"

@@ -6,8 +6,8 @@
 
 #include "compile/plan.h"
 #include "core/image.h"
-#include "molecule/molecule_file.h"
 #include "geometry/load_model.h"
+#include "molecule/molecule_file.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"

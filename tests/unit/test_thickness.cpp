@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
-#include "scene/selection.h"
 #include "geometry/thickness.h"
+#include "scene/selection.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 

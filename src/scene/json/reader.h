@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "core/json_values.h"
 #include "core/description.h"
+#include "core/json_values.h"
 #include "core/members.h"
 #include "geometry/distance_field_cache.h"
 #include "scene/keyframes.h"
