@@ -1,7 +1,7 @@
 // What a file may say of a struct, written once. A description lists the keys of an object: for each its
 // name, the member that it fills, its unit and limits, and a sentence. The default is the struct's own.
-// Reading, checking what was made in code, writing, the JSON Schemas, the tables in docs and `shoal keys` all
-// go by the description.
+// Reading, checking what was made in code, writing, the parts of the JSON Schema and the tables in
+// docs/scene-format.md all go by the description.
 //
 //   const Description& describe(const SphereCollider*) {
 //       static const Description it = Describe<SphereCollider>("sphere", "A sphere that is solid inside.")

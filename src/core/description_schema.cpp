@@ -248,7 +248,11 @@ std::string typeText(const Key& key) {
 
 std::string usualText(const Key& key, const Description& of) {
     if (key.needed) return "required";
-    const JsonValue usual = usualValue(key, of);
+    JsonValue usual = usualValue(key, of);
+    if (key.kind == Kind::byHand) {
+        const JsonValue schema = parseJson(key.schema, "the schema of " + key.name);
+        if (const JsonValue* value = schema.find("default")) usual = *value;
+    }
     if (usual.kind == JsonValue::Kind::null) return "none";
     std::string out = writeJsonLine(usual);
     if (usual.kind == JsonValue::Kind::string) out = concat("`", out, "`");

@@ -194,11 +194,13 @@ const Description& describe(const HurricaneField*) {
                  {"m/s",
                   "The largest speed at the ground, anticlockwise from above; a negative one is clockwise."})
             .key("radius", &F::radius, {"m", "The radius of the largest speed.", aboveZero()})
-            .key("shape", &F::shape, {"", "Holland's B: how peaked the profile is.", Range::between(0.5, 3)})
+            .key("shape", &F::shape,
+                 {"", "Holland's B: how peaked the profile is; 1 to 2.5 in nature.", Range::between(0.5, 3)})
             .key("inflow", &F::inflow,
                  {"rad", "The angle of the wind at the ground towards the axis.", Range::between(0, 1.2)})
             .key("height", &F::height, {"m", "The height above which there is no wind.", aboveZero()})
-            .key("coriolis", &F::coriolis, {"1/s", "The Coriolis parameter.", Range::between(0, 1)});
+            .key("coriolis", &F::coriolis,
+                 {"1/s", "The Coriolis parameter: 5e-5 at 20° of latitude.", Range::between(0, 1)});
     return it;
 }
 

@@ -133,9 +133,8 @@ const Description& describe(const Force*) {
             .key("path", &Force::path, {"", "How it moves and changes."})
             .key("mouse", &Force::mouse,
                  {"",
-                  "Whether it acts in the window only, where the pointer is while Shift and the left button "
-                  "are "
-                  "held."})
+                  "Whether it acts in the window only, while Shift and the left button are held, where the "
+                  "pointer's ray meets the plane through the camera's target that faces the camera."})
             .rule(rule, R"({"if": {"properties": {"type": {"enum": ["thrust", "wind"]}}},
                             "then": {"not": {"required": ["mouse"]},
                                      "properties": {"path": {"properties": {"keyframes": {

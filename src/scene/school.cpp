@@ -110,7 +110,7 @@ const Description& describe(const School*) {
                  {"m", "Colliders nearer than this are turned from; 0: none is.", Range::atLeast(0)})
             .key("look", &S::look, {"s", "How far ahead walls are seen.", Range::between(0, 10)})
             .key("home", &S::home, {"", "Where they like to be."})
-            .key("flees", &S::flees, {"", "The groups that it flees."})
+            .key("flees", &S::flees, {"", "The groups that it flees, at most 8 with those that it hunts."})
             .key("hunts", &S::hunts, {"", "The groups that it hunts."})
             .derive(derive)
             .rule(rule);

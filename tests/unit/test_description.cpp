@@ -1,6 +1,6 @@
-// Structs that are described once: read, checked and written by their description; and the parts of the
-// schema of scenes that come from descriptions. SHOAL_UPDATE_SCHEMA=1 writes these parts instead of comparing
-// them.
+// Structs that are described once: read, checked and written by their description; and what is generated from
+// descriptions: parts of the schema of scenes, and tables of docs/scene-format.md. SHOAL_UPDATE_SCHEMA=1 writes
+// these instead of comparing them.
 #include <cstdlib>
 
 #include "core/description_schema.h"
@@ -96,6 +96,11 @@ JsonValue& at(JsonValue& object, const std::string& key) {
     return object.members.back().second;
 }
 
+template <typename S>
+const Description* descriptionOf() {
+    return &describe(static_cast<const S*>(nullptr));
+}
+
 }  // namespace
 
 TEST_CASE("what is described is read, and written as it was read", "[description]") {
@@ -159,14 +164,37 @@ TEST_CASE("the schema of scenes says what the descriptions say", "[description]"
     const JsonValue committed = readJson(file);
     JsonValue schema = committed;
     JsonValue& properties = at(schema, "properties");
-    at(at(properties, "fields"), "items") = schemaOf(describe(static_cast<const Field*>(nullptr)));
-    at(at(properties, "forces"), "items") = schemaOf(describe(static_cast<const Force*>(nullptr)));
-    at(properties, "water") = schemaOf(describe(static_cast<const Water*>(nullptr)));
-    at(at(schema, "$defs"), "school") = schemaOf(describe(static_cast<const School*>(nullptr)));
+    at(at(properties, "fields"), "items") = schemaOf(*descriptionOf<Field>());
+    at(at(properties, "forces"), "items") = schemaOf(*descriptionOf<Force>());
+    at(properties, "water") = schemaOf(*descriptionOf<Water>());
+    at(at(schema, "$defs"), "school") = schemaOf(*descriptionOf<School>());
     for (const auto& [name, definition] : schemaDefinitions().members)
         at(at(schema, "$defs"), name) = definition;
     if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, writeJson(schema));
     CHECK((writeJson(schema) == writeJson(committed)));
+}
+
+TEST_CASE("the tables of the scene's format say what the descriptions say", "[description]") {
+    const std::vector<std::pair<std::string, const Description*>> tables = {
+        {"field", descriptionOf<Field>()},
+        {"grid", descriptionOf<GridField>()},
+        {"waves", descriptionOf<WavesField>()},
+        {"train", descriptionOf<WaveTrain>()},
+        {"hurricane", descriptionOf<HurricaneField>()},
+        {"force", descriptionOf<Force>()},
+        {"school", descriptionOf<School>()},
+        {"water", descriptionOf<Water>()}};
+    const std::string file = SHOAL_SOURCE_DIR "/docs/scene-format.md", committed = readFile(file);
+    std::string text = committed;
+    for (const auto& [name, description] : tables) {
+        INFO(name);
+        const std::string head = "<!-- keys: " + name + " -->\n";
+        const size_t begin = text.find(head), end = text.find("<!-- end -->", begin);
+        REQUIRE((begin != std::string::npos && end != std::string::npos));
+        text.replace(begin + head.size(), end - begin - head.size(), tableOf(*description));
+    }
+    if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, text);
+    CHECK((text == committed));
 }
 
 TEST_CASE("tables of keys say type, default and meaning", "[description]") {
