@@ -56,6 +56,4 @@ std::string parameterArray(const std::string& name, size_t count);
 // A name as part of a comment in the text: whatever could end or continue the line is replaced.
 std::string inComment(const std::string& name);
 
-const char* kindName(const ColliderShape& shape);
-
 }  // namespace shoal

@@ -310,10 +310,4 @@ GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
     return out;
 }
 
-const char* kindName(const ColliderShape& shape) {
-    static constexpr const char* names[] = {"plane", "sphere",  "heightField",
-                                            "box",   "capsule", "distanceField"};
-    return names[shape.index()];
-}
-
 }  // namespace shoal

@@ -209,6 +209,19 @@ class Describe {
         };
         return *this;
     }
+    // The keys of a struct within this one, beside this one's own.
+    template <typename M>
+    Describe& keysOf(M S::*member) {
+        const S& sample = usual();
+        const ptrdiff_t offset =
+            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        for (Key key : describe(static_cast<const M*>(nullptr)).keys()) {
+            EXPECTS(key.kind != Key::Kind::byHand);
+            key.member.offset += offset;
+            it_.keys_.push_back(std::move(key));
+        }
+        return *this;
+    }
     // A word that chooses what the variant holds: the names of the alternatives' descriptions.
     template <typename... T>
     Describe& alternatives(const char* name, std::variant<T...> S::*member, Says says) {

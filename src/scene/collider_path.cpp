@@ -3,7 +3,66 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/description.h"
+#include "scene/keyframes.h"
+
 namespace shoal {
+
+static bool same(const Pose& a, const Pose& b) {
+    const double size = 1 + glm::length(a.position);
+    return glm::length(a.position - b.position) < 1e-9 * size &&
+           std::abs(glm::dot(a.rotation, b.rotation)) > 1 - 1e-9;
+}
+
+const Description& describe(const Pose*) {
+    static const Description it = Describe<Pose>("pose", "A position and a rotation.")
+                                      .key("position", &Pose::position, {"m", "Where the frame is."})
+                                      .rotation("rotation", &Pose::rotation, {"", "How it is turned."});
+    return it;
+}
+
+const Description& describe(const ColliderPath::Keyframe*) {
+    using Keyframe = ColliderPath::Keyframe;
+    static const Description it =
+        Describe<Keyframe>("keyframe", "A moment of a path.")
+            .key("time", &Keyframe::time, {"s", "The time, after that of the keyframe before."})
+            .needed()
+            .keysOf(&Keyframe::pose);
+    return it;
+}
+
+const Description& describe(const ColliderPath*) {
+    // Rotations go the short way from one to the next.
+    static const auto derive = [](ColliderPath& path, const Where&) {
+        for (size_t i = 1; i < path.keyframes.size(); ++i) {
+            glm::dquat& rotation = path.keyframes[i].pose.rotation;
+            if (glm::dot(path.keyframes[i - 1].pose.rotation, rotation) < 0) rotation = -rotation;
+        }
+    };
+    static const auto rule = [](const ColliderPath& path, const Where& where) {
+        const std::vector<ColliderPath::Keyframe>& keys = path.keyframes;
+        needTwoKeyframes(keys.size(), where.at("keyframes"));
+        for (size_t i = 1; i < keys.size(); ++i)
+            checkRises(keys[i].time, keys[i - 1].time, where.in("keyframes", i).at("time"));
+        if (path.repeats && !same(keys.front().pose, keys.back().pose))
+            throw Error(where.at("keyframes"),
+                        "expected the last pose to be the first again where the path repeats");
+    };
+    static const Description it =
+        Describe<ColliderPath>("path", "Poses over time of the frame in which a shape is given.")
+            .word(
+                "end", &ColliderPath::repeats, {"hold", "repeat"},
+                {"",
+                 "Whether it stays at the last pose, or starts again at the first, which must be the same."})
+            .word(
+                "interpolation", &ColliderPath::smooth, {"linear", "smooth"},
+                {"", "Whether it moves at constant velocities between two keyframes, or rests at every one."})
+            .key("keyframes", &ColliderPath::keyframes, {"", "At least two moments, in order."})
+            .needed()
+            .derive(derive)
+            .rule(rule, R"({"properties": {"keyframes": {"minItems": 2}}})");
+    return it;
+}
 
 static double angleBetween(const glm::dquat& a, const glm::dquat& b) {
     const glm::dquat turn = b * glm::conjugate(a);

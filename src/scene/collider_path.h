@@ -30,6 +30,10 @@ struct ColliderPath {
     double fastestTurn() const;  // rad/s
 };
 
+class Description;
+const Description& describe(const ColliderPath::Keyframe*);
+const Description& describe(const ColliderPath*);
+
 Pose poseAt(const ColliderPath& path, double time);
 
 // From one pose to another in a time: constant velocities, m/s and rad/s about the moving origin.

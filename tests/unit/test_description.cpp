@@ -1,6 +1,6 @@
 // Structs that are described once: read, checked and written by their description; and what is generated from
-// descriptions: parts of the schema of scenes, and tables of docs/scene-format.md. SHOAL_UPDATE_SCHEMA=1 writes
-// these instead of comparing them.
+// descriptions: parts of the schema of scenes, and tables of docs/scene-format.md. SHOAL_UPDATE_SCHEMA=1
+// writes these instead of comparing them.
 #include <cstdlib>
 
 #include "core/description_schema.h"
@@ -166,6 +166,13 @@ TEST_CASE("the schema of scenes says what the descriptions say", "[description]"
     JsonValue& properties = at(schema, "properties");
     at(at(properties, "fields"), "items") = schemaOf(*descriptionOf<Field>());
     at(at(properties, "forces"), "items") = schemaOf(*descriptionOf<Force>());
+    at(properties, "colliders") =
+        JsonValue::makeObject()
+            .add("description", JsonValue::makeString("What molecules collide with"))
+            .add("type", JsonValue::makeString("array"))
+            .add("items", schemaOf(*descriptionOf<Collider>()));
+    at(at(properties, "surfacePairs"), "items") = schemaOf(*descriptionOf<SurfaceRule>());
+    at(at(schema, "$defs"), "path") = schemaOf(*descriptionOf<ColliderPath>());
     at(properties, "water") = schemaOf(*descriptionOf<Water>());
     at(at(schema, "$defs"), "school") = schemaOf(*descriptionOf<School>());
     for (const auto& [name, definition] : schemaDefinitions().members)
@@ -182,6 +189,12 @@ TEST_CASE("the tables of the scene's format say what the descriptions say", "[de
         {"train", descriptionOf<WaveTrain>()},
         {"hurricane", descriptionOf<HurricaneField>()},
         {"force", descriptionOf<Force>()},
+        {"collider", descriptionOf<Collider>()},
+        {"heightField", descriptionOf<HeightFieldCollider>()},
+        {"distanceField", descriptionOf<DistanceFieldCollider>()},
+        {"path", descriptionOf<ColliderPath>()},
+        {"keyframe", descriptionOf<ColliderPath::Keyframe>()},
+        {"surfacePair", descriptionOf<SurfaceRule>()},
         {"school", descriptionOf<School>()},
         {"water", descriptionOf<Water>()}};
     const std::string file = SHOAL_SOURCE_DIR "/docs/scene-format.md", committed = readFile(file);

@@ -3,60 +3,14 @@
 #include <cmath>
 #include <span>
 
+#include "core/description.h"
+#include "geometry/distance_field_cache.h"
 #include "scene/height_field.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
 
-template <typename V>
-static void members(V&& v, Either<PlaneCollider> auto& plane) {
-    v.number("point", plane.point);
-    v.direction("normal", plane.normal);
-}
-
-template <typename V>
-static void members(V&& v, Either<SphereCollider> auto& sphere) {
-    v.number("center", sphere.center);
-    v.number("radius", sphere.radius, aboveZero());
-}
-
-template <typename V>
-static void members(V&& v, Either<BoxCollider> auto& box) {
-    v.number("center", box.center);
-    v.number("size", box.size, aboveZero());
-    v.rotation("rotation", box.rotation);
-}
-
-template <typename V>
-static void members(V&& v, Either<CapsuleCollider> auto& capsule) {
-    v.number("from", capsule.from);
-    v.number("to", capsule.to);
-    v.number("radius", capsule.radius, aboveZero());
-}
-
-template <typename V>
-static void members(V&& v, Either<Collider> auto& collider) {
-    v.number("restitution", collider.restitution, Range::between(0, 1));
-    v.number("friction", collider.friction, Range::atLeast(0));
-    v.flag("draw", collider.draw);
-    v.color("color", collider.color);
-}
-
-template <typename V>
-static void members(V&& v, Either<SurfaceRule> auto& rule) {
-    v.number("restitution", rule.restitution, Range::between(0, 1));
-    v.number("friction", rule.friction, Range::atLeast(0));
-}
-
-template <typename V>
-static void members(V&& v, Either<Pose> auto& pose) {
-    v.number("position", pose.position);
-    v.rotation("rotation", pose.rotation);
-}
-
 namespace {
-
-const Range thicknesses = Range::atLeast(0);
 
 void checkRectangle(const glm::dvec2& low, const glm::dvec2& high, const Where& where) {
     for (int i = 0; i < 2; ++i)
@@ -96,42 +50,120 @@ HeightFieldCollider readModelHeights(JsonReader& r, const std::vector<Model>& mo
     return heights;
 }
 
-HeightFieldCollider readHeightField(JsonReader& r, const std::vector<Model>& models,
-                                    std::vector<Warning>& warnings) {
+// All keys of a height field.
+void readHeightField(JsonReader& r, HeightFieldCollider& heights, ColliderReading* reading) {
     if (r.has("image") == r.has("model"))
         throw Error(r.here(), "expected either \"image\" or \"model\" for a height field");
-    HeightFieldCollider heights =
-        r.has("image") ? readImageHeights(r) : readModelHeights(r, models, warnings);
+    heights = r.has("image") ? readImageHeights(r) : readModelHeights(r, reading->models, reading->warnings);
     int normals = 0;
     r.choose("normals", {"stored", "sampled"}, normals);
     heights.sampledNormals = normals == 1;
-    return heights;
 }
 
-// Rotations by the short way from one to the next.
-void addKeyframe(JsonReader& r, ColliderPath& path) {
-    ColliderPath::Keyframe frame;
-    r.need("time", frame.time);
-    if (!path.keyframes.empty()) checkRises(frame.time, path.end(), r.at("time"));
-    frame.pose = readMembers<Pose>(r);
-    r.finish();
-    if (!path.keyframes.empty() && glm::dot(path.keyframes.back().pose.rotation, frame.pose.rotation) < 0)
-        frame.pose.rotation = -frame.pose.rotation;
-    path.keyframes.push_back(frame);
+// All keys of a distance field.
+void readDistanceField(JsonReader& r, DistanceFieldCollider& out, ColliderReading* reading) {
+    const Model& model = reading->models[size_t(needModel(r, "model", reading->models))];
+    out.model = model.name;
+    FieldRequest& request = out.request;
+    request.thickness = reading->thickness;
+    if (r.has("resolution") && r.has("error"))
+        throw Error(r.at("error"), "expected either \"resolution\" or \"error\", found both");
+    int resolution = 0;
+    if (r.get("resolution", resolution, Range::between(leastResolution, mostResolution)))
+        request.resolution = resolution;
+    getOptional(r, "error", request.error, aboveZero());
+    getOptional(r, "shell", request.shell, aboveZero());
+    try {
+        out.field = distanceFieldOf(model.mesh, request, reading->baking, reading->warnings);
+    } catch (const Error& error) {
+        const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
+        throw Error(r.at(key), concat("model \"", model.name, "\": ", error.message()));
+    }
+    for (const std::string& warning : fieldWarnings(out.field, request))
+        reading->warnings.push_back({r.at("model"), concat("model \"", model.name, "\" ", warning)});
 }
 
-bool same(const Pose& a, const Pose& b) {
-    const double size = 1 + glm::length(a.position);
-    return glm::length(a.position - b.position) < 1e-9 * size &&
-           std::abs(glm::dot(a.rotation, b.rotation)) > 1 - 1e-9;
+void checkHeights(const HeightFieldCollider& field, const Where& where) {
+    needWithin(where.at("columns"), field.columns, Range::atLeast(2));
+    needWithin(where.at("rows"), field.rows, Range::atLeast(2));
+    const Range finite = Range::between(-largestNumber, largestNumber);
+    for (int i = 0; i < 2; ++i) {
+        needWithin(where.at(concat("low[", i, "]")), field.low[i], finite);
+        needWithin(where.at(concat("high[", i, "]")), field.high[i], finite);
+    }
+    checkRectangle(field.low, field.high, where);
+    const size_t samples = size_t(field.columns) * size_t(field.rows);
+    if (field.heights.size() != samples)
+        throw Error(where.at("heights"),
+                    concat("expected ", samples, " heights, found ", field.heights.size()));
+    for (const float height : field.heights)
+        if (!(std::abs(height) <= largestNumber)) needWithin(where.at("heights"), double(height), finite);
 }
 
-void checkKeyframes(const ColliderPath& path, const Where& where) {
-    needTwoKeyframes(path.keyframes.size(), where.at("keyframes"));
-    if (path.repeats && !same(path.keyframes.front().pose, path.keyframes.back().pose))
-        throw Error(where.at("keyframes"),
-                    "expected the last pose to be the first again where the path repeats");
+void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
+    const DistanceField& field = collider.field;
+    if (field.distances.empty() || field.distances.size() != field.grid.count())
+        throw Error(where.at("field"),
+                    concat("expected ", field.grid.count(), " distances, one a sample of a grid, found ",
+                           field.distances.size()));
 }
+
+}  // namespace
+
+const Description& describe(const HeightFieldCollider*) {
+    static const char* const number = R"({"type": "integer", "minimum": 2, "maximum": 4096, "default": 257})";
+    static const char* const pair = R"({"$ref": "#/$defs/vector2"})";
+    static const Description it =
+        Describe<HeightFieldCollider>("heightField", "Heights over a rectangle in x and z, solid below.")
+            .byHand<ColliderReading>(
+                "image", R"({"type": "string", "minLength": 1})",
+                {"the name of a grey PNG",
+                 "The heights, of 8 or 16 bits; the left column is the lowest x, the top row the lowest z."},
+                readHeightField)
+            .told("low", pair, {"two numbers, m", "The x and z of the first sample, with `image`."})
+            .told("high", pair, {"two numbers, m", "The x and z of the last sample, with `image`."})
+            .told("heights", pair, {"two numbers, m", "The heights of black and of white, with `image`."})
+            .told("model", R"({"type": "string"})",
+                  {"the name of a model",
+                   "The model whose highest surface counts, over its bounding box; samples without a surface "
+                   "take its "
+                   "lowest height."})
+            .told("resolution", number,
+                  {"whole number from 2 to 4096", "The number of samples along x and along z, with `model`."})
+            .told("normals", R"({"enum": ["stored", "sampled"], "default": "stored"})",
+                  {"`\"stored\"`, `\"sampled\"`",
+                   "Whether normals are kept beside the heights, or taken from three samples."})
+            .rule(checkHeights, R"({"oneOf": [
+                      {"required": ["image", "low", "high", "heights"],
+                       "not": {"anyOf": [{"required": ["model"]}, {"required": ["resolution"]}]}},
+                      {"required": ["model"],
+                       "not": {"anyOf": [{"required": ["image"]}, {"required": ["low"]}, {"required": ["high"]},
+                                         {"required": ["heights"]}]}}]})");
+    return it;
+}
+
+const Description& describe(const DistanceFieldCollider*) {
+    static const char* const length = R"({"type": "number", "minimum": 1e-9})";
+    static const Description it =
+        Describe<DistanceFieldCollider>("distanceField",
+                                        "The surface of a model, by signed distances on a grid.")
+            .byHand<ColliderReading>("model", R"({"type": "string", "minLength": 1})",
+                                     {"the name of a model", "The model."}, readDistanceField)
+            .needed()
+            .told(
+                "resolution", R"({"type": "integer", "minimum": 4, "maximum": 2048})",
+                {"whole number from 4 to 2048",
+                 "The number of cells along the model's longest side; 96 without `resolution` and `error`."})
+            .told(
+                "error", length,
+                {"number above 0, m", "The grid is refined until no probe near the surface is off by more."})
+            .told("shell", length,
+                  {"number above 0, m", "The thickness of a model that is not closed; two cells without it."})
+            .rule(checkDistances, R"({"not": {"required": ["resolution", "error"]}})");
+    return it;
+}
+
+namespace {
 
 // A name of "between", which some collider or group must have.
 std::string needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
@@ -156,59 +188,21 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
 }
 
 void checkRule(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
-    if (!rule.restitution && !rule.friction)
-        throw Error(where.here(), "expected a \"restitution\" or a \"friction\" between the two");
     for (const SurfaceRule& earlier : before)
         if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
             throw Error(where.at("between"),
                         concat("\"", rule.a, "\" and \"", rule.b, "\" already have an entry"));
 }
 
-void checkHeights(const HeightFieldCollider& field, const Where& where) {
-    const CheckScene check(where);
-    check.number("columns", field.columns, Range::atLeast(2));
-    check.number("rows", field.rows, Range::atLeast(2));
-    check.number("low", field.low);
-    check.number("high", field.high);
-    checkRectangle(field.low, field.high, where);
-    const size_t samples = size_t(field.columns) * size_t(field.rows);
-    if (field.heights.size() != samples)
-        throw Error(where.at("heights"),
-                    concat("expected ", samples, " heights, found ", field.heights.size()));
-    for (size_t i = 0; i < samples; ++i)
-        if (!(std::abs(field.heights[i]) <= largestNumber)) check.number("heights", field.heights[i]);
-}
-
-void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
-    const DistanceField& field = collider.field;
-    if (field.distances.empty() || field.distances.size() != field.grid.count())
-        throw Error(where.at("field"),
-                    concat("expected ", field.grid.count(), " distances, one a sample of a grid, found ",
-                           field.distances.size()));
-}
-
-void checkShape(const ColliderShape& shape, const Where& where) {
-    if (const auto* heights = std::get_if<HeightFieldCollider>(&shape)) return checkHeights(*heights, where);
-    if (const auto* field = std::get_if<DistanceFieldCollider>(&shape)) return checkDistances(*field, where);
-    const CheckScene check(where);
-    if (const auto* plane = std::get_if<PlaneCollider>(&shape)) members(check, *plane);
-    if (const auto* sphere = std::get_if<SphereCollider>(&shape)) members(check, *sphere);
-    if (const auto* box = std::get_if<BoxCollider>(&shape)) members(check, *box);
-    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape)) members(check, *capsule);
+// What a rule has to do with the other surfaces and rules.
+void checkSurfaces(const SurfaceRule& rule, std::span<const SurfaceRule> before,
+                   const std::vector<std::string>& known, const Where& where) {
+    needSurface(where, rule.a, known);
+    needSurface(where, rule.b, known);
+    checkRule(rule, before, where);
 }
 
 }  // namespace
-
-void checkPath(const ColliderPath& path, const Where& where) {
-    for (size_t i = 0; i < path.keyframes.size(); ++i) {
-        const Where here = where.in("keyframes", i);
-        const CheckScene check(here);
-        check.number("time", path.keyframes[i].time);
-        if (i > 0) checkRises(path.keyframes[i].time, path.keyframes[i - 1].time, here.at("time"));
-        members(check, path.keyframes[i].pose);
-    }
-    checkKeyframes(path, where);
-}
 
 void checkColliders(const Scene& scene) {
     const Where whole;
@@ -218,37 +212,15 @@ void checkColliders(const Scene& scene) {
         const Where where = whole.in("colliders", i);
         refuseRepeated(where, names, collider.name);
         names.push_back(collider.name);
-        CheckScene(where).number("thickness", collider.thickness, thicknesses);
-        members(CheckScene(where), collider);
-        checkShape(collider.shape, where);
-        if (collider.path) checkPath(*collider.path, where.in("path"));
+        describe(&collider).check(collider, where, largestNumber);
     }
     const std::vector<std::string> known = surfaceNames(scene.colliders, scene.groups);
     for (size_t i = 0; i < scene.surfacePairs.size(); ++i) {
         const SurfaceRule& rule = scene.surfacePairs[i];
         const Where where = whole.in("surfacePairs", i);
-        needSurface(where, rule.a, known);
-        needSurface(where, rule.b, known);
-        members(CheckScene(where), rule);
-        checkRule(rule, std::span(scene.surfacePairs).first(i), where);
+        describe(&rule).check(rule, where, largestNumber);
+        checkSurfaces(rule, std::span(scene.surfacePairs).first(i), known, where);
     }
-}
-
-std::optional<ColliderPath> readPath(JsonReader& collider) {
-    auto r = collider.object("path");
-    if (!r) return {};
-    ColliderPath path;
-    int end = 0, interpolation = 0;
-    r->choose("end", {"hold", "repeat"}, end);
-    r->choose("interpolation", {"linear", "smooth"}, interpolation);
-    path.repeats = end == 1;
-    path.smooth = interpolation == 1;
-    r->require("keyframes");
-    for (JsonReader& frame : r->objects("keyframes"))
-        addKeyframe(frame, path);
-    checkKeyframes(path, *r);
-    r->finish();
-    return path;
 }
 
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
@@ -257,33 +229,15 @@ std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>&
     std::vector<std::string> names;
     for (JsonReader& r : scene.objects("colliders")) {
         Collider collider;
-        r.get("name", collider.name);
+        ColliderReading reading{models, baking, warnings, collider.thickness};
+        r.get("thickness", reading.thickness, Range::atLeast(0));  // before a field that must reach beyond it
+        describe(&collider).read(r, collider, &reading);
         refuseRepeated(r, names, collider.name);
         names.push_back(collider.name);
-        int type = 0;
-        r.require("type");
-        r.choose("type", {"plane", "sphere", "heightField", "box", "capsule", "distanceField"}, type);
-        r.get("thickness", collider.thickness, thicknesses);
-        if (type == 0) collider.shape = readMembers<PlaneCollider>(r);
-        if (type == 1) collider.shape = readMembers<SphereCollider>(r, {"center", "radius"});
-        if (type == 2) collider.shape = readHeightField(r, models, warnings);
-        if (type == 3) collider.shape = readMembers<BoxCollider>(r, {"center", "size"});
-        if (type == 4) collider.shape = readMembers<CapsuleCollider>(r, {"from", "to", "radius"});
-        if (type == 5) collider.shape = readDistanceField(r, models, collider.thickness, baking, warnings);
-        getSurface(r, collider.surface);
-        members(ReadScene(r), collider);
-        collider.path = readPath(r);
         r.finish();
         colliders.push_back(std::move(collider));
     }
     return colliders;
-}
-
-bool getSurface(JsonReader& reader, std::string& out) {
-    if (!reader.get("surface", out)) return false;
-    if (out.empty())
-        throw Error(reader.at("surface"), "expected the name of a surface, found an empty string");
-    return true;
 }
 
 std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<Collider>& colliders,
@@ -291,16 +245,9 @@ std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<C
     const std::vector<std::string> known = surfaceNames(colliders, groups);
     std::vector<SurfaceRule> rules;
     for (JsonReader& r : scene.objects("surfacePairs")) {
-        std::vector<std::string> between;
-        r.need("between", between);
-        if (between.size() != 2)
-            throw Error(r.at("between"),
-                        concat("expected the names of two surfaces, found ", between.size()));
         SurfaceRule rule;
-        rule.a = needSurface(r, between[0], known);
-        rule.b = needSurface(r, between[1], known);
-        members(ReadScene(r), rule);
-        checkRule(rule, rules, r);
+        describe(&rule).read(r, rule);
+        checkSurfaces(rule, rules, known, r);
         r.finish();
         rules.push_back(std::move(rule));
     }

@@ -276,7 +276,8 @@ Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<War
     readRelease(r, group, warnings);
     members(ReadScene(r), group);
     readContact(r, group);
-    getSurface(r, group.surface);
+    if (r.get("surface", group.surface) && group.surface.empty())
+        throw Error(r.at("surface"), "expected the name of a surface, found an empty string");
     group.colorBy = readColorScale(r);
     const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
     if (group.particle && forEver)

@@ -159,7 +159,7 @@ Emitter readEmitter(JsonReader& r, const std::vector<Model>& models) {
     readWhen(r, emitter);
     readVelocity(r, emitter);
     if (r.has("path")) checkMoves(emitter, r);
-    emitter.path = readPath(r);
+    emitter.path = readDescribed<ColliderPath>(r, "path");
     r.finish();
     return emitter;
 }
@@ -291,7 +291,7 @@ static void checkEmitter(const Emitter& emitter, const Lifecycle& life, const st
     checkAllocator(emitter, life, where.here());
     if (!emitter.path) return;
     checkMoves(emitter, where);
-    checkPath(*emitter.path, where.in("path"));
+    describe(&*emitter.path).check(*emitter.path, where.in("path"), largestNumber);
 }
 
 void checkLife(const Group& group, const std::vector<Model>& models, const Where& where) {

@@ -24,15 +24,18 @@ std::vector<Field> readFields(JsonReader& scene);
 // Error: a force for a group that there is not.
 std::vector<Force> readForces(JsonReader& scene, const std::vector<Group>& groups);
 std::vector<Model> readModels(JsonReader& scene);
+// What the readers of colliders need besides their object.
+struct ColliderReading {
+    const std::vector<Model>& models;
+    const FieldBaking& baking;
+    std::vector<Warning>& warnings;
+    double thickness;  // m, of the collider that is read: a distance field must reach beyond it
+};
 std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
                                     const FieldBaking& baking, std::vector<Warning>& warnings);
 // Error: a surface that neither a collider nor a group has; a pair given twice.
 std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<Collider>& colliders,
                                           const std::vector<Group>& groups);
-// `thickness`: the collider's, which the grid must reach beyond.
-DistanceFieldCollider readDistanceField(JsonReader& reader, const std::vector<Model>& models,
-                                        double thickness, const FieldBaking& baking,
-                                        std::vector<Warning>& warnings);
 std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
                               std::vector<Warning>& warnings);
 
@@ -46,7 +49,6 @@ void readLife(JsonReader& reader, Group& group, const std::vector<Model>& models
 // Error, located at the emitter: from the deaths of no group, of one where none dies, or in a circle.
 void checkDeaths(const std::vector<Group>& groups);
 Selection readSelection(JsonReader& reader, const Model& model);
-std::optional<ColliderPath> readPath(JsonReader& reader);  // "path"
 
 // A group's "particle". Error: keys that have no effect, keyframes out of order, tiles that the image does
 // not have, an image that is missing, not a PNG, or that its tiles do not fill.
@@ -61,9 +63,6 @@ std::string needFile(JsonReader& reader, const std::string& key);
 // A key that names a model: its index.
 int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models);
 
-// "surface": a name that is not empty.
-bool getSurface(JsonReader& reader, std::string& out);
-
 bool getColor(JsonReader& reader, const std::string& key, std::optional<glm::dvec3>& out);
 
 // An optional number that keeps apart "absent" and any value.
@@ -74,7 +73,6 @@ void refuseRepeated(const Where& where, const std::vector<std::string>& earlier,
 
 // Error: no such model.
 void checkModel(int model, const std::vector<Model>& models, const Location& where);
-void checkPath(const ColliderPath& path, const Where& where);
 
 // The visitors of core/members.h with what scenes have besides numbers.
 class ReadScene : public ReadMembers {
