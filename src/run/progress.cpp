@@ -44,8 +44,8 @@ void Progress::print() {
     const double seconds = std::chrono::duration<double>(Clock::now() - start_).count();
     const double left = seconds / done_ * (total_ - done_);
     if (!terminal_) {
-        const bool soon = done_ == total_ || left < 1;
-        const std::string rest = soon ? "" : concat(", about ", roughly(left), " left");
+        const std::string time = left < 1 ? "less than 1 s" : concat("about ", roughly(left));
+        const std::string rest = done_ < total_ ? concat(", ", time, " left") : "";
         std::fprintf(stderr, "%s: %d of %d, %.1f s%s\n", what_.c_str(), done_, total_, seconds, rest.c_str());
         return;
     }
