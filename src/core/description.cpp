@@ -13,6 +13,10 @@ const void* at(const Key& key, const void* object) {
     return key.member.look(static_cast<const char*>(object) + key.member.offset);
 }
 
+void* memberOf(const Key& key, void* object) {
+    return static_cast<char*>(object) + key.member.offset;
+}
+
 template <typename T>
 const T& held(const void* value) {
     return *static_cast<const T*>(value);
@@ -20,7 +24,7 @@ const T& held(const void* value) {
 
 template <typename T>
 T& made(const Key& key, void* object) {
-    return *static_cast<T*>(key.member.make(static_cast<char*>(object) + key.member.offset));
+    return *static_cast<T*>(key.member.make(memberOf(key, object)));
 }
 
 // A value is read on its own before an optional member is made, which a file that says nothing leaves empty.
@@ -43,19 +47,7 @@ void checkNumbers(const Key& key, const glm::vec<N, double>& value, Range range,
             checkNumber(concat(key.name, "[", i, "]"), value[i], range, where, largest);
 }
 
-JsonValue writeBox(const Box& box) {
-    return JsonValue::makeObject()
-        .add("low", JsonValue::makeVector(box.low))
-        .add("high", JsonValue::makeVector(box.high));
-}
-
 }  // namespace
-
-const Key* Description::find(const std::string& name) const {
-    const auto found =
-        std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
-    return found == keys_.end() ? nullptr : &*found;
-}
 
 JsonValue Description::usualValue(const Key& key) const {
     const bool plain = key.kind != Kind::byHand && key.kind != Kind::variant && key.kind != Kind::object;
@@ -119,26 +111,24 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
                          [&](glm::dquat& value) { return getRotation(r, name, value); });
     case Kind::word: {
         int index = key.member.index(at(key, object));
-        if (r.choose(name, key.words, index))
-            key.member.choose(static_cast<char*>(object) + key.member.offset, index);
+        if (r.choose(name, key.words, index)) key.member.choose(memberOf(key, object), index);
         return;
     }
     case Kind::variant: {
         int index = 0;
         r.choose(name, key.words, index);
-        void* alternative = key.member.choose(static_cast<char*>(object) + key.member.offset, index);
+        void* alternative = key.member.choose(memberOf(key, object), index);
         return key.objects[size_t(index)]->readAny(r, alternative, context);
     }
     case Kind::object: {
         std::optional<JsonReader> inner = r.object(name);
         if (!inner) return;
-        key.objects[0]->readAny(*inner, key.member.make(static_cast<char*>(object) + key.member.offset),
-                                context);
+        key.objects[0]->readAny(*inner, key.member.make(memberOf(key, object)), context);
         return inner->finish();
     }
     case Kind::list:
         for (JsonReader& inner : r.objects(name)) {
-            void* element = key.member.append(static_cast<char*>(object) + key.member.offset);
+            void* element = key.member.append(memberOf(key, object));
             key.objects[0]->readAny(inner, element, context);
             inner.finish();
         }

@@ -89,4 +89,10 @@ bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out) {
     return reader.get(key, out, Range::atLeast(0));
 }
 
+JsonValue writeBox(const Box& box) {
+    return JsonValue::makeObject()
+        .add("low", JsonValue::makeVector(box.low))
+        .add("high", JsonValue::makeVector(box.high));
+}
+
 }  // namespace shoal

@@ -29,6 +29,7 @@ void checkDirection(const glm::dvec3& v, const Location& where);
 // {"low": [x, y, z], "high": [x, y, z]}, low below high (or equal where `flat`); `where`: of "high".
 bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat = false);
 void checkBox(const Box& box, bool flat, const Location& where);
+JsonValue writeBox(const Box& box);
 
 // A number, or [least, most].
 bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range);

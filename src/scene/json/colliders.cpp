@@ -210,8 +210,7 @@ void checkColliders(const Scene& scene) {
     for (size_t i = 0; i < scene.colliders.size(); ++i) {
         const Collider& collider = scene.colliders[i];
         const Where where = whole.in("colliders", i);
-        refuseRepeated(where, names, collider.name);
-        names.push_back(collider.name);
+        takeName(where, names, collider.name);
         describe(&collider).check(collider, where, largestNumber);
     }
     const std::vector<std::string> known = surfaceNames(scene.colliders, scene.groups);
@@ -232,8 +231,7 @@ std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>&
         ColliderReading reading{models, baking, warnings, collider.thickness};
         r.get("thickness", reading.thickness, Range::atLeast(0));  // before a field that must reach beyond it
         describe(&collider).read(r, collider, &reading);
-        refuseRepeated(r, names, collider.name);
-        names.push_back(collider.name);
+        takeName(r, names, collider.name);
         r.finish();
         colliders.push_back(std::move(collider));
     }

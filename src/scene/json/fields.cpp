@@ -123,8 +123,7 @@ std::vector<Field> readFields(JsonReader& scene) {
     for (JsonReader& reader : scene.objects("fields")) {
         Field field;
         describe(&field).read(reader, field);
-        refuseRepeated(reader, names, field.name);
-        names.push_back(field.name);
+        takeName(reader, names, field.name);
         reader.finish();
         if (auto* waves = std::get_if<WavesField>(&field.shape))
             for (WaveTrain& train : waves->trains)
@@ -140,8 +139,7 @@ void checkFields(const std::vector<Field>& fields) {
     for (size_t i = 0; i < fields.size(); ++i) {
         const Where where = whole.in("fields", i);
         describe(&fields[i]).check(fields[i], where, largestNumber);
-        refuseRepeated(where, names, fields[i].name);
-        names.push_back(fields[i].name);
+        takeName(where, names, fields[i].name);
     }
 }
 

@@ -29,8 +29,7 @@ std::vector<Force> readForces(JsonReader& scene, const std::vector<Group>& group
     for (JsonReader& reader : scene.objects("forces")) {
         Force force;
         describe(&force).read(reader, force);
-        refuseRepeated(reader, names, force.name);
-        names.push_back(force.name);
+        takeName(reader, names, force.name);
         checkGroupNames(force, groups, reader);
         reader.finish();
         forces.push_back(std::move(force));
@@ -44,8 +43,7 @@ void checkForces(const std::vector<Force>& forces, const std::vector<Group>& gro
     for (size_t i = 0; i < forces.size(); ++i) {
         const Where where = whole.in("forces", i);
         describe(&forces[i]).check(forces[i], where, largestNumber);
-        refuseRepeated(where, names, forces[i].name);
-        names.push_back(forces[i].name);
+        takeName(where, names, forces[i].name);
         checkGroupNames(forces[i], groups, where);
     }
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/json_values.h"
 #include "scene/json/key_writer.h"
 
 namespace shoal {
@@ -10,13 +11,6 @@ namespace {
 
 using From = Emitter::From;
 using Along = Emitter::Along;
-
-JsonValue write(const Box& box) {
-    KeyWriter keys;
-    keys.value("low", JsonValue::makeVector(box.low));
-    keys.value("high", JsonValue::makeVector(box.high));
-    return std::move(keys.object);
-}
 
 JsonValue write(const Selection& select) {
     KeyWriter keys;
@@ -78,7 +72,7 @@ void writeFrom(KeyWriter& keys, const Emitter& emitter, const std::vector<Model>
         keys.number("hollow", emitter.hollow, 0);
         break;
     case From::box:
-        keys.value("box", write(emitter.box));
+        keys.value("box", writeBox(emitter.box));
         break;
     case From::surface: {
         keys.word("model", models[size_t(emitter.model)].name);
@@ -132,7 +126,7 @@ JsonValue write(const Emitter& emitter, const std::vector<Model>& models) {
 void writeDies(KeyWriter& keys, const Lifecycle& life) {
     if (!life.within && !life.afterContact) return;
     KeyWriter dies;
-    if (life.within) dies.value("outside", write(*life.within));
+    if (life.within) dies.value("outside", writeBox(*life.within));
     if (life.afterContact) dies.value("afterContact", JsonValue::makeNumber(*life.afterContact));
     keys.value("dies", std::move(dies.object));
 }

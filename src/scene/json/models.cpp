@@ -83,8 +83,7 @@ void checkModels(const std::vector<Model>& models) {
     std::vector<std::string> names;
     for (size_t i = 0; i < models.size(); ++i) {
         const Where where = whole.in("models", i);
-        refuseRepeated(where, names, models[i].name);
-        names.push_back(models[i].name);
+        takeName(where, names, models[i].name);
         members(CheckScene(where), models[i]);
         checkMesh(models[i].mesh, where.in("mesh"));
         checkReach(models[i].mesh, where);
@@ -96,8 +95,7 @@ std::vector<Model> readModels(JsonReader& scene) {
     std::vector<std::string> names;
     for (JsonReader& r : scene.objects("models")) {
         models.push_back(readModel(r));
-        refuseRepeated(r, names, models.back().name);
-        names.push_back(models.back().name);
+        takeName(r, names, models.back().name);
     }
     return models;
 }

@@ -96,4 +96,9 @@ void refuseRepeated(const Where& where, const std::vector<std::string>& earlier,
         throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
 }
 
+void takeName(const Where& where, std::vector<std::string>& taken, const std::string& name) {
+    refuseRepeated(where, taken, name);
+    taken.push_back(name);
+}
+
 }  // namespace shoal

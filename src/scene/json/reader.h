@@ -70,6 +70,8 @@ bool getOptional(JsonReader& reader, const std::string& key, std::optional<doubl
 
 // Refuses a name that an earlier element already has. An element's own name may be empty.
 void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name);
+// Does so, and adds it to them.
+void takeName(const Where& where, std::vector<std::string>& taken, const std::string& name);
 
 // Error: no such model.
 void checkModel(int model, const std::vector<Model>& models, const Location& where);
