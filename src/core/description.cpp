@@ -52,12 +52,39 @@ void checkNumbers(const Key& key, const glm::vec<N, double>& value, Range range,
 JsonValue Description::usualValue(const Key& key) const {
     const bool plain = key.kind != Kind::byHand && key.kind != Kind::variant && key.kind != Kind::object;
     const bool empty = key.kind == Kind::text && held<std::string>(at(key, usual_)).empty();
-    return plain && !empty ? writeKey(key, usual_, nullptr) : JsonValue();
+    return plain && !empty && key.usual.empty() ? writeKey(key, usual_, nullptr, nullptr) : JsonValue();
+}
+
+const Key* Description::find(const std::string& name) const {
+    const auto found =
+        std::find_if(keys_.begin(), keys_.end(), [&](const Key& key) { return key.name == name; });
+    return found == keys_.end() ? nullptr : &*found;
+}
+
+const Condition* Description::unmet(const Key& key, const void* object) const {
+    for (const Condition& condition : key.only) {
+        const Key& other = *find(condition.key);
+        const void* value = at(other, unmet(other, object) ? usual_ : object);
+        std::string says;
+        if (value && other.kind == Kind::word) says = other.words[size_t(other.member.index(value))];
+        if (value && other.kind == Kind::flag) says = held<bool>(value) ? "true" : "false";
+        const std::vector<std::string>& words = condition.words;
+        const bool met = words.empty()
+                             ? value && (other.kind != Kind::text || !held<std::string>(value).empty())
+                             : std::find(words.begin(), words.end(), says) != words.end();
+        if (!met) return &condition;
+    }
+    return nullptr;
 }
 
 void Description::readAny(JsonReader& reader, void* out, void* context) const {
     if (location_ >= 0) *reinterpret_cast<Location*>(static_cast<char*>(out) + location_) = reader.here();
     for (const Key& key : keys_) {
+        if (const Condition* condition = unmet(key, out)) {
+            if (reader.raw(key.name))
+                throw Error(reader.at(key.name), concat("\"", key.name, "\" ", condition->because));
+            continue;
+        }
         if (key.needed) reader.require(key.name);
         readKey(key, reader, out, context);
     }
@@ -82,10 +109,26 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
             value = uint32_t(wide);
             return true;
         });
+    case Kind::whole3:
+        return readValue(key, object, glm::ivec3(0), [&](glm::ivec3& value) {
+            std::vector<int> numbers;
+            if (!r.get(name, numbers, range)) return false;
+            if (numbers.size() != 3)
+                throw Error(r.at(name), concat("expected three whole numbers, found ", numbers.size()));
+            value = {numbers[0], numbers[1], numbers[2]};
+            return true;
+        });
+    case Kind::longSeed:
+        return readValue(key, object, uint64_t(0), [&](uint64_t& value) { return r.get(name, value); });
     case Kind::flag:
         return readValue(key, object, false, [&](bool& value) { return r.get(name, value); });
     case Kind::text:
-        return readValue(key, object, std::string(), [&](std::string& value) { return r.get(name, value); });
+        return readValue(key, object, std::string(), [&](std::string& value) {
+            if (!r.get(name, value)) return false;
+            if (key.notEmpty && value.empty())
+                throw Error(r.at(name), concat("expected ", key.says.unit, ", found an empty string"));
+            return true;
+        });
     case Kind::texts:
         return readValue(key, object, std::vector<std::string>(),
                          [&](std::vector<std::string>& value) { return r.get(name, value); });
@@ -100,7 +143,16 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
                          [&](glm::dvec3& value) { return getDirection(r, name, value); });
     case Kind::color:
         return readValue(key, object, glm::dvec3(0),
-                         [&](glm::dvec3& value) { return getColor(r, name, value); });
+                         [&](glm::dvec3& value) { return r.get(name, value, range); });
+    case Kind::ends: {
+        const JsonValue* given = r.raw(name);
+        glm::dvec2& value = *static_cast<glm::dvec2*>(memberOf(key, object));
+        if (given && given->kind == JsonValue::Kind::number)
+            r.get(name, value.y, range);
+        else
+            r.get(name, value, range);
+        return;
+    }
     case Kind::span:
         return readValue(key, object, glm::dvec2(0),
                          [&](glm::dvec2& value) { return getSpan(r, name, value, range); });
@@ -127,20 +179,47 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         return inner->finish();
     }
     case Kind::list:
+        if (!r.has(name)) return void(r.raw(name));
+        key.member.clear(key.member.make(memberOf(key, object)));
         for (JsonReader& inner : r.objects(name)) {
-            void* element = key.member.append(memberOf(key, object));
+            void* element = key.member.append(key.member.make(memberOf(key, object)));
             key.objects[0]->readAny(inner, element, context);
             inner.finish();
         }
         return;
     case Kind::byHand:
+        r.raw(name);  // known even when absent
         return key.read(r, object, context);
     }
 }
 
+void Description::readSomeAny(std::initializer_list<const char*> names, JsonReader& reader, void* out,
+                              void* context) const {
+    for (const char* name : names)
+        readKey(*find(name), reader, out, context);
+}
+
+JsonValue Description::writeSomeAny(std::initializer_list<const char*> names, const void* object,
+                                    const void* context) const {
+    JsonValue out = JsonValue::makeObject();
+    for (const char* name : names) {
+        JsonValue value = writeKey(*find(name), object, usual_, context);
+        if (value.kind != JsonValue::Kind::null) out.add(name, std::move(value));
+    }
+    return out;
+}
+
+// Whether a number is as where the key is left out, which need not be one that a file can say: for ever.
+bool Description::isUsual(const Key& key, const void* object) const {
+    if (key.needed || key.member.optional) return false;
+    if (key.kind == Kind::number) return held<double>(at(key, object)) == held<double>(at(key, usual_));
+    if (key.kind == Kind::span) return held<glm::dvec2>(at(key, object)) == held<glm::dvec2>(at(key, usual_));
+    return false;
+}
+
 void Description::checkAny(const void* object, const Where& where, double largest) const {
     for (const Key& key : keys_)
-        checkKey(key, object, where, largest);
+        if (!unmet(key, object) && !isUsual(key, object)) checkKey(key, object, where, largest);
     if (rule_) rule_(object, where);
 }
 
@@ -158,7 +237,13 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
         if ((!key.unlessZero || held<int>(value) != 0) && !contains(range, held<int>(value)))
             needWithin(where.at(key.name), held<int>(value), range);
         return;
+    case Kind::whole3:
+        for (int i = 0; i < 3; ++i)
+            if (!contains(range, held<glm::ivec3>(value)[i]))
+                needWithin(where.at(concat(key.name, "[", i, "]")), held<glm::ivec3>(value)[i], range);
+        return;
     case Kind::vector2:
+    case Kind::ends:
         return checkNumbers(key, held<glm::dvec2>(value), range, where, largest);
     case Kind::vector3:
     case Kind::color:
@@ -196,6 +281,7 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
             key.objects[0]->checkAny(key.member.element(value, i), where.in(key.name.c_str(), i), largest);
         return;
     case Kind::seed:
+    case Kind::longSeed:
     case Kind::flag:
     case Kind::text:
     case Kind::texts:
@@ -204,23 +290,25 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
     }
 }
 
-void Description::writeAny(const void* object, JsonValue& out) const {
+void Description::writeAny(const void* object, JsonValue& out, const void* context) const {
     for (const Key& key : keys_) {
+        if (unmet(key, object)) continue;
         if (key.kind == Kind::variant) {
             const void* variant = at(key, object);
             const Description& held = *key.objects[size_t(key.member.index(variant))];
             out.add(key.name, JsonValue::makeString(held.name()));
-            held.writeAny(key.member.held(variant), out);
+            held.writeAny(key.member.held(variant), out, context);
             continue;
         }
-        JsonValue value = writeKey(key, object, key.needed ? nullptr : usual_);
+        JsonValue value = writeKey(key, object, key.needed ? nullptr : usual_, context);
         if (value.kind != JsonValue::Kind::null) out.add(key.name, std::move(value));
     }
 }
 
 // Null: the key is left out, because the value is the usual one, or there is none.
-JsonValue Description::writeKey(const Key& key, const void* object, const void* usual) {
-    if (key.kind == Kind::byHand) return key.write ? key.write(object) : JsonValue();
+JsonValue Description::writeKey(const Key& key, const void* object, const void* usual, const void* context) {
+    if (key.write) return key.write(object, context);
+    if (key.kind == Kind::byHand) return {};
     const void* value = at(key, object);
     if (!value) return {};
     const void* unless = usual ? at(key, usual) : nullptr;
@@ -234,6 +322,11 @@ JsonValue Description::writeKey(const Key& key, const void* object, const void* 
         return unlessSame(held<int>(value), JsonValue::makeNumber);
     case Kind::seed:
         return unlessSame(held<uint32_t>(value), JsonValue::makeNumber);
+    case Kind::whole3:
+        return unlessSame(held<glm::ivec3>(value), JsonValue::makeVector<3, int>);
+    case Kind::longSeed:
+        return unlessSame(held<uint64_t>(value),
+                          [](uint64_t seed) { return JsonValue::makeNumber(double(seed)); });
     case Kind::flag:
         return unlessSame(held<bool>(value), JsonValue::makeBoolean);
     case Kind::text:
@@ -252,6 +345,11 @@ JsonValue Description::writeKey(const Key& key, const void* object, const void* 
     case Kind::direction:
     case Kind::color:
         return unlessSame(held<glm::dvec3>(value), JsonValue::makeVector<3, double>);
+    case Kind::ends:
+        return unlessSame(held<glm::dvec2>(value), [&](const glm::dvec2& ends) {
+            const bool usualStart = unless && ends.x == held<glm::dvec2>(unless).x;
+            return usualStart ? JsonValue::makeNumber(ends.y) : JsonValue::makeVector(ends);
+        });
     case Kind::span:
         return unlessSame(held<glm::dvec2>(value), [](const glm::dvec2& span) {
             return span.x == span.y ? JsonValue::makeNumber(span.x) : JsonValue::makeVector(span);
@@ -272,17 +370,21 @@ JsonValue Description::writeKey(const Key& key, const void* object, const void* 
     }
     case Kind::object: {
         JsonValue out = JsonValue::makeObject();
-        key.objects[0]->writeAny(value, out);
-        return out;
+        key.objects[0]->writeAny(value, out, context);
+        return key.member.optional || !out.members.empty() ? out : JsonValue();
     }
     case Kind::list: {
         if (key.member.count(value) == 0) return {};
-        JsonValue out = JsonValue::makeArray();
-        for (size_t i = 0; i < key.member.count(value); ++i) {
-            out.items.push_back(JsonValue::makeObject());
-            key.objects[0]->writeAny(key.member.element(value, i), out.items.back());
-        }
-        return out;
+        const auto write = [&](const void* list) {
+            JsonValue out = JsonValue::makeArray();
+            for (size_t i = 0; i < key.member.count(list); ++i) {
+                out.items.push_back(JsonValue::makeObject());
+                key.objects[0]->writeAny(key.member.element(list, i), out.items.back(), context);
+            }
+            return out;
+        };
+        JsonValue out = write(value);
+        return unless && writeJsonLine(out) == writeJsonLine(write(unless)) ? JsonValue() : out;
     }
     case Kind::variant:
     case Kind::byHand:

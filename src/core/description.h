@@ -16,6 +16,7 @@
 #pragma once
 
 #include <functional>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -44,22 +45,40 @@ struct Member {
     void* (*choose)(void*, int) = nullptr;       // likewise; the alternative of a variant
     const void* (*held)(const void*) = nullptr;  // the alternative that a variant holds
     size_t (*count)(const void*) = nullptr;      // lists
+    void (*clear)(void*) = nullptr;
     void* (*append)(void*) = nullptr;
     const void* (*element)(const void*, size_t) = nullptr;
+    bool optional = false;
+};
+
+// How far a slider goes. It goes further where a file does.
+struct Slider {
+    double least = 0, most = 0;  // equal: from the limits of the key
+    bool steep = false;          // logarithmic: small numbers have more room
 };
 
 // What is said of a key.
 struct Says {
-    std::string unit;      // "m/s"; empty: a number without one
+    std::string unit;      // "m/s"; empty: a number without one; of a text: what it names
     std::string sentence;  // in plain English
     Range range = {};
+    Slider slider = {};
+};
+
+// A key that means something only beside what another key says, which stands before it.
+struct Condition {
+    std::string key;
+    std::vector<std::string> words;  // what it may say, "true" of a flag; none: it must be there
+    std::string because;             // goes on from the name of the key that means nothing
 };
 
 struct Key {
     enum class Kind {
         number,
         whole,
+        whole3,  // three of them
         seed,
+        longSeed,  // of 64 bits
         flag,
         word,   // one of `words`
         text,   // any string
@@ -69,6 +88,7 @@ struct Key {
         direction,  // of any length above 0; made a unit vector
         color,      // linear RGB, at least 0
         span,       // [least, most], or one number for both
+        ends,       // [first, last], or one number for the last
         box,        // {"low", "high"}
         rotation,   // [x, y, z, w], or {"axis", "angle"}
         object,
@@ -82,12 +102,16 @@ struct Key {
     bool needed = false;
     bool unlessZero = false;  // 0 stands for no key
     bool flatBox = false;     // a box may have no inside
+    bool notEmpty = false;    // a text has at least one character
+    std::vector<Condition> only;
+    std::string usual;  // what a table says of its default, where that is not a value
     std::vector<std::string> words;
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives
     std::string schema;                       // byHand: the JSON Schema of its value
     std::function<void(JsonReader&, void* object, void* context)> read;  // byHand
-    std::function<JsonValue(const void* object)> write;                  // byHand; null: the key is left out
+    // byHand, and where what is written is not the member itself; null: the key is left out
+    std::function<JsonValue(const void* object, const void* context)> write;
 };
 
 class Description {
@@ -101,6 +125,9 @@ class Description {
         return schema_;
     }  // of rules between keys, as JSON Schema; may be empty
     bool isOf(const std::type_info& type) const { return *type_ == type; }
+    const Key* find(const std::string& name) const;  // null: there is none
+    // The first condition of a key that an object does not meet; null: the key means something.
+    const Condition* unmet(const Key& key, const void* object) const;
 
     // Fills a struct from an object; what is not there stays. Error, located: the first key that is missing,
     // mistyped, out of its limits, or breaks a rule between keys. `context` goes to the keys that are read by
@@ -117,25 +144,43 @@ class Description {
         EXPECTS(isOf(typeid(S)));
         checkAny(&object, where, largest);
     }
-    // The keys of what differs from the usual.
+    // The keys of what differs from the usual and means something.
     template <typename S>
-    JsonValue write(const S& object) const {
+    JsonValue write(const S& object, const void* context = nullptr) const {
         EXPECTS(isOf(typeid(S)));
         JsonValue out = JsonValue::makeObject();
-        writeAny(&object, out);
+        writeAny(&object, out, context);
         return out;
+    }
+    // The keys of some names alone, without what follows from them and without the rule.
+    template <typename S>
+    void readSome(std::initializer_list<const char*> names, JsonReader& reader, S& out,
+                  void* context = nullptr) const {
+        EXPECTS(isOf(typeid(S)));
+        readSomeAny(names, reader, &out, context);
+    }
+    template <typename S>
+    JsonValue writeSome(std::initializer_list<const char*> names, const S& object,
+                        const void* context = nullptr) const {
+        EXPECTS(isOf(typeid(S)));
+        return writeSomeAny(names, &object, context);
     }
 
   private:
     template <typename S>
     friend class Describe;
+    bool isUsual(const Key& key, const void* object) const;
+    void readSomeAny(std::initializer_list<const char*> names, JsonReader& reader, void* out,
+                     void* context) const;
+    JsonValue writeSomeAny(std::initializer_list<const char*> names, const void* object,
+                           const void* context) const;
     void readAny(JsonReader& reader, void* out, void* context) const;
     void checkAny(const void* object, const Where& where, double largest) const;
-    void writeAny(const void* object, JsonValue& out) const;
+    void writeAny(const void* object, JsonValue& out, const void* context) const;
 
     static void readKey(const Key& key, JsonReader& reader, void* out, void* context);
     static void checkKey(const Key& key, const void* object, const Where& where, double largest);
-    static JsonValue writeKey(const Key& key, const void* object, const void* usual);
+    static JsonValue writeKey(const Key& key, const void* object, const void* usual, const void* context);
 
     std::string name_, sentence_, schema_;
     std::vector<Key> keys_;
@@ -181,11 +226,14 @@ class Describe {
     }
     template <typename M>
     Describe& color(const char* name, M S::*member, Says says) {
-        says.range = Range::atLeast(0);
+        says.range.least = 0;
         return add(name, Key::Kind::color, member, std::move(says));
     }
     Describe& span(const char* name, glm::dvec2 S::*member, Says says) {
         return add(name, Key::Kind::span, member, std::move(says));
+    }
+    Describe& ends(const char* name, glm::dvec2 S::*member, Says says) {
+        return add(name, Key::Kind::ends, member, std::move(says));
     }
     template <typename M>
     Describe& box(const char* name, M S::*member, Says says, bool flat = false) {
@@ -206,6 +254,49 @@ class Describe {
             *static_cast<Enum*>(at) = Enum(index);
             return at;
         };
+        return *this;
+    }
+    // The same, where the first word stands for nothing.
+    template <typename Enum>
+    Describe& word(const char* name, std::optional<Enum> S::*member, std::vector<std::string> words,
+                   Says says) {
+        add(name, Key::Kind::word, member, std::move(says));
+        last().words = std::move(words);
+        last().member = {.offset = last().member.offset};
+        last().member.index = [](const void* at) {
+            const auto& value = *static_cast<const std::optional<Enum>*>(at);
+            return value ? int(*value) + 1 : 0;
+        };
+        last().member.choose = [](void* at, int index) {
+            *static_cast<std::optional<Enum>*>(at) =
+                index > 0 ? std::optional(Enum(index - 1)) : std::nullopt;
+            return at;
+        };
+        return *this;
+    }
+    // An object whose keys are of this struct as well.
+    Describe& part(const char* name, const Description& keys, std::string sentence) {
+        EXPECTS(keys.isOf(typeid(S)));
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = Key::Kind::object;
+        key.says.sentence = std::move(sentence);
+        key.objects = {&keys};
+        return *this;
+    }
+    // A list of objects that is not a member itself. `make` gives it, made where there is none; `look` gives
+    // null where there is none.
+    template <auto make, auto look>
+    Describe& list(const char* name, std::string sentence) {
+        using Element = typename std::remove_reference_t<decltype(make(std::declval<S&>()))>::value_type;
+        using List = std::vector<Element>;
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = Key::Kind::list;
+        key.says.sentence = std::move(sentence);
+        reach<List>(key);
+        key.member.make = [](void* at) -> void* { return &make(*static_cast<S*>(at)); };
+        key.member.look = [](const void* at) -> const void* { return look(*static_cast<const S*>(at)); };
         return *this;
     }
     // The keys of a struct within this one, beside this one's own.
@@ -243,7 +334,7 @@ class Describe {
     template <typename Context = void>
     Describe& byHand(const char* name, const char* schema, Says says,
                      std::type_identity_t<std::function<void(JsonReader&, S&, Context*)>> read,
-                     std::function<JsonValue(const S&)> write = {}) {
+                     std::function<JsonValue(const S&, const void*)> write = {}) {
         Key& key = it_.keys_.emplace_back();
         key.name = name;
         key.kind = Key::Kind::byHand;
@@ -252,7 +343,7 @@ class Describe {
         key.read = [read](JsonReader& reader, void* object, void* context) {
             read(reader, *static_cast<S*>(object), static_cast<Context*>(context));
         };
-        if (write) key.write = [write](const void* object) { return write(*static_cast<const S*>(object)); };
+        if (write) writes(std::move(write));
         return *this;
     }
 
@@ -269,6 +360,28 @@ class Describe {
     }
     Describe& unlessZero() {
         last().unlessZero = true;
+        return *this;
+    }
+    Describe& notEmpty() {
+        last().notEmpty = true;
+        return *this;
+    }
+    // Of the key before: it means something only where `key`, which stands before it, says one of the words.
+    Describe& only(const char* key, std::vector<std::string> words, std::string because) {
+        EXPECTS(it_.find(key));
+        last().only.push_back({key, std::move(words), std::move(because)});
+        return *this;
+    }
+    // Of the key before: its default in words.
+    Describe& usually(std::string words) {
+        last().usual = std::move(words);
+        return *this;
+    }
+    // Of the key before: what is written instead of its member; null: the key is left out.
+    Describe& writes(std::function<JsonValue(const S&, const void* context)> write) {
+        last().write = [write](const void* object, const void* context) {
+            return write(*static_cast<const S*>(object), context);
+        };
         return *this;
     }
     // Where the object stands.
@@ -339,7 +452,9 @@ class Describe {
         if (Within<M>::list) return Key::Kind::list;
         if (std::is_same_v<T, double>) return Key::Kind::number;
         if (std::is_same_v<T, int>) return Key::Kind::whole;
-        if (std::is_same_v<T, uint32_t> || std::is_same_v<T, uint64_t>) return Key::Kind::seed;
+        if (std::is_same_v<T, glm::ivec3>) return Key::Kind::whole3;
+        if (std::is_same_v<T, uint32_t>) return Key::Kind::seed;
+        if (std::is_same_v<T, uint64_t>) return Key::Kind::longSeed;
         if (std::is_same_v<T, bool>) return Key::Kind::flag;
         if (std::is_same_v<T, std::string>) return Key::Kind::text;
         if (std::is_same_v<T, glm::dvec2>) return Key::Kind::vector2;
@@ -351,6 +466,7 @@ class Describe {
     static void reach(Key& key) {
         using T = typename Within<M>::type;
         if constexpr (Within<M>::optional) {
+            key.member.optional = true;
             key.member.make = [](void* at) -> void* { return &static_cast<M*>(at)->emplace(); };
             key.member.look = [](const void* at) -> const void* {
                 const M& value = *static_cast<const M*>(at);
@@ -359,6 +475,7 @@ class Describe {
         }
         if constexpr (Within<M>::list) {
             key.member.count = [](const void* at) { return static_cast<const M*>(at)->size(); };
+            key.member.clear = [](void* at) { static_cast<M*>(at)->clear(); };
             key.member.append = [](void* at) -> void* { return &static_cast<M*>(at)->emplace_back(); };
             key.member.element = [](const void* at, size_t i) -> const void* {
                 return &(*static_cast<const M*>(at))[i];

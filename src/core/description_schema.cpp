@@ -1,5 +1,6 @@
 #include "core/description_schema.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace shoal {
@@ -60,12 +61,22 @@ JsonValue valueSchema(const Key& key) {
         return number("number", range);
     case Kind::whole:
         return number("integer", range);
+    case Kind::whole3:
+        return object({{"type", text("array")},
+                       {"minItems", JsonValue::makeNumber(3)},
+                       {"maxItems", JsonValue::makeNumber(3)},
+                       {"items", number("integer", range)}});
     case Kind::seed:
         return number("integer", Range::between(0, 4294967295.0));
+    case Kind::longSeed:
+        return number("integer", Range::atLeast(0));
     case Kind::flag:
         return object({{"type", text("boolean")}});
-    case Kind::text:
-        return object({{"type", text("string")}});
+    case Kind::text: {
+        JsonValue out = object({{"type", text("string")}});
+        if (key.notEmpty) out.add("minLength", JsonValue::makeNumber(1));
+        return out;
+    }
     case Kind::texts:
         return object({{"type", text("array")},
                        {"minItems", JsonValue::makeNumber(1)},
@@ -77,7 +88,8 @@ JsonValue valueSchema(const Key& key) {
     case Kind::direction:
         return reference("direction");
     case Kind::color:
-        return reference("color");
+        return std::isfinite(range.most) ? numbers(3, range) : reference("color");
+    case Kind::ends:
     case Kind::span: {
         JsonValue either = JsonValue::makeArray();
         either.items = {number("number", range), numbers(2, range)};
@@ -101,8 +113,76 @@ JsonValue valueSchema(const Key& key) {
     return JsonValue::makeObject();
 }
 
-std::string sentence(const Says& says) {
-    return says.unit.empty() ? says.sentence : concat(says.sentence, " [", says.unit, "]");
+// When the key means something.
+std::string conditions(const Key& key) {
+    std::string out;
+    for (const Condition& condition : key.only) {
+        out += concat(out.empty() ? " Only with `" : " and `", condition.key, "`");
+        for (size_t i = 0; i < condition.words.size(); ++i)
+            out += concat(i == 0 ? " " : i + 1 == condition.words.size() ? " or " : ", ", condition.words[i]);
+    }
+    return out.empty() ? out : out + ".";
+}
+
+std::string sentence(const Key& key) {
+    const Says& says = key.says;
+    return (says.unit.empty() || key.kind == Kind::text ? says.sentence
+                                                        : concat(says.sentence, " [", says.unit, "]")) +
+           conditions(key);
+}
+
+// That an object meets a condition.
+JsonValue isMet(const Condition& condition, const Description& of) {
+    const Key& other = *of.find(condition.key);
+    if (condition.words.empty()) return object({{"required", list({other.name})}});
+    const bool flag = other.kind == Kind::flag;
+    JsonValue words = flag ? JsonValue::makeArray() : list(condition.words);
+    if (flag) words.items.push_back(JsonValue::makeBoolean(condition.words[0] == "true"));
+    JsonValue out = object({{"properties", object({{other.name.c_str(), object({{"enum", words}})}})}});
+    const JsonValue usual = of.usualValue(other);
+    const std::string says = flag ? (usual.boolean ? "true" : "false") : usual.text;
+    if (std::find(condition.words.begin(), condition.words.end(), says) == condition.words.end() ||
+        other.needed)
+        out.add("required", list({other.name}));
+    return out;
+}
+
+JsonValue areMet(const std::vector<Condition>& conditions, const Description& of) {
+    if (conditions.size() == 1) return isMet(conditions[0], of);
+    JsonValue all = JsonValue::makeArray();
+    for (const Condition& condition : conditions)
+        all.items.push_back(isMet(condition, of));
+    return object({{"allOf", all}});
+}
+
+bool same(const std::vector<Condition>& a, const std::vector<Condition>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const Condition& one, const Condition& other) {
+                          return one.key == other.key && one.words == other.words;
+                      });
+}
+
+// Which keys may be there only beside which others, and which must be then.
+void addConditions(const Description& of, std::vector<std::string>& rules) {
+    std::vector<const std::vector<Condition>*> done;
+    for (const Key& key : of.keys()) {
+        if (key.only.empty()) continue;
+        if (std::any_of(done.begin(), done.end(), [&](const auto* one) { return same(*one, key.only); }))
+            continue;
+        done.push_back(&key.only);
+        JsonValue there = JsonValue::makeArray();
+        std::vector<std::string> needed;
+        for (const Key& other : of.keys()) {
+            if (!same(other.only, key.only)) continue;
+            there.items.push_back(object({{"required", list({other.name})}}));
+            if (other.needed) needed.push_back(other.name);
+        }
+        rules.push_back(
+            writeJson(object({{"if", object({{"anyOf", there}})}, {"then", areMet(key.only, of)}})));
+        if (!needed.empty())
+            rules.push_back(writeJson(
+                object({{"if", areMet(key.only, of)}, {"then", object({{"required", list(needed)}})}})));
+    }
 }
 
 JsonValue usualValue(const Key& key, const Description& of) {
@@ -115,11 +195,11 @@ void addKeys(const Description& of, JsonValue& properties, std::vector<std::stri
         if (key.kind == Kind::variant) continue;
         JsonValue schema = valueSchema(key);
         std::erase_if(schema.members, [](const JsonMember& member) { return member.first == "description"; });
-        schema.add("description", text(sentence(key.says)));
+        schema.add("description", text(sentence(key)));
         const JsonValue usual = usualValue(key, of);
         if (usual.kind != JsonValue::Kind::null) schema.add("default", usual);
         properties.add(key.name, std::move(schema));
-        if (key.needed) required.push_back(key.name);
+        if (key.needed && key.only.empty()) required.push_back(key.name);
     }
 }
 
@@ -143,7 +223,10 @@ JsonValue schemaOfAlternative(const Description& of, const Key& variant, const D
     std::vector<std::string> required = {variant.name};
     addKeys(one, properties, required);
     addKeys(of, properties, required);
-    return closed(one.sentence(), std::move(properties), required, {of.schema(), one.schema()});
+    std::vector<std::string> rules = {of.schema(), one.schema()};
+    addConditions(of, rules);
+    addConditions(one, rules);
+    return closed(one.sentence(), std::move(properties), required, rules);
 }
 
 }  // namespace
@@ -159,7 +242,9 @@ JsonValue schemaOf(const Description& description) {
     JsonValue properties = object({{"comment", reference("comment")}});
     std::vector<std::string> required;
     addKeys(description, properties, required);
-    return closed(description.sentence(), std::move(properties), required, {description.schema()});
+    std::vector<std::string> rules = {description.schema()};
+    addConditions(description, rules);
+    return closed(description.sentence(), std::move(properties), required, rules);
 }
 
 JsonValue schemaDefinitions() {
@@ -191,11 +276,32 @@ JsonValue schemaDefinitions() {
                    {"rotation", object({{"anyOf", either}})}});
 }
 
+std::string schemaFile(const Description& description, const std::string& id, const std::string& title) {
+    JsonValue out = object({{"$schema", text("https://json-schema.org/draft/2020-12/schema")},
+                            {"$id", text(id)},
+                            {"title", text(title)}});
+    for (JsonMember& member : schemaOf(description).members)
+        out.members.push_back(std::move(member));
+    JsonValue definitions = JsonValue::makeObject();
+    std::string all = writeJson(out);
+    const JsonValue known = schemaDefinitions();
+    for (size_t before = 0, now = 1; before != now; before = now, now = definitions.members.size() + 1)
+        for (const auto& [name, definition] : known.members) {
+            if (definitions.find(name) || all.find(concat("\"#/$defs/", name, "\"")) == std::string::npos)
+                continue;
+            definitions.add(name, definition);
+            all += writeJson(definition);
+        }
+    out.add("$defs", std::move(definitions));
+    return writeJson(out);
+}
+
 std::string typeText(const Key& key) {
     const Range range = key.says.range;
     const auto withUnit = [&](std::string words) {
         if (std::isfinite(range.least) && std::isfinite(range.most))
-            words += concat(" from ", range.least, " to ", range.most);
+            words += concat(" from ", writeJsonLine(JsonValue::makeNumber(range.least)), " to ",
+                            writeJsonLine(JsonValue::makeNumber(range.most)));
         else if (std::isfinite(range.least))
             words += range.least == leastPositive || range.aboveLeast
                          ? concat(" above ", range.aboveLeast ? range.least : 0)
@@ -207,12 +313,16 @@ std::string typeText(const Key& key) {
         return withUnit("number");
     case Kind::whole:
         return withUnit("whole number");
+    case Kind::whole3:
+        return withUnit("three whole numbers");
     case Kind::seed:
         return "whole number from 0 to 4294967295";
+    case Kind::longSeed:
+        return "whole number of 64 bits";
     case Kind::flag:
         return "true or false";
     case Kind::text:
-        return "string";
+        return key.says.unit.empty() ? "string" : key.says.unit;
     case Kind::texts:
         return "list of strings";
     case Kind::vector2:
@@ -225,6 +335,8 @@ std::string typeText(const Key& key) {
         return "colour";
     case Kind::span:
         return withUnit("number or [least, most]");
+    case Kind::ends:
+        return withUnit("number or [first, last]");
     case Kind::box:
         return "box, m";
     case Kind::rotation:
@@ -248,11 +360,13 @@ std::string typeText(const Key& key) {
 
 std::string usualText(const Key& key, const Description& of) {
     if (key.needed) return "required";
+    if (!key.usual.empty()) return key.usual;
     JsonValue usual = usualValue(key, of);
     if (key.kind == Kind::byHand) {
         const JsonValue schema = parseJson(key.schema, "the schema of " + key.name);
         if (const JsonValue* value = schema.find("default")) usual = *value;
     }
+    if (key.kind == Kind::object && !key.member.optional) return "as below";
     if (usual.kind == JsonValue::Kind::null) return "none";
     std::string out = writeJsonLine(usual);
     if (usual.kind == JsonValue::Kind::string) out = concat("`", out, "`");
@@ -263,7 +377,7 @@ std::string tableOf(const Description& description) {
     std::string out = "| key | type, unit | default | meaning |\n|---|---|---|---|\n";
     for (const Key& key : description.keys())
         out += concat("| `", key.name, "` | ", typeText(key), " | ", usualText(key, description), " | ",
-                      key.says.sentence, " |\n");
+                      key.says.sentence, conditions(key), " |\n");
     return out;
 }
 

@@ -10,6 +10,9 @@ JsonValue schemaOf(const Description& description);
 // "$defs": vectors, directions, colours, boxes, rotations, comments.
 JsonValue schemaDefinitions();
 
+// The text of a schema's file, with those definitions that it refers to.
+std::string schemaFile(const Description& description, const std::string& id, const std::string& title);
+
 // A table in Markdown, a row a key: name, type and unit, default, meaning.
 std::string tableOf(const Description& description);
 

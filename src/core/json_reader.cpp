@@ -28,13 +28,16 @@ const char* name(JsonValue::Kind kind) {
     return "a value";
 }
 
-static std::string describe(Range range, const char* noun) {
+static std::string describe(Range range, const std::string& noun) {
+    const auto digits = [&noun](double number) {  // a whole number in full: 16777216
+        return noun == "a whole number" ? writeJsonLine(JsonValue::makeNumber(number)) : concat(number);
+    };
     const bool below = std::isfinite(range.most), above = std::isfinite(range.least);
     std::string out = noun;
-    if (above && range.aboveLeast) out += concat(" above ", range.least);
-    if (above && !range.aboveLeast) out += concat(below ? " from " : " of at least ", range.least);
-    if (below && above) out += concat(range.aboveLeast ? " and at most " : " to ", range.most);
-    if (below && !above) out += concat(" of at most ", range.most);
+    if (above && range.aboveLeast) out += concat(" above ", digits(range.least));
+    if (above && !range.aboveLeast) out += concat(below ? " from " : " of at least ", digits(range.least));
+    if (below && above) out += concat(range.aboveLeast ? " and at most " : " to ", digits(range.most));
+    if (below && !above) out += concat(" of at most ", digits(range.most));
     return out;
 }
 

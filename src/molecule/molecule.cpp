@@ -5,14 +5,22 @@
 
 namespace shoal {
 
+const std::vector<std::string>& blendWords() {
+    static const std::vector<std::string> words = {"none", "alpha", "additive", "multiplicative"};
+    return words;
+}
+
+const std::vector<std::string>& sortWords() {
+    static const std::vector<std::string> words = {"none", "frame", "spread"};
+    return words;
+}
+
 const char* name(Blend blend) {
-    static constexpr const char* words[] = {"none", "alpha", "additive", "multiplicative"};
-    return words[size_t(blend)];
+    return blendWords()[size_t(blend)].c_str();
 }
 
 const char* name(DrawSort sort) {
-    static constexpr const char* words[] = {"none", "frame", "spread"};
-    return words[size_t(sort)];
+    return sortWords()[size_t(sort)].c_str();
 }
 
 double Molecule::size() const {

@@ -51,6 +51,8 @@ constexpr int mostSpreadFrames = 1000;  // of one whole sort
 
 const char* name(Blend blend);
 const char* name(DrawSort sort);
+const std::vector<std::string>& blendWords();
+const std::vector<std::string>& sortWords();
 
 // How a molecule looks. Colours are linear RGB in [0, 1].
 struct Material {

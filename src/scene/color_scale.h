@@ -7,6 +7,8 @@
 
 namespace shoal {
 
+class Description;
+
 constexpr size_t leastScaleColors = 2, mostScaleColors = 8;
 
 // The colour at q = (quantity - from) / (to - from), clamped to [0, 1]: linear between evenly spaced colours.
@@ -23,5 +25,7 @@ struct ColorScale {
                                       {0.001, 0.25, 0.322},  {0.002, 0.4, 0.334},   {0.057, 0.584, 0.268},
                                       {0.346, 0.728, 0.197}, {0.827, 0.847, 0.171}};
 };
+
+const Description& describe(const ColorScale*);
 
 }  // namespace shoal

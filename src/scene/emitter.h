@@ -14,6 +14,8 @@
 
 namespace shoal {
 
+class Description;
+
 // How a newborn finds a free place in its group. All but `ring` bear nothing while the group is full, and
 // count what was not born.
 enum class Allocator {
@@ -92,8 +94,14 @@ struct Lifecycle {
     Location location;
 };
 
+const Description& describe(const Burst*);
+const Description& describe(const Emitter*);
+const Description& describe(const Lifecycle*);
+
 // The capacity of a file that gives none: as many as can be alive at once, and a twentieth more, with `count`
 // at the start. Nothing where nobody can say, or where they are more than a group may have.
 std::optional<int> usualCapacity(int count, const Lifecycle& life);
+double mostAlive(int count, const Lifecycle& life);  // at once, and a twentieth more
+bool emitsFromDeaths(const Lifecycle& life);
 
 }  // namespace shoal

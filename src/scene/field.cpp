@@ -143,6 +143,9 @@ const Description& describe(const WaveTrain*) {
                         concat("expected less than ", most, " m: crests of ", train.wavelength,
                                " m length would curl over, found ", train.amplitude));
     };
+    static const auto derive = [](WaveTrain& train, const Where&) {
+        if (train.direction.x != 0 || train.direction.z != 0) train.direction.y = 0;
+    };
     static const Description it =
         Describe<WaveTrain>("train", "One train of waves.")
             .key("direction", &WaveTrain::direction,
@@ -155,6 +158,7 @@ const Description& describe(const WaveTrain*) {
             .key("wavelength", &WaveTrain::wavelength, {"m", "The wavelength.", aboveZero()})
             .needed()
             .key("phase", &WaveTrain::phase, {"rad", "The phase at the origin at time 0."})
+            .derive(derive)
             .rule(rule);
     return it;
 }

@@ -1,15 +1,258 @@
 #include "scene/particle.h"
 
+#include <filesystem>
+
+#include "core/description.h"
+#include "core/image.h"
+#include "scene/json/reader.h"
+
 namespace shoal {
 
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::vector<std::string> shapeWords = {"points", "sprites", "quads"};
+const std::vector<std::string> facingWords = {"camera", "velocity", "free"};
+
+void checkAges(const ParticleType& type, const Where& where) {
+    const size_t count = type.colors.size();
+    if (count == 0) throw Error(where.at("colors"), "expected at least one keyframe, found none");
+    if (count > mostColorKeys)
+        throw Error(where.at("colors"),
+                    concat("expected at most ", mostColorKeys, " keyframes, found ", count));
+    for (size_t i = 1; i < count; ++i) {
+        const Where here = where.in("colors", i);
+        here.require("age");
+        const double age = type.colors[i].age, before = type.colors[i - 1].age;
+        if (age - before < leastPositive)
+            throw Error(here.at("age"), concat("expected an age above that of the keyframe before, ", before,
+                                               ", found ", age));
+    }
+}
+
+void checkType(const ParticleType& type, const Where& where) {
+    if (type.growth == glm::dvec2(0))
+        throw Error(where.at("growth"), "expected a factor above 0 at birth or at the end, found 0 for both");
+    checkAges(type, where);
+}
+
+void checkImage(const ParticleImage& image, const Where& where) {
+    const char* key = where.given("tile") ? "tile" : "tiles";
+    const int most = image.columns * image.rows - 1;
+    for (const int tile : {image.firstTile, image.lastTile})
+        if (tile < 0 || tile > most)
+            throw Error(where.at(key), concat("the image has tiles 0 to ", most, ", found ", tile));
+    if (image.firstTile > image.lastTile)
+        throw Error(where.at(key),
+                    concat("expected [first, last], found ", image.firstTile, " above ", image.lastTile));
+    if (image.flipBook && image.firstTile == image.lastTile)
+        throw Error(where.at("flipBook"), "a flip-book needs at least two tiles");
+}
+
+void checkPixels(ParticleImage& image, const Where& where) {
+    const Image pixels = readPng(image.file);
+    if (pixels.width % image.columns != 0 || pixels.height % image.rows != 0)
+        throw Error(where.at("file"),
+                    concat("the image is ", pixels.width, " x ", pixels.height, " pixels, which ",
+                           image.columns, " x ", image.rows, " tiles of the same size do not fill"));
+}
+
+void readFileOf(JsonReader& r, ParticleImage& image, void*) {
+    image.file = needFile(r, "file");
+}
+
+JsonValue writeFileOf(const ParticleImage& image, const void* scene) {
+    const std::string file = static_cast<const Scene*>(scene)->file;
+    const fs::path folder = fs::path(file).parent_path();
+    if (folder.empty()) return JsonValue::makeString(image.file);
+    const fs::path relative =
+        fs::absolute(image.file).lexically_relative(fs::absolute(folder).lexically_normal());
+    return JsonValue::makeString(relative.empty() ? image.file : relative.generic_string());
+}
+
+void readTile(JsonReader& r, ParticleImage& image, void*) {
+    image.lastTile = image.columns * image.rows - 1;
+    if (r.get("tile", image.firstTile)) image.lastTile = image.firstTile;
+}
+
+JsonValue writeTile(const ParticleImage& image, const void*) {
+    const bool one = image.firstTile == image.lastTile && image.columns * image.rows > 1;
+    return one ? JsonValue::makeNumber(image.firstTile) : JsonValue();
+}
+
+void readTiles(JsonReader& r, ParticleImage& image, void*) {
+    std::vector<int> ends;
+    if (!r.get("tiles", ends)) return;
+    if (r.has("tile")) throw Error(r.at("tiles"), "\"tiles\" is given besides \"tile\": one of the two");
+    if (ends.size() != 2)
+        throw Error(r.at("tiles"), concat("expected [first, last], found ", ends.size(), " numbers"));
+    image.firstTile = ends[0];
+    image.lastTile = ends[1];
+}
+
+JsonValue writeTiles(const ParticleImage& image, const void*) {
+    const bool all = image.firstTile == 0 && image.lastTile == image.columns * image.rows - 1;
+    if (all || image.firstTile == image.lastTile) return {};
+    return JsonValue::makeVector(glm::ivec2(image.firstTile, image.lastTile));
+}
+
+}  // namespace
+
 const char* name(ParticleShape shape) {
-    static constexpr const char* names[] = {"points", "sprites", "quads"};
-    return names[size_t(shape)];
+    return shapeWords[size_t(shape)].c_str();
 }
 
 const char* name(ParticleFacing facing) {
-    static constexpr const char* names[] = {"camera", "velocity", "free"};
-    return names[size_t(facing)];
+    return facingWords[size_t(facing)].c_str();
+}
+
+const Description& describe(const ColorKey*) {
+    static const Description it =
+        Describe<ColorKey>("keyframe", "Colour and opacity at a moment of a particle's life.")
+            .key(
+                "age", &ColorKey::age,
+                {"",
+                 "The share of its life, above that of the keyframe before; only the first may leave it out.",
+                 Range::between(0, 1)})
+            .color(
+                "color", &ColorKey::color,
+                {"", "Linear red, green and blue; above 1 it glows.", Range::between(0, mostParticleColor)})
+            .key("opacity", &ColorKey::opacity, {"", "How much it covers.", Range::between(0, 1)});
+    return it;
+}
+
+const Description& describe(const ParticleImage*) {
+    using P = ParticleImage;
+    const std::string flip = "is of flip-books: \"flipBook\" is not true";
+    static const Description it =
+        Describe<P>("image", "An image, cut into tiles of the same size.")
+            .byHand("file", R"({"type": "string", "minLength": 1})",
+                    {"the name of a PNG with alpha", "The image."}, readFileOf, writeFileOf)
+            .needed()
+            .key("columns", &P::columns,
+                 {"", "The number of tiles from left to right.", Range::between(1, mostTiles)})
+            .key("rows", &P::rows,
+                 {"",
+                  "The number of tiles from top to bottom; they count along the rows from 0 at the upper "
+                  "left.",
+                  Range::between(1, mostTiles)})
+            .byHand("tile", R"({"type": "integer", "minimum": 0})", {"whole number", "The only tile in use."},
+                    readTile, writeTile)
+            .byHand(
+                "tiles",
+                R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 0}})",
+                {"[first, last]", "The tiles in use; all without it."}, readTiles, writeTiles)
+            .key("flipBook", &P::flipBook,
+                 {"",
+                  "Whether each particle shows all tiles one after another; else it shows one, by its seed."})
+            .key("frameRate", &P::frameRate,
+                 {"1/s",
+                  "How fast the flip-book goes, over and over; 0: once, over the particle's life.",
+                  Range::between(0, mostFrameRate),
+                  {0, 60}})
+            .only("flipBook", {"true"}, flip)
+            .key("blend", &P::blend, {"", "Whether neighbouring frames fade into one another."})
+            .only("flipBook", {"true"}, flip)
+            .derive(checkPixels)
+            .rule(checkImage, R"({"not": {"required": ["tile", "tiles"]}})");
+    return it;
+}
+
+static const Description& describeParticle() {
+    using P = ParticleType;
+    const std::string quads = "is of the shape quads: the others face the camera";
+    const std::string dots = "does not show on the shape points, round dots of a fixed number of \"pixels\"";
+    const std::string along = "has no effect: facing velocity, a particle points where it goes";
+    const std::string order = "is of the blend alpha: the others need no order";
+    const Range turns = Range::between(-mostParticleTurn, mostParticleTurn);
+    const std::vector<std::string> sized = {"sprites", "quads"};
+    constexpr double round = 6.283185307179586;
+    static const Description it =
+        Describe<P>("particle", "A type of point particle: its mass and its looks.")
+            .key("mass", &P::mass,
+                 {"kg", "Its mass.", Range::between(leastParticleMass, mostParticleMass), {1e-6, 10, true}})
+            .word("shape", &P::shape, shapeWords,
+                  {"",
+                   "Dots of a fixed number of pixels, squares that face the camera, or squares of any size "
+                   "and facing."})
+            .key("pixels", &P::pixels,
+                 {"pixels", "The diameter of a dot.", Range::between(1, mostParticlePixels)})
+            .only("shape", {"points"}, "is of the shape points: others have a \"size\" in metres")
+            .span("size", &P::size,
+                  {"m",
+                   "The diameter, random between the two.",
+                   Range::between(leastParticleSize, mostParticleSize),
+                   {0.0005, 1, true}})
+            .only("shape", sized, dots)
+            .ends("growth", &P::growth,
+                  {"",
+                   "The factors on the size at birth and at the end of life.",
+                   Range::between(0, mostParticleSize),
+                   {0, 4}})
+            .only("shape", sized, dots)
+            .word("facing", &P::facing, facingWords,
+                  {"",
+                   "Whether it turns about the line of sight, points along its velocity, or turns in space."})
+            .only("shape", {"quads"}, quads)
+            .key("stretch", &P::stretch,
+                 {"s",
+                  "The length grows by this times the speed across the view.",
+                  Range::between(0, mostParticleSize),
+                  {0, 0.5, true}})
+            .only("shape", {"quads"}, quads)
+            .only("facing", {"velocity"}, "is of the facing velocity")
+            .span("turn", &P::turn,
+                  {"rad", "The turn at birth, random between the two.", turns, {-round, round}})
+            .only("shape", sized, dots)
+            .only("facing", {"camera", "free"}, along)
+            .span("spin", &P::spin,
+                  {"rad/s", "How fast it turns, random between the two.", turns, {-2 * round, 2 * round}})
+            .only("shape", sized, dots)
+            .only("facing", {"camera", "free"}, along)
+            .key("colors", &P::colors, {"", "Its colours over its life, 1 to 4 keyframes."})
+            .usually("white")
+            .key("image", &P::image, {"", "What it shows; a round dot with a soft edge without it."})
+            .only("shape", sized, dots)
+            .word("blend", &P::blend, blendWords(), {"", "How it meets what is drawn behind it."})
+            .word("sort", &P::sort, sortWords(),
+                  {"", "How particles come into the order from back to front."})
+            .only("blend", {"alpha"}, order)
+            .key("spreadFrames", &P::spreadFrames,
+                 {"",
+                  "Over how many frames one sort is spread.",
+                  Range::between(1, mostSpreadFrames),
+                  {1, 60}})
+            .only("blend", {"alpha"}, order)
+            .only("sort", {"spread"}, "is of the sort spread")
+            .key("softness", &P::softness,
+                 {"m",
+                  "It fades where a surface is nearer than this behind it.",
+                  Range::between(0, mostParticleSize),
+                  {0, 1, true}})
+            .only("blend", {"alpha", "additive", "multiplicative"},
+                  "needs a blend: what is not blended does not fade")
+            .key("lit", &P::lit, {"", "Whether sun and sky light it; else it sends its own colour."})
+            .only("blend", {"none", "alpha", "additive"},
+                  "has no effect: what is multiplied with what is behind sends no light")
+            .rule(checkType, R"({"properties": {"colors": {"minItems": 1, "maxItems": 4}}})");
+    return it;
+}
+
+const Description& describe(const ParticleType*) {
+    return describeParticle();
+}
+
+std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where) {
+    std::vector<Warning> out;
+    const auto warn = [&](bool given, const char* what) {
+        if (given) out.push_back({where, concat("these particles live for ever: ", what)});
+    };
+    warn(type.colors.size() > 1, "only the first colour shows");
+    warn(type.growth.x != type.growth.y, "they do not grow or shrink with age");
+    warn(type.image && type.image->flipBook && type.image->frameRate == 0,
+         "only the first frame of the flip-book shows, which needs a frameRate");
+    return out;
 }
 
 Molecule moleculeOf(const ParticleType& type) {

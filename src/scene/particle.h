@@ -12,6 +12,8 @@
 
 namespace shoal {
 
+class Description;
+
 // Limits of a type, inclusive. Beyond them products overflow single precision, or half precision in the light
 // that is added up.
 constexpr double leastParticleMass = 1e-12, mostParticleMass = 1e12;  // kg
@@ -74,6 +76,13 @@ struct ParticleType {
     DrawSort sort = DrawSort::frame;  // with blend alpha
     int spreadFrames = 20;            // with sort spread
 };
+
+const Description& describe(const ColorKey*);
+const Description& describe(const ParticleImage*);
+const Description& describe(const ParticleType*);
+
+// What of a type changes with age, and so never shows in a group that lives for ever.
+std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where);
 
 // The molecule of one vertex that stands for the type.
 Molecule moleculeOf(const ParticleType& type);

@@ -12,11 +12,92 @@
 
 #include <glm/gtc/constants.hpp>
 
+#include "core/description.h"
 #include "core/random.h"
+#include "scene/json/reader.h"
 #include "scene/scene.h"
 #include "scene/selection.h"
 
 namespace shoal {
+
+const Description& describe(const Placement::Item*) {
+    using Item = Placement::Item;
+    static const Description it = Describe<Item>("item", "Where one molecule stands.")
+                                      .key("position", &Item::position, {"m", "Where it is."})
+                                      .rotation("rotation", &Item::rotation, {"", "How it is turned."})
+                                      .key("scale", &Item::scale, {"", "Its size.", aboveZero()});
+    return it;
+}
+
+static const Description& describePlacement() {
+    using P = Placement;
+    static const auto readModel = [](JsonReader& r, P& place, const SceneReading* reading) {
+        place.model = needModel(r, "model", reading->models);
+    };
+    static const auto derive = [](P& place, const Where& where) {
+        if (!where.given("align") && place.onModel()) place.align = P::Align::normal;
+        if (!where.given("turn") && place.kind == P::Kind::list) place.turn = P::Turn::none;
+    };
+    static const auto rule = [](const P& place, const Where& where) {
+        if (place.align == P::Align::normal && !place.onModel())
+            throw Error(where.at("align"),
+                        "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
+        if (place.kind == P::Kind::list && place.items.empty())
+            throw Error(where.at("items"), "expected at least one item");
+    };
+    const std::string model = "is of the places \"vertices\" and \"surface\"", grid = "is of grids";
+    static const Description it =
+        Describe<P>("place", "Where molecules start, and how they stand.")
+            .word("on", &P::kind, {"vertices", "surface", "volume", "grid", "list"},
+                  {"",
+                   "Random vertices of a model, each once before any twice; random points of its surface, "
+                   "evenly by area; random points of a box; a grid, x fastest, then y, then z; or a list."})
+            .needed()
+            .byHand<const SceneReading>("model", R"({"type": "string"})",
+                                        {"the name of a model", "The model."}, readModel)
+            .needed()
+            .only("on", {"vertices", "surface"}, model)
+            .key("select", &P::select, {"", "Which part of the model; all of it without."})
+            .only("on", {"vertices", "surface"}, model)
+            .box("box", &P::box, {"m", "The box, which may be flat."}, true)
+            .needed()
+            .only("on", {"volume"}, "is of volumes")
+            .key("origin", &P::origin, {"m", "The first place of the grid."})
+            .only("on", {"grid"}, grid)
+            .key("spacing", &P::spacing, {"m", "The distances between places along x, y and z."})
+            .needed()
+            .only("on", {"grid"}, grid)
+            .key("cells", &P::cells,
+                 {"", "How many there are along x, y and z.", Range::between(1, maxGroupCount)})
+            .needed()
+            .only("on", {"grid"}, grid)
+            .key("items", &P::items, {"", "One molecule an item; `align` does not change how they stand."})
+            .needed()
+            .only("on", {"list"}, "is of lists")
+            .word(
+                "align", &P::align, {"none", "up", "normal"},
+                {"", "The axis that the molecule's +Y follows: its own, straight up, or the model's normal."})
+            .usually("`\"normal\"` on vertices and surfaces, else `\"none\"`")
+            .word("turn", &P::turn, {"none", "yaw", "any"},
+                  {"",
+                   "A random turn about that axis, or any rotation at all, which leaves `tilt` and `droop` "
+                   "without effect."})
+            .usually("`\"none\"` for lists, else `\"yaw\"`")
+            .key("droop", &P::droop,
+                 {"", "The share of the way to straight down that the axis is bent.", Range::between(0, 1)})
+            .key("tilt", &P::tilt,
+                 {"rad", "The most by which it is then tipped in a random direction.",
+                  Range::between(0, 3.141592653589794)})
+            .span("scale", &P::scale, {"", "The size, random between the two.", aboveZero()})
+            .key("offset", &P::offset, {"m", "How far it is moved along the axis, before that is bent."})
+            .derive(derive)
+            .rule(rule);
+    return it;
+}
+
+const Description& describe(const Placement*) {
+    return describePlacement();
+}
 
 namespace {
 
@@ -72,9 +153,7 @@ struct Host {
 class Hosts {
   public:
     Hosts(const Scene& scene, size_t group) : group_(scene.groups[group]), place_(group_.place) {
-        const bool onModel =
-            place_.kind == Placement::Kind::vertices || place_.kind == Placement::Kind::surface;
-        if (!onModel) return;
+        if (!place_.onModel()) return;
         model_ = &scene.models.at(size_t(place_.model));
         selected_ = select(model_->mesh, place_.select);
         if (place_.kind == Placement::Kind::vertices)

@@ -12,6 +12,8 @@
 
 namespace shoal {
 
+class Description;
+
 // Which vertices or triangles of a model may carry molecules. All conditions that are given must hold.
 struct Selection {
     // The thinnest share, in (0, 1], of the vertices that meet all other conditions: the smallest branches.
@@ -50,6 +52,12 @@ struct Placement {
     double droop = 0;        // in [0, 1]: the axis is bent this share of the way to straight down
     glm::dvec2 scale{1, 1};  // random between the two
     double offset = 0;       // m along the axis, before it is bent
+
+    bool onModel() const { return kind == Kind::vertices || kind == Kind::surface; }
 };
+
+const Description& describe(const Selection*);
+const Description& describe(const Placement::Item*);
+const Description& describe(const Placement*);
 
 }  // namespace shoal

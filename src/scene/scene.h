@@ -27,6 +27,8 @@
 
 namespace shoal {
 
+class Description;
+
 // ---- Models
 
 struct Model {
@@ -66,6 +68,9 @@ struct GroupContact {
     bool self = false;       // also between spheres of one molecule that are apart in its rest shape
     Location location;
 };
+
+// A group holds at most this many molecules: single precision counts them one by one no further.
+constexpr int maxGroupCount = 1 << 24;
 
 struct Group {
     std::string name;
@@ -173,6 +178,18 @@ struct Scene {
     std::optional<Water> water;     // nothing: all is in the air
     std::vector<Warning> warnings;  // found while reading
 };
+
+const Description& describe(const Model*);
+const Description& describe(const Drag*);
+const Description& describe(const Release*);
+const Description& describe(const GroupContact*);
+const Description& describe(const Group*);
+const Description& describe(const SolverSettings*);
+const Description& describe(const ContactSettings*);
+const Description& describe(const Camera*);
+const Description& describe(const Light*);
+const Description& describe(const Sky*);
+const Description& describe(const Scene*);
 
 // Where one molecule of a group starts.
 struct Instance {

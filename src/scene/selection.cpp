@@ -4,9 +4,37 @@
 #include <cmath>
 #include <functional>
 
+#include "core/description.h"
 #include "geometry/thickness.h"
 
 namespace shoal {
+
+const Description& describe(const Selection*) {
+    using S = Selection;
+    static const auto rule = [](const S& select, const Where& where) {
+        if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
+            throw Error(where.at("maxHeight"), concat("expected maxHeight of at least minHeight (",
+                                                      *select.minHeight, "), found ", *select.maxHeight));
+    };
+    static const Description it =
+        Describe<S>("select", "Which part of a model; all that is given must hold.")
+            .key("object", &S::object,
+                 {"the name of an object", "The object of the model's file that it belongs to."})
+            .notEmpty()
+            .color("color", &S::color,
+                   {"", "The vertex colour; OBJ and PLY files have sRGB, which is made linear first."})
+            .key("colorTolerance", &S::colorTolerance,
+                 {"", "How far each channel of the colour may be off.", Range::atLeast(0)})
+            .only("color", {}, "needs a color")
+            .key("minHeight", &S::minHeight, {"m", "The lowest y."})
+            .key("maxHeight", &S::maxHeight, {"m", "The highest y."})
+            .key("maxThickness", &S::maxThickness, {"m", "The largest local thickness.", aboveZero()})
+            .key("thinnest", &S::thinnest,
+                 {"", "The thinnest share of the vertices that meet all else: the smallest branches.",
+                  Range{0, 1, true}})
+            .rule(rule);
+    return it;
+}
 
 namespace {
 

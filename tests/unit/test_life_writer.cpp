@@ -7,7 +7,6 @@
 
 #include "core/file.h"
 #include "core/random.h"
-#include "scene/json/life_writer.h"
 #include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"

@@ -1,7 +1,8 @@
 // Particle types: read, refused, and written back.
+#include "core/description.h"
 #include "core/image.h"
-#include "scene/json/particle_writer.h"
 #include "scene/json/scene_file.h"
+#include "scene/scene.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"
@@ -198,7 +199,12 @@ TEST_CASE("what changes with age is told where particles live for ever", "[parti
 
 TEST_CASE("a particle type that was written reads back the same", "[particle]") {
     const Particles particles;
-    CHECK(writeJson(writeParticle(ParticleType(), particles.file())) == "{}\n");
+    Scene scene;
+    scene.file = particles.file();
+    const auto write = [&scene](const ParticleType& type) {
+        return writeJson(describe(&type).write(type, &scene));
+    };
+    CHECK(write(ParticleType()) == "{}\n");
     for (
         const std::string text :
         {flames, "{}", R"({"shape": "points", "pixels": 5.5, "blend": "additive"})",
@@ -207,9 +213,9 @@ TEST_CASE("a particle type that was written reads back the same", "[particle]") 
          R"({"colors": [{"age": 0.5, "color": [1, 1, 0.1]}], "image": {"file": "puffs.png"}, "sort": "none"})",
          R"({"image": {"file": "puffs.png", "columns": 4, "rows": 1, "tile": 0}})",
          R"({"image": {"file": "puffs.png", "columns": 4, "tiles": [0, 1], "flipBook": true}})"}) {
-        const std::string written = writeJson(writeParticle(particles.type(text), particles.file()));
+        const std::string written = write(particles.type(text));
         INFO(written);
-        const std::string again = writeJson(writeParticle(particles.type(written), particles.file()));
+        const std::string again = write(particles.type(written));
         CHECK(again == written);
         // Each key that the text gives is there again: nothing got lost on the way.
         const JsonValue asked = parseJson(text, "asked"), got = parseJson(written, "got");

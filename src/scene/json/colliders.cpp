@@ -51,7 +51,7 @@ HeightFieldCollider readModelHeights(JsonReader& r, const std::vector<Model>& mo
 }
 
 // All keys of a height field.
-void readHeightField(JsonReader& r, HeightFieldCollider& heights, ColliderReading* reading) {
+void readHeightField(JsonReader& r, HeightFieldCollider& heights, SceneReading* reading) {
     if (r.has("image") == r.has("model"))
         throw Error(r.here(), "expected either \"image\" or \"model\" for a height field");
     heights = r.has("image") ? readImageHeights(r) : readModelHeights(r, reading->models, reading->warnings);
@@ -61,11 +61,12 @@ void readHeightField(JsonReader& r, HeightFieldCollider& heights, ColliderReadin
 }
 
 // All keys of a distance field.
-void readDistanceField(JsonReader& r, DistanceFieldCollider& out, ColliderReading* reading) {
+void readDistanceField(JsonReader& r, DistanceFieldCollider& out, SceneReading* reading) {
     const Model& model = reading->models[size_t(needModel(r, "model", reading->models))];
     out.model = model.name;
     FieldRequest& request = out.request;
-    request.thickness = reading->thickness;
+    request.thickness = Collider().thickness;
+    r.get("thickness", request.thickness, Range::atLeast(0));
     if (r.has("resolution") && r.has("error"))
         throw Error(r.at("error"), "expected either \"resolution\" or \"error\", found both");
     int resolution = 0;
@@ -115,7 +116,7 @@ const Description& describe(const HeightFieldCollider*) {
     static const char* const pair = R"({"$ref": "#/$defs/vector2"})";
     static const Description it =
         Describe<HeightFieldCollider>("heightField", "Heights over a rectangle in x and z, solid below.")
-            .byHand<ColliderReading>(
+            .byHand<SceneReading>(
                 "image", R"({"type": "string", "minLength": 1})",
                 {"the name of a grey PNG",
                  "The heights, of 8 or 16 bits; the left column is the lowest x, the top row the lowest z."},
@@ -147,8 +148,8 @@ const Description& describe(const DistanceFieldCollider*) {
     static const Description it =
         Describe<DistanceFieldCollider>("distanceField",
                                         "The surface of a model, by signed distances on a grid.")
-            .byHand<ColliderReading>("model", R"({"type": "string", "minLength": 1})",
-                                     {"the name of a model", "The model."}, readDistanceField)
+            .byHand<SceneReading>("model", R"({"type": "string", "minLength": 1})",
+                                  {"the name of a model", "The model."}, readDistanceField)
             .needed()
             .told(
                 "resolution", R"({"type": "integer", "minimum": 4, "maximum": 2048})",
@@ -166,8 +167,8 @@ const Description& describe(const DistanceFieldCollider*) {
 namespace {
 
 // A name of "between", which some collider or group must have.
-std::string needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return name;
+void needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) return;
     throw Error(r.at("between"),
                 "no collider and no group has the surface \"" + name + "\"" +
                     (known.empty() ? " (none names a \"surface\")" : suggestion(name, known)));
@@ -187,69 +188,24 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
     return names;
 }
 
-void checkRule(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
+void checkNew(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
     for (const SurfaceRule& earlier : before)
         if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
             throw Error(where.at("between"),
                         concat("\"", rule.a, "\" and \"", rule.b, "\" already have an entry"));
 }
 
-// What a rule has to do with the other surfaces and rules.
-void checkSurfaces(const SurfaceRule& rule, std::span<const SurfaceRule> before,
-                   const std::vector<std::string>& known, const Where& where) {
-    needSurface(where, rule.a, known);
-    needSurface(where, rule.b, known);
-    checkRule(rule, before, where);
-}
-
 }  // namespace
 
-void checkColliders(const Scene& scene) {
-    const Where whole;
-    std::vector<std::string> names;
-    for (size_t i = 0; i < scene.colliders.size(); ++i) {
-        const Collider& collider = scene.colliders[i];
-        const Where where = whole.in("colliders", i);
-        takeName(where, names, collider.name);
-        describe(&collider).check(collider, where, largestNumber);
-    }
+void checkSurfaces(const Scene& scene, const Where& whole) {
     const std::vector<std::string> known = surfaceNames(scene.colliders, scene.groups);
     for (size_t i = 0; i < scene.surfacePairs.size(); ++i) {
         const SurfaceRule& rule = scene.surfacePairs[i];
         const Where where = whole.in("surfacePairs", i);
-        describe(&rule).check(rule, where, largestNumber);
-        checkSurfaces(rule, std::span(scene.surfacePairs).first(i), known, where);
+        needSurface(where, rule.a, known);
+        needSurface(where, rule.b, known);
+        checkNew(rule, std::span(scene.surfacePairs).first(i), where);
     }
-}
-
-std::vector<Collider> readColliders(JsonReader& scene, const std::vector<Model>& models,
-                                    const FieldBaking& baking, std::vector<Warning>& warnings) {
-    std::vector<Collider> colliders;
-    std::vector<std::string> names;
-    for (JsonReader& r : scene.objects("colliders")) {
-        Collider collider;
-        ColliderReading reading{models, baking, warnings, collider.thickness};
-        r.get("thickness", reading.thickness, Range::atLeast(0));  // before a field that must reach beyond it
-        describe(&collider).read(r, collider, &reading);
-        takeName(r, names, collider.name);
-        r.finish();
-        colliders.push_back(std::move(collider));
-    }
-    return colliders;
-}
-
-std::vector<SurfaceRule> readSurfacePairs(JsonReader& scene, const std::vector<Collider>& colliders,
-                                          const std::vector<Group>& groups) {
-    const std::vector<std::string> known = surfaceNames(colliders, groups);
-    std::vector<SurfaceRule> rules;
-    for (JsonReader& r : scene.objects("surfacePairs")) {
-        SurfaceRule rule;
-        describe(&rule).read(r, rule);
-        checkSurfaces(rule, rules, known, r);
-        r.finish();
-        rules.push_back(std::move(rule));
-    }
-    return rules;
 }
 
 }  // namespace shoal

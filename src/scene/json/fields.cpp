@@ -117,30 +117,4 @@ const Description& describe(const GridField*) {
     return it;
 }
 
-std::vector<Field> readFields(JsonReader& scene) {
-    std::vector<Field> fields;
-    std::vector<std::string> names;
-    for (JsonReader& reader : scene.objects("fields")) {
-        Field field;
-        describe(&field).read(reader, field);
-        takeName(reader, names, field.name);
-        reader.finish();
-        if (auto* waves = std::get_if<WavesField>(&field.shape))
-            for (WaveTrain& train : waves->trains)
-                train.direction.y = 0;
-        fields.push_back(std::move(field));
-    }
-    return fields;
-}
-
-void checkFields(const std::vector<Field>& fields) {
-    const Where whole;
-    std::vector<std::string> names;
-    for (size_t i = 0; i < fields.size(); ++i) {
-        const Where where = whole.in("fields", i);
-        describe(&fields[i]).check(fields[i], where, largestNumber);
-        takeName(where, names, fields[i].name);
-    }
-}
-
 }  // namespace shoal

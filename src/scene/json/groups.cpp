@@ -1,178 +1,17 @@
-// "groups": which molecules, how many, and where they sit.
+// "groups": which molecules or particles, how many, where they sit, and what happens to them.
 #include <algorithm>
-#include <cmath>
 
+#include "core/description.h"
 #include "molecule/molecule_file.h"
 #include "molecule/rules.h"
 #include "scene/json/reader.h"
-#include "scene/json/scene_file.h"
+#include "scene/selection.h"
 
 namespace shoal {
 
-template <typename V>
-static void members(V&& v, Either<Placement::Item> auto& item) {
-    v.number("position", item.position);
-    v.rotation("rotation", item.rotation);
-    v.number("scale", item.scale, aboveZero());
-}
-
-// But for those of where it is, which differ.
-template <typename V>
-static void members(V&& v, Either<Placement> auto& place) {
-    v.word("turn", place.turn, {"none", "yaw", "any"});
-    v.number("tilt", place.tilt, Range::between(0, 3.141592653589794));
-    v.number("droop", place.droop, Range::between(0, 1));
-    v.span("scale", place.scale, aboveZero());
-    v.number("offset", place.offset);
-}
-
-template <typename V>
-static void members(V&& v, Either<Selection> auto& select) {
-    v.number("thinnest", select.thinnest, Range{0, 1, true});
-    v.number("maxThickness", select.maxThickness, aboveZero());
-    v.color("color", select.color);
-    v.number("colorTolerance", select.colorTolerance, Range::atLeast(0));
-    v.number("minHeight", select.minHeight);
-    v.number("maxHeight", select.maxHeight);
-}
-
-template <typename V>
-static void members(V&& v, Either<Drag> auto& drag) {
-    v.number("normal", drag.normal, Range::atLeast(0));
-    v.number("tangent", drag.tangent, Range::atLeast(0));
-}
-
-template <typename V>
-static void members(V&& v, Either<Release> auto& release) {
-    v.number("force", release.force, aboveZero());
-    v.number("rate", release.rate, aboveZero());
-    v.number("after", release.after, Range::atLeast(0));
-}
-
-template <typename V>
-static void members(V&& v, Either<GroupContact> auto& contact) {
-    v.number("radius", contact.radius, aboveZero());
-    v.flag("triangles", contact.triangles);
-    v.flag("self", contact.self);
-}
-
-// The numbers of the group itself.
-template <typename V>
-static void members(V&& v, Either<Group> auto& group) {
-    v.number("stiffness", group.stiffness, Range::atLeast(0));
-    v.number("damping", group.damping, Range::atLeast(0));
-    v.number("velocity", group.velocity);
-    v.number("spin", group.spin);
-    v.number("phaseSpread", group.phaseSpread, Range::atLeast(0));
-    v.flag("collide", group.collide);
-    v.number("restitution", group.restitution, Range::between(0, 1));
-    v.number("friction", group.friction, Range::atLeast(0));
-    v.color("color", group.color);
-    v.color("secondColor", group.secondColor);
-}
-
 namespace {
 
-constexpr const char* noGroups = "expected at least one group, found none";
-const std::vector<std::string> placeWords = {"vertices", "surface", "volume", "grid", "list"};
-const std::vector<std::string> alignWords = {"none", "up", "normal"};
-const Range cellCounts = Range::between(1, maxGroupCount);
-
-bool onModel(const Placement& place) {
-    return place.kind == Placement::Kind::vertices || place.kind == Placement::Kind::surface;
-}
-
-void checkAlign(const Placement& place, const Where& where) {
-    if (place.align == Placement::Align::normal && !onModel(place))
-        throw Error(where.at("align"),
-                    "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
-}
-
-void checkItems(const Placement& place, const Where& where) {
-    if (place.items.empty()) throw Error(where.at("items"), "expected at least one item");
-}
-
-void checkRelease(const Release& release, const Where& where) {
-    if (!release.force && !release.rate)
-        throw Error(where.here(), "expected a \"force\" or a \"rate\" at which pins let go");
-}
-
-void checkSurfaced(const GroupContact& contact, const Molecule& molecule, const Where& where) {
-    if (contact.triangles && molecule.triangles.empty())
-        throw Error(where.at("triangles"), "the molecule has no triangles");
-}
-
-void checkSelection(const Selection& select, const Model& model, const Where& where) {
-    if (!select.object.empty()) {
-        std::vector<std::string> names;
-        for (const Mesh::Object& object : model.mesh.objects)
-            names.push_back(object.name);
-        if (std::find(names.begin(), names.end(), select.object) == names.end())
-            throw Error(where.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
-                                                "\"" + suggestion(select.object, names));
-    }
-    if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
-        throw Error(where.at("maxHeight"), concat("expected maxHeight of at least minHeight (",
-                                                  *select.minHeight, "), found ", *select.maxHeight));
-}
-
-void readGrid(JsonReader& r, Placement& place) {
-    r.get("origin", place.origin);
-    r.need("spacing", place.spacing);
-    std::vector<int> cells;
-    r.need("cells", cells, cellCounts);
-    if (cells.size() != 3)
-        throw Error(r.at("cells"), concat("expected three whole numbers, found ", cells.size()));
-    place.cells = {cells[0], cells[1], cells[2]};
-}
-
-void readItems(JsonReader& r, Placement& place) {
-    r.require("items");
-    for (JsonReader& entry : r.objects("items")) {
-        place.items.push_back(readMembers<Placement::Item>(entry));
-        entry.finish();
-    }
-    checkItems(place, r);
-}
-
-void readHost(JsonReader& r, Placement& place, const std::vector<Model>& models) {
-    switch (place.kind) {
-    case Placement::Kind::vertices:
-    case Placement::Kind::surface:
-        place.model = needModel(r, "model", models);
-        if (auto select = r.object("select"))
-            place.select = readSelection(*select, models[size_t(place.model)]);
-        place.align = Placement::Align::normal;
-        break;
-    case Placement::Kind::volume:
-        r.require("box");
-        getBox(r, "box", place.box, true);
-        break;
-    case Placement::Kind::grid:
-        readGrid(r, place);
-        break;
-    case Placement::Kind::list:
-        readItems(r, place);
-        place.turn = Placement::Turn::none;  // the items say how they stand
-        break;
-    }
-}
-
-Placement readPlacement(JsonReader& r, const std::vector<Model>& models) {
-    Placement place;
-    int kind = 0;
-    r.require("on");
-    r.choose("on", placeWords, kind);
-    place.kind = static_cast<Placement::Kind>(kind);
-    readHost(r, place, models);
-    ReadScene(r).word("align", place.align, alignWords);
-    checkAlign(place, r);
-    members(ReadScene(r), place);
-    r.finish();
-    return place;
-}
-
-// How many molecules the place itself makes: 0 where only "count" can say.
+// How many molecules a place itself makes: 0 where only "count" can say.
 double placesOf(const Placement& place) {
     if (place.kind == Placement::Kind::list) return static_cast<double>(place.items.size());
     if (place.kind != Placement::Kind::grid) return 0;
@@ -182,205 +21,331 @@ double placesOf(const Placement& place) {
 
 void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
-    if (count != std::floor(count) || count < 1)
-        throw Error(where.at("count"), concat("expected a whole count of at least 1, found ", count));
     if (places > 0 && count > places)
         throw Error(where.at("count"),
                     concat("expected a count of at most ", places, ", the number of places, found ", count));
-    if (count > maxGroupCount)
-        throw Error(where.at("count"), concat("expected a count of at most ", maxGroupCount,
-                                              " (2^24: single precision counts no further), found ",
-                                              static_cast<long long>(std::min(count, 1e18))));
 }
 
-int readCount(JsonReader& r, const Placement& place) {
-    double count = placesOf(place);
-    if (count == 0) r.require("count");
-    r.get("count", count, Range::any());
-    checkCount(count, place, r);
-    return static_cast<int>(count);
+void deriveCount(Group& group, const Where& where) {
+    if (!where.given("place")) {
+        // what is born needs nothing to start with
+        if (!where.given("emitters")) where.require("place");
+        if (where.given("count"))
+            throw Error(where.at("count"), "expected a \"place\" for those at the start");
+        return;
+    }
+    if (where.given("count")) return;
+    const double places = placesOf(group.place);
+    if (places == 0) where.require("count");
+    if (places > maxGroupCount)
+        throw Error(where.in("place").at("cells"),
+                    concat("expected at most ", maxGroupCount, " places, found ", places));
+    group.count = int(places);
 }
 
-void readDrag(JsonReader& r, Drag& drag) {
+// ---- Drag
+
+void readDrag(JsonReader& r, Group& group, void*) {
     const JsonValue* value = r.raw("drag");
     if (!value) return;
     if (value->kind == JsonValue::Kind::object) {
         auto parts = r.object("drag");
-        drag = readMembers<Drag>(*parts, {"normal", "tangent"});
-        parts->finish();
+        describe(&group.drag).read(*parts, group.drag);
+        return parts->finish();
+    }
+    r.get("drag", group.drag.normal, Range::atLeast(0));
+    group.drag.tangent = group.drag.normal;
+}
+
+constexpr const char* dragSchema = R"({"anyOf": [
+    {"type": "number", "minimum": 0},
+    {"type": "object", "additionalProperties": false, "required": ["normal", "tangent"], "properties": {
+        "comment": {"$ref": "#/$defs/comment"},
+        "normal": {"type": "number", "minimum": 0}, "tangent": {"type": "number", "minimum": 0}}}],
+    "default": 0})";
+
+// ---- Life
+
+constexpr const char* newbornKeys[] = {"scale", "turn", "spin", "grow", "shrink"};
+
+JsonValue writeLife(const Group& group, const void* context) {
+    if (!group.life) return {};
+    Lifecycle life = *group.life;
+    const Lifecycle usual;
+    if (life.emitters.empty()) life.allocator = usual.allocator;
+    JsonValue out = describe(&life).write(life, context);
+    std::erase_if(out.members, [&](const JsonMember& member) {
+        if (member.first == "capacity") return usualCapacity(group.count, life) == life.capacity;
+        return group.particle && std::find(std::begin(newbornKeys), std::end(newbornKeys), member.first) !=
+                                     std::end(newbornKeys);
+    });
+    // without either key there would be no life
+    const bool emits = !life.emitters.empty() || group.count == 0;
+    return out.members.empty() && emits ? JsonValue() : out;
+}
+
+JsonValue writeEmitters(const Group& group, const void* context) {
+    if (!group.life) return {};
+    const std::vector<Emitter>& emitters = group.life->emitters;
+    if (emitters.empty() && group.count > 0) return {};  // else the reader asks for a "place"
+    JsonValue out = JsonValue::makeArray();
+    for (const Emitter& emitter : emitters)
+        out.items.push_back(describe(&emitter).write(emitter, context));
+    return out;
+}
+
+std::vector<Emitter>& emittersOf(Group& group) {
+    if (!group.life) group.life.emplace();
+    return group.life->emitters;
+}
+
+const std::vector<Emitter>* lookAtEmitters(const Group& group) {
+    return group.life ? &group.life->emitters : nullptr;
+}
+
+void deriveCapacity(const Group& group, Lifecycle& life, const Where& where) {
+    if (const std::optional<int> usual = usualCapacity(group.count, life)) {
+        life.capacity = *usual;
         return;
     }
-    r.get("drag", drag.normal, Range::atLeast(0));
-    drag.tangent = drag.normal;
+    const bool tooMany = life.life.y < longestLife;
+    throw Error(where.here(),
+                concat("expected a \"capacity\" in \"life\": ",
+                       emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
+                       : tooMany             ? concat("rate times span is ", mostAlive(group.count, life),
+                                                      ", more than the ", maxGroupCount, " that a group may have")
+                                             : "without a \"span\" nothing says how many may be alive"));
 }
 
-void readRelease(JsonReader& r, Group& group, std::vector<Warning>& warnings) {
-    r.get("held", group.held);
-    auto release = r.object("release");
-    if (!release) return;
-    const Release out = readMembers<Release>(*release);
-    checkRelease(out, *release);
-    release->finish();
-    if (!group.held)
-        throw Error(r.at("release"),
-                    "nothing to release: \"held\" is false, so pins are free from the start");
-    if (!group.molecule.hasPins())
-        warnings.push_back({r.at("release"), "nothing to release: the molecule has no pinned vertex"});
-    group.release = out;
+void checkLife(const Group& group, const Where& where) {
+    const Lifecycle& life = *group.life;
+    const Where own = where.in("life");
+    for (const char* key : newbornKeys)
+        if (group.particle && own.given(key))
+            throw Error(own.at(key),
+                        concat("\"", key, "\" is of newborn molecules, and this group has a particle"));
+    if (own.given("allocator") && life.emitters.empty())
+        throw Error(own.at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
+    if (life.capacity < group.count)
+        throw Error(own.at("capacity"), concat("expected a capacity of at least the count at the start, ",
+                                               group.count, ", found ", life.capacity));
+    for (size_t i = 0; i < life.emitters.size(); ++i)
+        if (life.emitters[i].from == Emitter::From::death && life.allocator != Allocator::gpu)
+            throw Error(where.in("emitters", i).here(),
+                        concat("only the allocator \"gpu\" can emit from deaths: how many there are is known "
+                               "there, and \"",
+                               name(life.allocator), "\" is asked for"));
 }
 
-void readContact(JsonReader& r, Group& group) {
-    auto contact = r.object("contact");
-    if (!contact) return;
-    GroupContact out = readMembers<GroupContact>(*contact, {"radius"});
-    out.location = contact->here();
-    checkSurfaced(out, group.molecule, *contact);
-    contact->finish();
-    group.contact = out;
-}
+// ---- The whole
 
-// "molecule" or "particle": what the group is made of.
-void readKind(JsonReader& r, Group& group) {
-    if (auto particle = r.object("particle")) {
+void derive(Group& group, const Where& where) {
+    if (!group.particle && !where.given("molecule"))
+        throw Error(where.here(), "missing key: give a \"molecule\" or a \"particle\"");
+    if (group.particle)
         for (const char* key : {"molecule", "color", "secondColor"})
-            if (r.has(key))
-                throw Error(r.at(key),
+            if (where.given(key))
+                throw Error(where.at(key),
                             concat("\"", key, "\" is of molecules, and this group has a particle"));
-        group.particle = readParticleType(*particle);
-        group.molecule = moleculeOf(*group.particle);
-        return;
-    }
-    if (!r.has("molecule")) throw Error(r.here(), "missing key: give a \"molecule\" or a \"particle\"");
-    group.molecule = readMolecule(needFile(r, "molecule"));
+    if (group.particle) group.molecule = moleculeOf(*group.particle);
+    if (!where.given("name")) group.name = group.molecule.name;
+    deriveCount(group, where);
+    deriveLife(group, where);
 }
 
-Group readGroup(JsonReader& r, const std::vector<Model>& models, std::vector<Warning>& warnings) {
-    Group group;
-    group.location = r.here();
-    readKind(r, group);
-    group.name = group.molecule.name;
-    r.get("name", group.name);
-
-    // what is born needs nothing to start with
-    if (!r.has("emitters")) r.require("place");
-    if (auto place = r.object("place")) {
-        group.place = readPlacement(*place, models);
-        group.count = readCount(r, group.place);
-    } else if (r.has("count")) {
-        throw Error(r.at("count"), "expected a \"place\" for those at the start");
+void checkGroup(const Group& group, const Where& where) {
+    Molecule molecule = group.molecule;
+    if (group.particle) molecule.material = Material();  // follows from the type, whose colours may glow
+    checkMolecule(molecule, where.in("molecule"));
+    if (group.count != 0 || !group.life) {
+        needWithin(where.at("count"), group.count, Range::between(1, maxGroupCount));
+        checkCount(group.count, group.place, where);
     }
-    readLife(r, group, models);
-    group.school = readDescribed<School>(r, "school");
+    if (group.life) checkLife(group, where);
+    describe(&group.drag).check(group.drag, where.in("drag"), largestNumber);
+    if (group.contact && group.contact->triangles && group.molecule.triangles.empty())
+        throw Error(where.in("contact").at("triangles"), "the molecule has no triangles");
+    if (group.colorBy)
+        for (const char* key : {"color", "secondColor"})
+            if (where.given(key))
+                throw Error(where.at(key), concat("\"", key, "\" has no effect beside \"colorBy\""));
+}
 
-    readDrag(r, group.drag);
-    readRelease(r, group, warnings);
-    members(ReadScene(r), group);
-    readContact(r, group);
-    if (r.get("surface", group.surface) && group.surface.empty())
-        throw Error(r.at("surface"), "expected the name of a surface, found an empty string");
-    group.colorBy = readColorScale(r);
-    const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
-    if (group.particle && forEver)
-        for (Warning& warning : agelessWarnings(*group.particle, r.at("particle")))
-            warnings.push_back(std::move(warning));
-    r.finish();
-    return group;
+const Description& describeGroup() {
+    using G = Group;
+    static const auto readMoleculeOf = [](JsonReader& r, G& group, void*) {
+        if (r.has("molecule")) group.molecule = readMolecule(needFile(r, "molecule"));
+    };
+    static const Description it =
+        Describe<G>("group", "Molecules or particles of one kind.")
+            .location(&G::location)
+            .byHand("molecule", R"({"type": "string", "minLength": 1})",
+                    {"the name of a file", "The molecule."}, readMoleculeOf)
+            .usually("required, or `particle`")
+            .key("particle", &G::particle, {"", "A type of point particle instead of a molecule."})
+            .key("name", &G::name, {"", "Its name in messages and in the panel; no two have the same."})
+            .usually("the molecule's name")
+            .key("place", &G::place, {"", "Where those at the start are."})
+            .usually("required without `emitters`")
+            .key("count", &G::count,
+                 {"", "How many there are at the start.", Range::between(1, maxGroupCount)})
+            .unlessZero()
+            .usually("all places of a grid or list, else required")
+            .key("life", &G::life, {"", "Birth and death."})
+            .writes(writeLife)
+            .list<emittersOf, lookAtEmitters>("emitters",
+                                              "What molecules or particles of the group are born from.")
+            .writes(writeEmitters)
+            .key("school", &G::school, {"", "How they steer by one another."})
+            .byHand("drag", dragSchema,
+                    {"number of at least 0, 1/s; or an object",
+                     "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
+                    readDrag)
+            .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
+            .key("release", &G::release, {"", "When pins let go."})
+            .only("held", {"true"},
+                  "has nothing to release: \"held\" is false, so pins are free from the start")
+            .key("stiffness", &G::stiffness,
+                 {"", "What multiplies the stiffness of every spring.", Range::atLeast(0)})
+            .key("damping", &G::damping,
+                 {"", "What multiplies the damping of every spring.", Range::atLeast(0)})
+            .key("velocity", &G::velocity, {"m/s", "The velocity at the start."})
+            .key("spin", &G::spin, {"rad/s", "The turning at the start, about the molecule's placed origin."})
+            .key("phaseSpread", &G::phaseSpread,
+                 {"rad", "Each instance's muscles run ahead by a random phase of up to this.",
+                  Range::atLeast(0)})
+            .key("collide", &G::collide, {"", "Whether they meet colliders."})
+            .key("contact", &G::contact, {"", "Contact with other molecules; without it they pass through."})
+            .key("surface", &G::surface,
+                 {"the name of a surface", "What they are made of, for `surfacePairs`."})
+            .notEmpty()
+            .key("restitution", &G::restitution,
+                 {"", "The restitution against other groups: the larger of the two holds.",
+                  Range::between(0, 1)})
+            .key("friction", &G::friction,
+                 {"", "The friction against other groups: the geometric mean of the two holds.",
+                  Range::atLeast(0)})
+            .color("color", &G::color,
+                   {"", "The colour instead of the molecule's; alone it colours all instances alike."})
+            .color("secondColor", &G::secondColor,
+                   {"", "Instances vary between the colour and this one, instead of the molecule's."})
+            .key("colorBy", &G::colorBy, {"", "Colours by speed, in place of those."})
+            .derive(derive)
+            .rule(checkGroup, R"({"anyOf": [{"required": ["place"]}, {"required": ["emitters"]}],
+                "oneOf": [{"required": ["molecule"]},
+                          {"required": ["particle"],
+                           "not": {"anyOf": [{"required": ["color"]}, {"required": ["secondColor"]}]}}],
+                "if": {"required": ["place"],
+                       "properties": {"place": {"properties": {"on": {"enum": ["vertices", "surface", "volume"]}}}}},
+                "then": {"required": ["count"]}})");
+    return it;
+}
+
+// ---- What only the whole scene can tell
+
+void checkModelIndex(int model, const std::vector<Model>& models, const Location& where) {
+    if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
+    if (model < 0 || size_t(model) >= models.size())
+        throw Error(where,
+                    concat("expected the number of a model, 0 to ", models.size() - 1, ", found ", model));
+}
+
+void checkObject(const Selection& select, const Model& model, const Where& where) {
+    if (select.object.empty()) return;
+    std::vector<std::string> names;
+    for (const Mesh::Object& object : model.mesh.objects)
+        names.push_back(object.name);
+    if (std::find(names.begin(), names.end(), select.object) == names.end())
+        throw Error(where.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
+                                            "\"" + suggestion(select.object, names));
+}
+
+void checkSurface(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
+    checkModelIndex(emitter.model, models, where.at("model"));
+    const Model& model = models[size_t(emitter.model)];
+    checkObject(emitter.select, model, where.in("select"));
+    if (!(selectedArea(model.mesh, emitter.select) > 0))
+        throw Error(where.here(),
+                    concat("nothing of model \"", model.name,
+                           "\" matches the selection, expected triangles with an area to emit from"));
+}
+
+void checkModelsOf(const Group& group, const std::vector<Model>& models, const Where& where) {
+    if ((group.count != 0 || !group.life) && group.place.onModel()) {
+        const Where place = where.in("place");
+        checkModelIndex(group.place.model, models, place.at("model"));
+        checkObject(group.place.select, models[size_t(group.place.model)], place.in("select"));
+    }
+    if (!group.life) return;
+    for (size_t i = 0; i < group.life->emitters.size(); ++i)
+        if (group.life->emitters[i].from == Emitter::From::surface)
+            checkSurface(group.life->emitters[i], models, where.in("emitters", i));
+}
+
+void checkDeaths(const std::vector<Group>& groups) {
+    std::vector<std::string> names;
+    for (const Group& group : groups)
+        names.push_back(group.name);
+    const auto find = [&](const Emitter& emitter) {
+        const auto found = std::find(names.begin(), names.end(), emitter.group);
+        if (found == names.end())
+            throw Error(emitter.location,
+                        "no group is named \"" + emitter.group + "\"" + suggestion(emitter.group, names));
+        return size_t(found - names.begin());
+    };
+    // Every way along the deaths must end: longer than there are groups, and it is a circle.
+    const auto follow = [&](const auto& self, size_t g, size_t depth) -> void {
+        if (!groups[g].life) return;
+        for (const Emitter& emitter : groups[g].life->emitters) {
+            if (emitter.from != Emitter::From::death) continue;
+            const size_t source = find(emitter);
+            if (!groups[source].life)
+                throw Error(emitter.location,
+                            "none of \"" + emitter.group + "\" ever dies: it has no \"life\"");
+            if (depth >= groups.size() || source == g)
+                throw Error(emitter.location, "groups that are born from one another's deaths in a circle");
+            self(self, source, depth + 1);
+        }
+    };
+    for (size_t g = 0; g < groups.size(); ++g)
+        follow(follow, g, 0);
 }
 
 }  // namespace
 
-Selection readSelection(JsonReader& r, const Model& model) {
-    auto select = readMembers<Selection>(r);
-    if (r.get("object", select.object) && select.object.empty())
-        throw Error(r.at("object"), "expected the name of an object, found an empty string");
-    if (r.has("colorTolerance") && !select.color)
-        throw Error(r.at("colorTolerance"), "colorTolerance needs a color");
-    checkSelection(select, model, r);
-    r.finish();
-    return select;
+const Description& describe(const Group*) {
+    return describeGroup();
 }
 
-static void checkPlace(const Placement& place, const std::vector<Model>& models, const Where& where) {
-    const CheckScene check(where);
-    check.word("on", place.kind, placeWords);
-    check.word("align", place.align, alignWords);
-    checkAlign(place, where);
-    members(check, place);
-    if (onModel(place)) {
-        checkModel(place.model, models, where.at("model"));
-        const Where select = where.in("select");
-        members(CheckScene(select), place.select);
-        checkSelection(place.select, models[size_t(place.model)], select);
-    }
-    if (place.kind == Placement::Kind::volume) check.box("box", place.box, true);
-    if (place.kind == Placement::Kind::grid) {
-        check.number("origin", place.origin);
-        check.number("spacing", place.spacing);
-        for (int i = 0; i < 3; ++i)
-            check.number(concat("cells[", i, "]"), place.cells[i], cellCounts);
-    }
-    if (place.kind != Placement::Kind::list) return;
-    checkItems(place, where);
-    for (size_t i = 0; i < place.items.size(); ++i) {
-        const Where item = where.in("items", i);
-        members(CheckScene(item), place.items[i]);
-    }
+void deriveLife(Group& group, const Where& where) {
+    if (!group.life) return;
+    const bool given = where.given("life");
+    if (!given) group.life->location = where.at("emitters");
+    if (!given || !where.in("life").given("capacity")) deriveCapacity(group, *group.life, where);
 }
 
-static void checkGroup(const Group& group, const std::vector<Model>& models, const Where& where) {
-    if (group.particle) {
-        checkParticle(*group.particle, where.in("particle"));
-        Molecule point = group.molecule;
-        point.material = Material();  // follows from the type, whose colours may glow
-        checkMolecule(point, where.in("molecule"));
-    } else {
-        checkMolecule(group.molecule, where.in("molecule"));
-    }
-    if (group.count != 0 || !group.life) {
-        checkPlace(group.place, models, where.in("place"));
-        checkCount(group.count, group.place, where);
-    }
-    if (group.life) checkLife(group, models, where);
-    if (group.school) describe(&*group.school).check(*group.school, where.in("school"), largestNumber);
-    const Where drag = where.in("drag");
-    members(CheckScene(drag), group.drag);
-    if (group.release) {
-        const Where release = where.in("release");
-        members(CheckScene(release), *group.release);
-        checkRelease(*group.release, release);
-    }
-    members(CheckScene(where), group);
-    if (group.contact) {
-        const Where contact = where.in("contact");
-        members(CheckScene(contact), *group.contact);
-        checkSurfaced(*group.contact, group.molecule, contact);
-    }
-    if (group.colorBy) checkColorScale(*group.colorBy, where.in("colorBy"));
-}
-
-void checkGroups(const std::vector<Group>& groups, const std::vector<Model>& models) {
-    const Where whole;
-    if (groups.empty()) throw Error(whole.at("groups"), noGroups);
-    for (size_t i = 0; i < groups.size(); ++i)
-        checkGroup(groups[i], models, whole.in("groups", i));
-    checkDeaths(groups);
-    checkSchools(groups);
-}
-
-std::vector<Group> readGroups(JsonReader& scene, const std::vector<Model>& models,
-                              std::vector<Warning>& warnings) {
-    scene.require("groups");
-    std::vector<Group> groups;
+void checkGroups(const Scene& scene, const Where& where) {
+    if (scene.groups.empty()) throw Error(where.at("groups"), "expected at least one group, found none");
     std::vector<std::string> names;
-    for (JsonReader& r : scene.objects("groups")) {
-        groups.push_back(readGroup(r, models, warnings));
-        if (r.has("name")) refuseRepeated(r, names, groups.back().name);
-        names.push_back(groups.back().name);
+    for (size_t i = 0; i < scene.groups.size(); ++i) {
+        const Where here = where.in("groups", i);
+        if (here.given("name")) refuseRepeated(here, names, scene.groups[i].name);
+        names.push_back(scene.groups[i].name);
+        checkModelsOf(scene.groups[i], scene.models, here);
     }
-    if (groups.empty()) throw Error(scene.at("groups"), noGroups);
-    checkDeaths(groups);
-    checkSchools(groups);
-    return groups;
+    checkDeaths(scene.groups);
+    checkSchools(scene.groups);
+}
+
+std::vector<Warning> warningsOf(const Group& group, const Where& where) {
+    std::vector<Warning> out;
+    if (group.release && !group.molecule.hasPins())
+        out.push_back({where.at("release"), "nothing to release: the molecule has no pinned vertex"});
+    const bool forEver = !group.life || (group.life->life.y >= longestLife && !group.life->afterContact);
+    if (group.particle && forEver)
+        for (Warning& warning : agelessWarnings(*group.particle, where.at("particle")))
+            out.push_back(std::move(warning));
+    return out;
 }
 
 }  // namespace shoal

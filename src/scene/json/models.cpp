@@ -1,21 +1,11 @@
 // "models": meshes that stand still.
 #include <cmath>
 
+#include "core/description.h"
 #include "geometry/load_model.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
-
-template <typename V>
-static void members(V&& v, Either<Model> auto& model) {
-    v.number("position", model.position);
-    v.rotation("rotation", model.rotation);
-    v.number("scale", model.scale, aboveZero());
-    v.flag("draw", model.draw);
-    v.color("color", model.color);
-    v.number("roughness", model.roughness, Range::between(0, 1));
-    v.number("grain", model.grain, Range::between(0, 1));
-}
 
 namespace {
 
@@ -35,29 +25,14 @@ void placeMesh(Mesh& mesh, const Model& model) {
     }
 }
 
-void checkReach(const Mesh& mesh, const Where& where) {
-    for (const glm::dvec3& corner : {mesh.low, mesh.high})
-        for (int i = 0; i < 3; ++i)
-            if (!(std::abs(corner[i]) < largestNumber))
-                throw Error(where.here(), concat("the model reaches ", corner[i],
-                                                 " m after scaling, beyond single precision"));
-}
-
-Model readModel(JsonReader& r) {
-    Model model;
-    model.file = needFile(r, "file");
-    model.name = std::filesystem::path(model.file).stem().string();
-    r.get("name", model.name);
-    members(ReadScene(r), model);
-    r.finish();
+void load(Model& model, const Where& where) {
+    if (!where.given("name")) model.name = std::filesystem::path(model.file).stem().string();
     try {
         model.mesh = loadMesh(model.file);
     } catch (const Error& error) {
-        throw Error(r.at("file"), error.what());
+        throw Error(where.at("file"), error.what());
     }
     placeMesh(model.mesh, model);
-    checkReach(model.mesh, r);
-    return model;
 }
 
 // What a mesh made in code could get wrong; a reader of models sees to it.
@@ -76,28 +51,45 @@ void checkMesh(const Mesh& mesh, const Where& where) {
                         concat("welds to vertex ", welded, " of ", mesh.weldedPositions.size()));
 }
 
-}  // namespace
-
-void checkModels(const std::vector<Model>& models) {
-    const Where whole;
-    std::vector<std::string> names;
-    for (size_t i = 0; i < models.size(); ++i) {
-        const Where where = whole.in("models", i);
-        takeName(where, names, models[i].name);
-        members(CheckScene(where), models[i]);
-        checkMesh(models[i].mesh, where.in("mesh"));
-        checkReach(models[i].mesh, where);
-    }
+void checkModel(const Model& model, const Where& where) {
+    checkMesh(model.mesh, where.in("mesh"));
+    for (const glm::dvec3& corner : {model.mesh.low, model.mesh.high})
+        for (int i = 0; i < 3; ++i)
+            if (!(std::abs(corner[i]) < largestNumber))
+                throw Error(where.here(), concat("the model reaches ", corner[i],
+                                                 " m after scaling, beyond single precision"));
 }
 
-std::vector<Model> readModels(JsonReader& scene) {
-    std::vector<Model> models;
-    std::vector<std::string> names;
-    for (JsonReader& r : scene.objects("models")) {
-        models.push_back(readModel(r));
-        takeName(r, names, models.back().name);
-    }
-    return models;
+}  // namespace
+
+const Description& describe(const Model*) {
+    static const auto readFileOf = [](JsonReader& r, Model& model, void*) {
+        model.file = needFile(r, "file");
+    };
+    static const Description it =
+        Describe<Model>("model",
+                        "A mesh that stands still: it is drawn, carries molecules, and makes colliders.")
+            .byHand("file", R"({"type": "string", "minLength": 1})",
+                    {"the name of a file",
+                     "Any format that Assimp reads, within [limits of time and "
+                     "memory](architecture.md#errors); transforms of nodes are applied, "
+                     "and vertices are welded by position."},
+                    readFileOf)
+            .needed()
+            .key("name", &Model::name, {"", "Its name; no two have the same."})
+            .usually("the file's name without its ending")
+            .key("position", &Model::position, {"m", "Where it is moved, after rotation and scale."})
+            .rotation("rotation", &Model::rotation, {"", "How it is turned."})
+            .key("scale", &Model::scale, {"", "Its size.", aboveZero()})
+            .key("draw", &Model::draw, {"", "Whether it is drawn."})
+            .color("color", &Model::color, {"", "What multiplies the colours of its vertices."})
+            .key("roughness", &Model::roughness, {"", "How dull it is.", Range::between(0, 1)})
+            .key("grain", &Model::grain,
+                 {"", "The strength of the drawn grain: soil and grass on what faces up, else bark.",
+                  Range::between(0, 1)})
+            .derive(load)
+            .rule(checkModel);
+    return it;
 }
 
 }  // namespace shoal

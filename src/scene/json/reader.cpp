@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "core/sandbox.h"
 
@@ -48,42 +49,6 @@ int needModel(JsonReader& reader, const std::string& key, const std::vector<Mode
     return static_cast<int>(found - names.begin());
 }
 
-void checkModel(int model, const std::vector<Model>& models, const Location& where) {
-    if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
-    if (model < 0 || size_t(model) >= models.size())
-        throw Error(where,
-                    concat("expected the number of a model, 0 to ", models.size() - 1, ", found ", model));
-}
-
-void CheckScene::span(const std::string& key, const glm::dvec2& value, Range range) const {
-    number(key, value, range);
-    if (value.x > value.y) checkSpan(value, where().at(key));
-}
-
-void CheckScene::direction(const std::string& key, const glm::dvec3& value) const {
-    number(key, value);
-    if (value == glm::dvec3(0)) checkDirection(value, where().at(key));
-}
-
-void CheckScene::box(const std::string& key, const Box& value, bool flat) const {
-    number(key + ".low", value.low);
-    number(key + ".high", value.high);
-    checkBox(value, flat, where().at(key + ".high"));
-}
-
-void CheckScene::rotation(const std::string& key, const glm::dquat& value) const {
-    for (const double part : {value.x, value.y, value.z, value.w})
-        number(key, part);
-    checkRotation(value, where().at(key));
-}
-
-bool getColor(JsonReader& reader, const std::string& key, std::optional<glm::dvec3>& out) {
-    glm::dvec3 color(0);
-    if (!getColor(reader, key, color)) return false;
-    out = color;
-    return true;
-}
-
 bool getOptional(JsonReader& reader, const std::string& key, std::optional<double>& out, Range range) {
     double value = 0;
     if (!reader.get(key, value, range)) return false;
@@ -94,11 +59,6 @@ bool getOptional(JsonReader& reader, const std::string& key, std::optional<doubl
 void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name) {
     if (!name.empty() && std::find(earlier.begin(), earlier.end(), name) != earlier.end())
         throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
-}
-
-void takeName(const Where& where, std::vector<std::string>& taken, const std::string& name) {
-    refuseRepeated(where, taken, name);
-    taken.push_back(name);
 }
 
 }  // namespace shoal

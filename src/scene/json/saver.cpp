@@ -1,28 +1,20 @@
 #include "scene/json/saver.h"
 
+#include "core/description.h"
 #include "core/file.h"
 #include "core/json_edit.h"
-#include "scene/json/life_writer.h"
-#include "scene/json/particle_writer.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
 
 namespace {
 
+// The keys of a group that can be edited while a scene runs.
+constexpr std::initializer_list<const char*> edited = {"particle", "color", "secondColor",
+                                                       "school",   "life",  "emitters"};
+
 JsonValue editable(const Scene& scene, const Group& group) {
-    JsonValue out = JsonValue::makeObject();
-    const auto add = [&out](const char* key, std::optional<JsonValue> value) {
-        if (value) out.add(key, std::move(*value));
-    };
-    if (group.particle) add("particle", writeParticle(*group.particle, scene.file));
-    if (group.color) add("color", JsonValue::makeVector(*group.color));
-    if (group.secondColor) add("secondColor", JsonValue::makeVector(*group.secondColor));
-    if (group.school) add("school", describe(&*group.school).write(*group.school));
-    if (!group.life) return out;
-    add("life", writeLife(group));
-    add("emitters", writeEmitters(group, scene.models));
-    return out;
+    return describe(&group).writeSome(edited, group, &scene);
 }
 
 // Where `groups` stand in the file, as long as they are the ones that were read.
@@ -47,16 +39,21 @@ std::vector<Group> readEdited(const std::string& text, const Scene& after) {
     refuseHugeNumbers(root, after.file);
     const JsonValue& groups = groupsOf(root, after);
     std::vector<Group> out = after.groups;
+    const FieldBaking baking;
     for (size_t g = 0; g < groups.items.size(); ++g) {
         Group& group = out[g];
         const JsonValue* count = groups.items[g].find("count");
         if (count && count->kind == JsonValue::Kind::number) group.count = int(count->number);
         JsonReader reader(groups.items[g], after.file, concat("$.groups[", g, "]"));
-        if (auto particle = reader.object("particle")) group.particle = readParticleType(*particle);
-        if (auto school = readDescribed<School>(reader, "school")) group.school = school;
-        getColor(reader, "color", group.color);
-        getColor(reader, "secondColor", group.secondColor);
-        readLife(reader, group, after.models);
+        group.particle.reset();
+        group.life.reset();
+        group.school.reset();
+        group.color.reset();
+        group.secondColor.reset();
+        std::vector<Warning> warnings;
+        SceneReading reading{after.models, baking, warnings};
+        describe(&group).readSome(edited, reader, group, &reading);
+        deriveLife(group, reader);
     }
     return out;
 }

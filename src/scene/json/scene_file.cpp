@@ -1,5 +1,8 @@
 #include "scene/json/scene_file.h"
 
+#include <algorithm>
+
+#include "core/description.h"
 #include "core/file.h"
 #include "core/file_format.h"
 #include "core/json.h"
@@ -9,102 +12,73 @@ namespace shoal {
 
 namespace {
 
-template <typename V>
-void members(V&& v, Either<SolverSettings> auto& solver) {
-    v.number("substeps", solver.substeps, Range::between(1, maxSubsteps));
-    v.word("fieldSampling", solver.fieldSampling, {"vertexSubstep", "vertexFrame", "moleculeFrame"});
+template <typename T>
+void checkNames(const char* key, const std::vector<T>& list, const Where& whole) {
+    std::vector<std::string> names;
+    for (size_t i = 0; i < list.size(); ++i) {
+        refuseRepeated(whole.in(key, i), names, list[i].name);
+        names.push_back(list[i].name);
+    }
 }
 
-template <typename V>
-void members(V&& v, Either<ContactSettings> auto& contact) {
-    v.word("search", contact.search, {"exact", "single", "staggered"});
-    v.word("response", contact.response, {"simultaneous", "nearest"});
-    v.number("neighbors", contact.neighbors, Range::between(1, 64));
-    v.unlessZero("steps", contact.steps, Range::between(1, maxSubsteps));
-    v.number("iterations", contact.iterations, Range::between(1, 64));
-    v.number("cell", contact.cell, aboveZero());
+void checkForceGroups(const Scene& scene, const Where& whole) {
+    std::vector<std::string> known;
+    for (const Group& group : scene.groups)
+        if (!group.name.empty()) known.push_back(group.name);
+    for (size_t i = 0; i < scene.forces.size(); ++i) {
+        const Where where = whole.in("forces", i);
+        if (where.given("groups") && scene.forces[i].groups.empty())
+            throw Error(where.at("groups"), "expected the name of at least one group; all without it");
+        for (const std::string& name : scene.forces[i].groups)
+            if (std::find(known.begin(), known.end(), name) == known.end())
+                throw Error(where.at("groups"),
+                            "no group is named \"" + name + "\"" +
+                                (known.empty() ? " (none has a \"name\")" : suggestion(name, known)));
+    }
 }
 
-template <typename V>
-void members(V&& v, Either<Camera> auto& camera) {
-    v.number("eye", camera.eye);
-    v.number("target", camera.target);
-    v.number("fieldOfView", camera.fieldOfView, Range::between(0.01, 3.1));
-    v.number("exposure", camera.exposure, aboveZero());
-}
-
-template <typename V>
-void members(V&& v, Either<Light> auto& light) {
-    v.direction("direction", light.direction);
-    v.color("color", light.color);
-    v.number("intensity", light.intensity, Range::atLeast(0));
-    v.flag("shadows", light.shadows);
-}
-
-template <typename V>
-void members(V&& v, Either<Sky> auto& sky) {
-    v.color("zenith", sky.zenith);
-    v.color("horizon", sky.horizon);
-    v.color("ground", sky.ground);
-    v.number("intensity", sky.intensity, Range::atLeast(0));
-    v.number("fog", sky.fog, Range::atLeast(0));
-}
-
-// What a scene says of itself.
-template <typename V>
-void members(V&& v, Either<Scene> auto& scene) {
-    v.number("frameRate", scene.frameRate, Range{1, 1e5, false});
-    v.number("gravity", scene.gravity);
-}
-
-void checkCamera(const Camera& camera, const Where& where) {
-    if (camera.eye == camera.target) throw Error(where.here(), "expected eye and target apart");
-}
-
-void readSolver(JsonReader& scene, SolverSettings& solver) {
-    auto r = scene.object("solver");
-    if (!r) return;
-    solver.location = r->here();
-    int word = 0;
-    r->choose("method", solverWords(), word);
-    solver.kind = solverOf(solverWords()[size_t(word)]);
-    members(ReadScene(*r), solver);
-    r->finish();
-}
-
-void readContactSettings(JsonReader& scene, ContactSettings& contact) {
-    auto r = scene.object("contact");
-    if (!r) return;
-    contact.location = r->here();
-    members(ReadScene(*r), contact);
-    if (r->has("neighbors") && contact.search == ContactSearch::exact)
-        throw Error(r->at("neighbors"), "the exact search finds all: \"neighbors\" is of the others");
-    r->finish();
-}
-
-void readCamera(JsonReader& scene, Camera& camera) {
-    auto r = scene.object("camera");
-    if (!r) return;
-    members(ReadScene(*r), camera);
-    checkCamera(camera, *r);
-    r->finish();
-}
-
-void readLight(JsonReader& scene, Light& light) {
-    auto r = scene.object("light");
-    if (!r) return;
-    members(ReadScene(*r), light);
-    r->finish();
-}
-
-void readSky(JsonReader& scene, Sky& sky) {
-    auto r = scene.object("sky");
-    if (!r) return;
-    members(ReadScene(*r), sky);
-    r->finish();
+void checkParts(const Scene& scene, const Where& where) {
+    checkNames("fields", scene.fields, where);
+    checkNames("models", scene.models, where);
+    checkNames("colliders", scene.colliders, where);
+    checkNames("forces", scene.forces, where);
+    checkGroups(scene, where);
+    checkForceGroups(scene, where);
+    checkSurfaces(scene, where);
 }
 
 }  // namespace
+
+const Description& describe(const Scene*) {
+    static const Description it =
+        Describe<Scene>("scene", "A scene: everything that a run needs. What is left out is not simulated.")
+            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
+            .told("format", R"({"const": "shoal-scene-1"})",
+                  {"`\"shoal-scene-1\"`", "The format of the file and its version."})
+            .needed()
+            .key("name", &Scene::name, {"", "Its name."})
+            .key("seed", &Scene::seed, {"", "The seed of places, colours, phases and release."})
+            .key("frameRate", &Scene::frameRate,
+                 {"Hz", "A frame simulates 1 / frameRate seconds.", Range::between(1, 1e5)})
+            .key("gravity", &Scene::gravity, {"m/s²", "The gravity; there is none unless given."})
+            .key("solver", &Scene::solver, {"", "How molecules are advanced."})
+            .key("contact", &Scene::contact, {"", "Contact of molecules with one another."})
+            .key("camera", &Scene::camera, {"", "From where it is seen."})
+            .key("light", &Scene::light, {"", "The sun."})
+            .key("sky", &Scene::sky, {"", "The sky."})
+            .key("water", &Scene::water, {"", "Water; all is in the air without it."})
+            .key("fields", &Scene::fields, {"", "The velocity of the fluid."})
+            .key("models", &Scene::models,
+                 {"", "Meshes that stand still: they are drawn, carry molecules, and make colliders."})
+            .key("colliders", &Scene::colliders, {"", "What molecules collide with."})
+            .key("groups", &Scene::groups, {"", "The molecules, at least one group."})
+            .needed()
+            .key("forces", &Scene::forces,
+                 {"", "What accelerates molecules beside gravity, fields and springs."})
+            .key("surfacePairs", &Scene::surfacePairs, {"", "Restitution and friction of pairs of surfaces."})
+            .rule(checkParts, R"({"properties": {"groups": {"minItems": 1}}})");
+    return it;
+}
 
 Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking) {
     const JsonValue root = parseJson(text, file);
@@ -114,45 +88,18 @@ Scene parseScene(const std::string& text, const std::string& file, const FieldBa
 
     Scene scene;
     scene.file = file;
-    r.get("name", scene.name);
     r.get("comment", scene.comment);
-    r.get("seed", scene.seed);
-    members(ReadScene(r), scene);
-    readSolver(r, scene.solver);
-    readContactSettings(r, scene.contact);
-    readCamera(r, scene.camera);
-    readLight(r, scene.light);
-    readSky(r, scene.sky);
-    scene.water = readDescribed<Water>(r, "water");
-    scene.fields = readFields(r);
-    scene.models = readModels(r);
-    scene.colliders = readColliders(r, scene.models, baking, scene.warnings);
-    scene.groups = readGroups(r, scene.models, scene.warnings);
-    scene.forces = readForces(r, scene.groups);
-    scene.surfacePairs = readSurfacePairs(r, scene.colliders, scene.groups);
+    SceneReading reading{scene.models, baking, scene.warnings};
+    describe(&scene).read(r, scene, &reading);
     r.finish();
+    for (size_t g = 0; g < scene.groups.size(); ++g)
+        for (Warning& warning : warningsOf(scene.groups[g], Where(r).in("groups", g)))
+            scene.warnings.push_back(std::move(warning));
     return scene;
 }
 
 void checkScene(const Scene& scene) {
-    const Where whole;
-    const auto check = [&whole](const char* key, const auto& part) {
-        const Where where = whole.in(key);
-        members(CheckScene(where), part);
-    };
-    members(CheckScene(whole), scene);
-    check("solver", scene.solver);
-    check("contact", scene.contact);
-    check("camera", scene.camera);
-    checkCamera(scene.camera, whole.in("camera"));
-    check("light", scene.light);
-    check("sky", scene.sky);
-    if (scene.water) describe(&*scene.water).check(*scene.water, whole.in("water"), largestNumber);
-    checkFields(scene.fields);
-    checkModels(scene.models);
-    checkGroups(scene.groups, scene.models);
-    checkForces(scene.forces, scene.groups);
-    checkColliders(scene);
+    describe(&scene).check(scene, Where(), largestNumber);
 }
 
 Scene readScene(const std::string& file, const FieldBaking& baking) {

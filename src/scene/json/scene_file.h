@@ -22,7 +22,4 @@ Scene parseScene(const std::string& text, const std::string& file,
 // of what is wrong and no file. What only files say (which keys go together) is not asked.
 void checkScene(const Scene& scene);
 
-// A group holds at most this many molecules: single precision counts them one by one no further.
-inline constexpr int maxGroupCount = 1 << 24;
-
 }  // namespace shoal
