@@ -89,7 +89,7 @@ Pose poseAt(const ColliderPath& path, double time) {
         const double period = path.end() - path.begin(), since = time - path.begin();
         if (since > 0) time = path.begin() + since - period * std::floor(since / period);
     }
-    if (time <= path.begin()) return path.keyframes.front().pose;
+    if (!(time > path.begin())) return path.keyframes.front().pose;  // also of no number
     if (time >= path.end()) return path.keyframes.back().pose;
     const auto next = std::upper_bound(path.keyframes.begin(), path.keyframes.end(), time,
                                        [](double t, const ColliderPath::Keyframe& k) { return t < k.time; });

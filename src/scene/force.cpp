@@ -162,7 +162,7 @@ ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
         const double period = end - begin, since = time - begin;
         time = begin + since - period * std::floor(since / period);
     }
-    if (time <= begin) return {frames.front().offset, frames.front().factor};
+    if (!(time > begin)) return {frames.front().offset, frames.front().factor};  // also of no number
     if (time >= end) return {frames.back().offset, frames.back().factor};
     const auto next = std::upper_bound(frames.begin(), frames.end(), time,
                                        [](double t, const ForcePath::Keyframe& k) { return t < k.time; });
