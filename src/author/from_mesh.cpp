@@ -26,7 +26,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 double rounded(double value, int digits) {
-    if (value == 0) return 0;
+    if (value == 0 || !std::isfinite(value)) return value;
     // divided by a power of ten, never multiplied by one that no double holds
     const int shift = digits - 1 - int(std::floor(std::log10(std::abs(value))));
     const double power = std::pow(10, std::abs(shift));
@@ -35,6 +35,7 @@ double rounded(double value, int digits) {
 
 // To a millionth of the size: what the file shows is what is meant.
 glm::dvec3 rounded(const glm::dvec3& value, double size) {
+    if (!(size > 0) || !std::isfinite(size)) return value;
     const int shift = 6 - int(std::floor(std::log10(size)));
     const double power = std::pow(10, std::abs(shift));
     return shift >= 0 ? glm::round(value * power) / power : glm::round(value / power) * power;

@@ -77,6 +77,54 @@ const Condition* Description::unmet(const Key& key, const void* object) const {
     return nullptr;
 }
 
+// The numbers of a value.
+static std::vector<double> numbersOf(const Key& key, const void* value) {
+    if (!value) return {};
+    switch (key.kind) {
+    case Kind::number:
+        return {held<double>(value)};
+    case Kind::whole:
+        return {double(held<int>(value))};
+    case Kind::vector2:
+    case Kind::span:
+    case Kind::ends:
+        return {held<glm::dvec2>(value).x, held<glm::dvec2>(value).y};
+    case Kind::vector3: {
+        const auto& v = held<glm::dvec3>(value);
+        return {v.x, v.y, v.z};
+    }
+    case Kind::box: {
+        const Box& b = held<Box>(value);
+        return {b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z};
+    }
+    default:
+        return {};
+    }
+}
+
+Slider sliderOf(const Key& key, const void* object) {
+    const Range& range = key.says.range;
+    Slider out = key.says.slider;
+    double largest = 0;
+    for (const double number : numbersOf(key, at(key, object)))
+        if (std::abs(number) < 1e15) largest = std::max(largest, std::abs(number));
+    if (out.least == out.most) {
+        const bool place = key.kind == Kind::vector3 || key.kind == Kind::box;
+        out.most = place ? 1000 : largest > 0 ? 5 * largest : 1;
+        out.steep = range.least == leastPositive;
+        out.least = out.steep ? out.most / 1000 : std::isfinite(range.least) ? range.least : -out.most;
+        if (std::isfinite(range.most)) out.most = range.most;
+    }
+    for (const double number : numbersOf(key, at(key, object))) {
+        if (!(std::abs(number) < 1e15)) continue;
+        out.least = std::min(out.least, number < 0 ? 4 * number : number);
+        out.most = std::max(out.most, 4 * number);
+    }
+    out.least = std::max(out.least, key.unlessZero ? 0 : range.least);
+    out.most = std::min(out.most, range.most);
+    return out;
+}
+
 void Description::readAny(JsonReader& reader, void* out, void* context) const {
     if (location_ >= 0) *reinterpret_cast<Location*>(static_cast<char*>(out) + location_) = reader.here();
     for (const Key& key : keys_) {

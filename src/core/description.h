@@ -48,6 +48,8 @@ struct Member {
     void (*clear)(void*) = nullptr;
     void* (*append)(void*) = nullptr;
     const void* (*element)(const void*, size_t) = nullptr;
+    void (*erase)(void*, size_t) = nullptr;
+    void (*reset)(void*) = nullptr;  // an optional one
     bool optional = false;
 };
 
@@ -190,6 +192,10 @@ class Description {
     std::function<void(void*, const Where&)> derive_;
     std::function<void(const void*, const Where&)> rule_;
 };
+
+// How far the slider of a number goes, which an object has now: its own numbers are always within, and
+// nothing that the key may not say.
+Slider sliderOf(const Key& key, const void* object);
 
 // The struct of a key whose object may be absent.
 template <typename S>
@@ -467,6 +473,7 @@ class Describe {
         using T = typename Within<M>::type;
         if constexpr (Within<M>::optional) {
             key.member.optional = true;
+            key.member.reset = [](void* at) { static_cast<M*>(at)->reset(); };
             key.member.make = [](void* at) -> void* { return &static_cast<M*>(at)->emplace(); };
             key.member.look = [](const void* at) -> const void* {
                 const M& value = *static_cast<const M*>(at);
@@ -475,6 +482,10 @@ class Describe {
         }
         if constexpr (Within<M>::list) {
             key.member.count = [](const void* at) { return static_cast<const M*>(at)->size(); };
+            key.member.erase = [](void* at, size_t i) {
+                auto& list = *static_cast<M*>(at);
+                list.erase(list.begin() + ptrdiff_t(i));
+            };
             key.member.clear = [](void* at) { static_cast<M*>(at)->clear(); };
             key.member.append = [](void* at) -> void* { return &static_cast<M*>(at)->emplace_back(); };
             key.member.element = [](const void* at, size_t i) -> const void* {

@@ -1,5 +1,6 @@
 #include "scene/particle.h"
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/description.h"
@@ -253,6 +254,34 @@ std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& w
     warn(type.image && type.image->flipBook && type.image->frameRate == 0,
          "only the first frame of the flip-book shows, which needs a frameRate");
     return out;
+}
+
+static constexpr double leastAgeGap = 0.01;
+
+double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age) {
+    const double least = key == 0 ? 0 : keys[key - 1].age + leastAgeGap;
+    const double most = key + 1 == keys.size() ? 1 : keys[key + 1].age - leastAgeGap;
+    return least < most ? std::clamp(age, least, most) : keys[key].age;
+}
+
+void addColorKey(std::vector<ColorKey>& keys) {
+    if (keys.size() >= mostColorKeys) return;
+    if (keys.back().age < 1 - leastAgeGap && keys.size() == 1) {
+        ColorKey last = keys.back();
+        last.age = 1;
+        keys.push_back(last);
+        return;
+    }
+    size_t widest = 0;
+    double gap = 0;
+    for (size_t i = 0; i + 1 < keys.size(); ++i) {
+        const double own = keys[i + 1].age - keys[i].age;
+        if (own > gap) gap = own, widest = i;
+    }
+    if (gap <= 2 * leastAgeGap) return;
+    const ColorKey &a = keys[widest], &b = keys[widest + 1];
+    keys.insert(keys.begin() + std::ptrdiff_t(widest) + 1,
+                {0.5 * (a.age + b.age), 0.5 * (a.color + b.color), 0.5 * (a.opacity + b.opacity)});
 }
 
 Molecule moleculeOf(const ParticleType& type) {

@@ -81,6 +81,12 @@ const Description& describe(const ColorKey*);
 const Description& describe(const ParticleImage*);
 const Description& describe(const ParticleType*);
 
+// Between its neighbours in age, so that the keyframes stay in order.
+double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age);
+// A keyframe more, in the middle of the widest gap and of the colour that is there. Does nothing where there
+// are mostColorKeys, or no gap.
+void addColorKey(std::vector<ColorKey>& keys);
+
 // What of a type changes with age, and so never shows in a group that lives for ever.
 std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where);
 

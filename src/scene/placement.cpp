@@ -42,8 +42,6 @@ static const Description& describePlacement() {
         if (place.align == P::Align::normal && !place.onModel())
             throw Error(where.at("align"),
                         "align \"normal\" needs a model to sit on (on \"vertices\" or \"surface\")");
-        if (place.kind == P::Kind::list && place.items.empty())
-            throw Error(where.at("items"), "expected at least one item");
     };
     const std::string model = "is of the places \"vertices\" and \"surface\"", grid = "is of grids";
     static const Description it =

@@ -8,9 +8,11 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/edit_limits.h"
-
 namespace shoal::window {
+
+struct Limit {
+    double least = 0, most = 1;
+};
 
 struct Row {
     const char* label;

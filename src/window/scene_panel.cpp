@@ -79,9 +79,9 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
     const Group& source = scene.groups[group];
     Edited out{group, {}, {}, {}};
-    if (source.life) out.life.emplace(scene, group);
-    if (source.particle) out.looks.emplace(*source.particle);
-    if (source.school) out.school.emplace(*source.school);
+    if (source.life) out.life.emplace(group);
+    if (source.particle) out.looks.emplace();
+    if (source.school) out.school.emplace();
     return out;
 }
 

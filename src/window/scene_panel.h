@@ -32,7 +32,7 @@ class ScenePanel {
         size_t group;  // of the scene
         std::optional<LifeEditor> life;
         std::optional<ParticleEditor> looks;
-        std::optional<SchoolEditor> school;
+        std::optional<KeyRows> school;
         LifeCounts counts = {};
         double countedAt = -1;  // s, of the wall clock
     };

@@ -1,52 +1,27 @@
 // Looks that change while a renderer goes on: the same picture as one made for them.
-#include "core/random.h"
 #include "gl/births.h"
 #include "gl/render_scene.h"
-#include "scene/edit_limits.h"
 #include "support/catch.h"
+#include "support/moved.h"
 
 using namespace shoal;
 using namespace shoal::test;
 
 namespace {
 
-class Slider {
-  public:
-    double in(const Limit& limit) {
-        const double dice = random_.uniform();
-        if (dice < 0.15) return limit.least;
-        if (dice < 0.3) return limit.most;
-        return random_.uniform(limit.least, limit.most);
-    }
-    glm::dvec2 span(const Limit& limit) { return {in(limit), chance() ? in(limit) : in(limit)}; }
-    bool chance() { return random_.uniform() < 0.5; }
-    int whole(int count) { return int(random_.uniform() * count); }
-
-  private:
-    Random random_{19};
-};
-
 // Everything but what needs another renderer.
-ParticleType moved(const ParticleType& from, Slider& slider) {
-    const LooksLimits limits = limitsOf(from);
-    ParticleType out = from;
-    out.size = slider.span(limits.size);
-    out.growth = slider.span(limits.growth);
-    out.turn = slider.span(limits.turn);
-    out.spin = slider.span(limits.spin);
-    out.facing = ParticleFacing(slider.whole(3));
-    out.stretch = slider.in(limits.stretch);
-    out.pixels = slider.in(limits.pixels);
-    out.lit = slider.chance();
+ParticleType moved(const ParticleType& from, Sliders& sliders) {
+    ParticleType out = sliders.moved(from, {"mass", "softness", "spreadFrames"});
+    out.facing = ParticleFacing(sliders.whole(3));
     out.colors.resize(1);
-    for (int i = slider.whole(4); i > 0; --i)
+    for (int i = sliders.whole(4); i > 0; --i)
         addColorKey(out.colors);
+    const Slider light{0, 2};
     for (size_t k = 0; k < out.colors.size(); ++k) {
-        out.colors[k].age = ageBetween(out.colors, k, slider.in({0, 1}));
-        out.colors[k].color = {slider.in({0, 2}), slider.in({0, 2}), slider.in({0, 2})};
-        out.colors[k].opacity = slider.in({0, 1});
+        out.colors[k].age = ageBetween(out.colors, k, sliders.in({0, 1}));
+        out.colors[k].color = {sliders.in(light), sliders.in(light), sliders.in(light)};
+        out.colors[k].opacity = sliders.in({0, 1});
     }
-    settle(out);
     return out;
 }
 
@@ -97,7 +72,7 @@ class Drawn {
 }  // namespace
 
 TEST_CASE("looks that change show as if they had always been so, and back", "[render][editedLooks]") {
-    Slider slider;
+    Sliders sliders(19);
     for (const ParticleShape shape : {ParticleShape::quads, ParticleShape::sprites, ParticleShape::points}) {
         ParticleType type;
         type.shape = shape;
@@ -109,7 +84,7 @@ TEST_CASE("looks that change show as if they had always been so, and back", "[re
         const Image before = drawn.image(drawn.renderer);
         int live = 0;
         for (int round = 0; round < 8; ++round) {
-            const ParticleType next = moved(type, slider);
+            const ParticleType next = moved(type, sliders);
             if (!drawn.renderer.changeParticle(0, next)) continue;  // a sprite beyond the context's limit
             ++live;
             Renderer fresh = drawn.rendererOf(cloud(next));

@@ -3,67 +3,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/random.h"
+#include "core/description.h"
 #include "gl/births.h"
-#include "scene/edit_limits.h"
 #include "simulate/carry_over.h"
 #include "support/catch.h"
+#include "support/moved.h"
 
 using namespace shoal;
 using namespace shoal::test;
 
 namespace {
 
-class Slider {
-  public:
-    explicit Slider(uint64_t seed) : random_(seed, 11) {}
-
-    // An end now and then.
-    double in(const Limit& limit) {
-        const double dice = random_.uniform();
-        if (dice < 0.15) return limit.least;
-        if (dice < 0.3) return limit.most;
-        return random_.uniform(limit.least, limit.most);
-    }
-    int wholeIn(const Limit& limit) { return int(in(limit)); }
-    glm::dvec2 span(const Limit& limit) {
-        const double a = in(limit), b = in(limit);
-        return {std::min(a, b), std::max(a, b)};
-    }
-    glm::dvec3 place(const Limit& limit) { return {in(limit), in(limit), in(limit)}; }
-    glm::dvec3 direction() { return random_.direction(); }
-    bool chance() { return random_.uniform() < 0.5; }
-
-  private:
-    Random random_;
-};
-
 // Everything that a slider moves without another plan.
-Lifecycle moved(const Lifecycle& from, const LifeLimits& limits, Slider& slider) {
-    Lifecycle out = from;
+Lifecycle moved(const Lifecycle& from, Sliders& sliders) {
+    Lifecycle out = sliders.moved(from, {"capacity", "scale"});
     for (Emitter& emitter : out.emitters) {
-        emitter.rate = slider.in(limits.rate);
-        emitter.random = slider.chance();
-        emitter.begin = slider.in(limits.time);
-        emitter.end = slider.chance() ? std::numeric_limits<double>::infinity() : slider.in(limits.time);
-        emitter.position = slider.place(limits.position);
-        emitter.lineFrom = slider.place(limits.position);
-        emitter.lineTo = slider.place(limits.position);
-        emitter.box = {slider.place(limits.position), slider.place(limits.position)};
-        emitter.radius = slider.in(limits.radius);
-        emitter.hollow = slider.in(limits.hollow);
-        emitter.direction = slider.direction();
-        emitter.spread = slider.in(limits.spread);
-        emitter.speed = slider.span(limits.speed);
-        emitter.inherit = slider.in(limits.inherit);
-        emitter.perDeath = slider.wholeIn(limits.perDeath);
+        emitter = sliders.moved(emitter);
         for (Burst& burst : emitter.bursts)
-            burst = {slider.in(limits.time), slider.wholeIn(limits.count), slider.in(limits.every)};
+            burst = sliders.moved(burst);
     }
-    out.life = slider.span(limits.life);
-    if (out.within) out.within = Box{slider.place(limits.position), slider.place(limits.position)};
-    if (out.afterContact) out.afterContact = slider.in(limits.afterContact);
-    settle(out, 0);
     return out;
 }
 
@@ -125,11 +83,11 @@ TEST_CASE("within the sliders' limits nothing runs away and nothing is lost for 
         Simulation simulation = simulationOf(scene);
         run(simulation, 12);
         for (uint64_t round = 0; round < 12; ++round) {
-            Slider slider(100 * uint64_t(allocator) + round);
+            Sliders sliders(100 * uint64_t(allocator) + round);
             INFO("allocator " << name(allocator) << ", round " << round);
             for (size_t g = 0; g < scene.groups.size(); ++g) {
                 const Lifecycle& life = *scene.groups[g].life;
-                REQUIRE(simulation.changeLife(g, moved(life, limitsOf(life, 0), slider)));
+                REQUIRE(simulation.changeLife(g, moved(life, sliders)));
             }
             for (int frame = 0; frame < 5; ++frame) {
                 simulation.frame();
@@ -164,7 +122,11 @@ TEST_CASE("a rate of 0, a short life and a late beginning can be taken back", "[
     const Scene scene = fountain(Allocator::gpu);
     Simulation simulation = simulationOf(scene);
     const Lifecycle& life = *scene.groups[0].life;
-    const LifeLimits limits = limitsOf(life, 0);
+    const auto mostOf = [&](const char* key) {
+        const Emitter& emitter = life.emitters[0];
+        return sliderOf(*describe(&emitter).find(key), &emitter).most;
+    };
+    const Key& span = *describe(&life).find("span");
     const auto none = [&](Lifecycle edited) {
         REQUIRE(simulation.changeLife(0, edited));
         run(simulation, 30);
@@ -176,25 +138,25 @@ TEST_CASE("a rate of 0, a short life and a late beginning can be taken back", "[
     };
     Lifecycle edited = life;
     for (Emitter& emitter : edited.emitters) {
-        emitter.rate = limits.rate.least;
+        emitter.rate = 0;
         emitter.bursts.resize(emitter.bursts.size(), Burst{});
         for (Burst& burst : emitter.bursts)
-            burst.time = limits.time.most;
+            burst.time = mostOf("begin");
     }
     CHECK(none(edited) == 0);
     edited = life;
-    edited.life = glm::dvec2(limits.life.least);
+    edited.life = glm::dvec2(sliderOf(span, &life).least);
     CHECK(none(edited) < 60);
     edited = life;
     for (Emitter& emitter : edited.emitters) {
-        emitter.begin = limits.time.most;
+        emitter.begin = mostOf("begin");
         for (Burst& burst : emitter.bursts)
-            burst.time = limits.time.most;
+            burst.time = mostOf("begin");
     }
     CHECK(none(edited) == 0);
     edited = life;
     for (Emitter& emitter : edited.emitters)
-        emitter.speed = glm::dvec2(limits.speed.most);
+        emitter.speed = glm::dvec2(mostOf("speed"));
     edited.within = Box{glm::dvec3(900), glm::dvec3(901)};
     CHECK(none(edited) < 60);  // who was born in the last frame
 }

@@ -19,6 +19,11 @@ double placesOf(const Placement& place) {
     return cells.x * cells.y * cells.z;
 }
 
+void checkItems(const Placement& place, const Where& where) {
+    if (place.kind == Placement::Kind::list && place.items.empty())
+        throw Error(where.at("items"), "expected at least one item");
+}
+
 void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
     if (places > 0 && count > places)
@@ -34,6 +39,7 @@ void deriveCount(Group& group, const Where& where) {
             throw Error(where.at("count"), "expected a \"place\" for those at the start");
         return;
     }
+    checkItems(group.place, where.in("place"));
     if (where.given("count")) return;
     const double places = placesOf(group.place);
     if (places == 0) where.require("count");
@@ -159,6 +165,7 @@ void checkGroup(const Group& group, const Where& where) {
     checkMolecule(molecule, where.in("molecule"));
     if (group.count != 0 || !group.life) {
         needWithin(where.at("count"), group.count, Range::between(1, maxGroupCount));
+        checkItems(group.place, where.in("place"));
         checkCount(group.count, group.place, where);
     }
     if (group.life) checkLife(group, where);

@@ -1,0 +1,250 @@
+#include "window/key_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+
+#include "window/edit_widgets.h"
+
+namespace shoal::window {
+
+namespace {
+
+using Kind = Key::Kind;
+
+constexpr double degrees = 57.29577951308232;
+
+// Angles are shown in degrees.
+Row rowOf(const std::string& label, const Key& key, std::string& format, bool steep) {
+    Row row{label.c_str(), key.says.sentence.c_str()};
+    const std::string& unit = key.says.unit;
+    const bool angle = unit.starts_with("rad");
+    if (angle) row.scale = degrees;
+    const char* digits = key.kind == Kind::whole ? "%d" : "%.5g";
+    format = angle          ? concat(digits, "\xC2\xB0", unit.substr(3))
+             : unit.empty() ? digits
+                            : concat(digits, " ", unit);
+    row.format = format.c_str();
+    row.steep = steep;
+    row.free = key.kind == Kind::ends;
+    return row;
+}
+
+bool pickColor(const Row& row, glm::dvec3& color, double most) {
+    std::array<float, 3> value{float(color.x), float(color.y), float(color.z)};
+    beginRow(row);
+    if (!ImGui::ColorEdit3("##color", value.data(), ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
+        return false;
+    for (int i = 0; i < 3; ++i)
+        color[i] = std::clamp(std::round(double(value[size_t(i)]) * 1000) / 1000, 0.0, most);
+    return true;
+}
+
+bool pickWord(const Row& row, const Key& key, void* value) {
+    int index = key.member.index(value);
+    beginRow(row);
+    bool changed = false;
+    if (!ImGui::BeginCombo("##word", key.words[size_t(index)].c_str())) return false;
+    for (int i = 0; i < int(key.words.size()); ++i) {
+        if (!ImGui::Selectable(key.words[size_t(i)].c_str(), i == index) || i == index) continue;
+        key.member.choose(value, i);
+        changed = true;
+    }
+    ImGui::EndCombo();
+    return changed;
+}
+
+bool dragBox(const Key& key, const Limit& limit, Box& box) {
+    const std::string low = concat(inWords(key.name), ", low"), high = concat(inWords(key.name), ", high");
+    const char* sentence = key.says.sentence.c_str();
+    bool changed = drag({low.c_str(), sentence, "%.5g"}, limit, &box.low.x, 3, 0.01);
+    if (changed) box.high = glm::max(box.high, box.low + (key.flatBox ? 0 : 0.01));
+    if (drag({high.c_str(), sentence, "%.5g"}, limit, &box.high.x, 3, 0.01)) {
+        box.low = glm::min(box.low, box.high - (key.flatBox ? 0 : 0.01));
+        changed = true;
+    }
+    return changed;
+}
+
+bool hasRow(const Key& key) {
+    switch (key.kind) {
+    case Kind::number:
+    case Kind::whole:
+    case Kind::flag:
+    case Kind::word:
+    case Kind::vector2:
+    case Kind::vector3:
+    case Kind::direction:
+    case Kind::color:
+    case Kind::span:
+    case Kind::ends:
+    case Kind::box:
+    case Kind::object:
+    case Kind::list:
+        return true;
+    default:
+        return false;
+    }
+}
+
+void* memberOf(const Key& key, void* object) {
+    return static_cast<char*>(object) + key.member.offset;
+}
+
+// A number that stands for none, as of what lives for ever.
+bool isEndless(const Key& key, const void* value) {
+    if (!value || key.usual.empty()) return false;
+    if (key.kind == Kind::number) return *static_cast<const double*>(value) > 1e15;
+    return key.kind == Kind::span && static_cast<const glm::dvec2*>(value)->y > 1e15;
+}
+
+}  // namespace
+
+std::string inWords(const std::string& key) {
+    std::string out;
+    for (const char c : key) {
+        if (std::isupper(static_cast<unsigned char>(c))) out += ' ';
+        out += char(std::tolower(static_cast<unsigned char>(c)));
+    }
+    return out;
+}
+
+std::string KeyRows::ruleBroken(const std::function<void()>& check) {
+    try {
+        check();
+        return {};
+    } catch (const Error& error) {
+        return error.message();
+    }
+}
+
+bool KeyRows::drawKeys(const Description& keys, void* object, const Owns& owns) {
+    bool changed = false;
+    for (const Key& key : keys.keys()) {
+        if (keys.unmet(key, object)) continue;
+        ImGui::PushID(key.name.c_str());
+        if (const auto own = owns.find(key.name); own != owns.end())
+            changed |= own->second && own->second();
+        else if (hasRow(key))
+            changed |= drawKey(key, object);
+        ImGui::PopID();
+    }
+    return changed;
+}
+
+// What may be absent has a box to tick, and a row of its own below it.
+bool KeyRows::drawPresence(const Key& key, void* object) {
+    const void* value = key.member.look(memberOf(key, object));
+    const bool endless = isEndless(key, value);
+    bool there = value && !endless;
+    const std::string label = inWords(key.name);
+    if (!tick({label.c_str(), key.says.sentence.c_str()}, there)) return false;
+    const Slider slider = sliderOf(key, object);
+    const double middle =
+        slider.steep ? std::sqrt(slider.least * slider.most) : 0.5 * (slider.least + slider.most);
+    if (key.kind == Kind::number && !key.member.optional)
+        *static_cast<double*>(memberOf(key, object)) =
+            there ? middle : std::numeric_limits<double>::infinity();
+    else if (key.kind == Kind::span)
+        *static_cast<glm::dvec2*>(memberOf(key, object)) = glm::dvec2(there ? middle : 1e30);
+    else if (!there)
+        key.member.reset(memberOf(key, object));
+    else if (void* made = key.member.make(memberOf(key, object)); key.kind == Kind::number)
+        *static_cast<double*>(made) = middle;
+    sliders_.erase(ImGui::GetID("slider"));
+    return true;
+}
+
+bool KeyRows::drawKey(const Key& key, void* object) {
+    const void* usual = key.member.look(memberOf(key, object));
+    bool changed = false;
+    const bool mayEnd = !key.usual.empty() && (key.kind == Kind::number || key.kind == Kind::span);
+    if (key.member.optional || mayEnd) changed = drawPresence(key, object);
+    void* value = const_cast<void*>(key.member.look(memberOf(key, object)));
+    if (!value || isEndless(key, value)) return changed;
+    (void)usual;
+    if (key.kind == Kind::list) return drawList(key, value) || changed;
+    if (key.kind == Kind::object) {
+        if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return changed;
+        changed |= drawKeys(*key.objects[0], value, {});
+        ImGui::TreePop();
+        return changed;
+    }
+    const Slider& slider = sliders_.try_emplace(ImGui::GetID("slider"), sliderOf(key, object)).first->second;
+    return drawValue(key, value, slider) || changed;
+}
+
+bool KeyRows::drawValue(const Key& key, void* value, const Slider& slider) {
+    const std::string label = key.member.optional ? std::string() : inWords(key.name);
+    std::string format;
+    const Row row = rowOf(label, key, format, slider.steep);
+    const Limit limit{slider.least, slider.most};
+    switch (key.kind) {
+    case Kind::number: {
+        double& number = *static_cast<double*>(value);
+        if (!slide(row, limit, number)) return false;
+        if (key.unlessZero && number < key.says.range.least) number = 0;
+        return true;
+    }
+    case Kind::whole:
+        return slide(row, limit, *static_cast<int*>(value));
+    case Kind::span:
+    case Kind::ends:
+        return slideSpan(row, limit, *static_cast<glm::dvec2*>(value));
+    case Kind::vector2:
+        return drag(row, limit, &static_cast<glm::dvec2*>(value)->x, 2, 0.01);
+    case Kind::vector3:
+        return drag({row.label, row.tip, "%.5g"}, limit, &static_cast<glm::dvec3*>(value)->x, 3, 0.01);
+    case Kind::direction:
+        return turnDirection(row.tip, *static_cast<glm::dvec3*>(value), angles_[ImGui::GetID("angles")]);
+    case Kind::color:
+        return pickColor(row, *static_cast<glm::dvec3*>(value), std::min(key.says.range.most, 1000.0));
+    case Kind::flag:
+        return tick(row, *static_cast<bool*>(value));
+    case Kind::word:
+        return pickWord(row, key, value);
+    case Kind::box:
+        return dragBox(key, limit, *static_cast<Box*>(value));
+    default:
+        return false;
+    }
+}
+
+// What an element cannot do without that nothing here can say, such as the name of a group.
+static const Key* nameOf(const Description& element) {
+    for (const Key& key : element.keys())
+        if (key.needed && key.kind == Kind::text) return &key;
+    return nullptr;
+}
+
+bool KeyRows::drawList(const Key& key, void* list) {
+    bool changed = false;
+    const Key* name = nameOf(*key.objects[0]);
+    for (size_t i = 0; i < key.member.count(list); ++i) {
+        const void* element = key.member.element(list, i);
+        const std::string title = name ? *static_cast<const std::string*>(name->member.look(
+                                             static_cast<const char*>(element) + name->member.offset))
+                                       : std::to_string(i + 1);
+        ImGui::PushID(int(i));
+        if (ImGui::TreeNodeEx("element", ImGuiTreeNodeFlags_DefaultOpen, "%s %s", inWords(key.name).c_str(),
+                              title.c_str())) {
+            changed |= drawKeys(*key.objects[0], const_cast<void*>(element), {});
+            if (ImGui::SmallButton("Remove")) {
+                key.member.erase(list, i--);
+                changed = true;
+            }
+            ImGui::TreePop();
+        }
+        ImGui::PopID();
+    }
+    if (name) return changed;
+    if (ImGui::SmallButton(concat("Add to ", inWords(key.name)).c_str())) {
+        key.member.append(list);
+        changed = true;
+    }
+    tip(key.says.sentence.c_str());
+    return changed;
+}
+
+}  // namespace shoal::window
