@@ -157,14 +157,16 @@ bool KeyRows::drawPresence(const Key& key, void* object) {
 }
 
 bool KeyRows::drawKey(const Key& key, void* object) {
-    const void* usual = key.member.look(memberOf(key, object));
     bool changed = false;
     const bool mayEnd = !key.usual.empty() && (key.kind == Kind::number || key.kind == Kind::span);
     if (key.member.optional || mayEnd) changed = drawPresence(key, object);
     void* value = const_cast<void*>(key.member.look(memberOf(key, object)));
     if (!value || isEndless(key, value)) return changed;
-    (void)usual;
     if (key.kind == Kind::list) return drawList(key, value) || changed;
+    if (key.kind == Kind::object && !key.member.optional) {
+        ImGui::TextDisabled("%s", inWords(key.name).c_str());
+        return drawKeys(*key.objects[0], value, {});
+    }
     if (key.kind == Kind::object) {
         if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return changed;
         changed |= drawKeys(*key.objects[0], value, {});
@@ -172,11 +174,11 @@ bool KeyRows::drawKey(const Key& key, void* object) {
         return changed;
     }
     const Slider& slider = sliders_.try_emplace(ImGui::GetID("slider"), sliderOf(key, object)).first->second;
-    return drawValue(key, value, slider) || changed;
+    const std::string label = key.member.optional || mayEnd ? std::string() : inWords(key.name);
+    return drawValue(key, label, value, slider) || changed;
 }
 
-bool KeyRows::drawValue(const Key& key, void* value, const Slider& slider) {
-    const std::string label = key.member.optional ? std::string() : inWords(key.name);
+bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, const Slider& slider) {
     std::string format;
     const Row row = rowOf(label, key, format, slider.steep);
     const Limit limit{slider.least, slider.most};

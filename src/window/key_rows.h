@@ -37,7 +37,7 @@ class KeyRows {
     bool drawKeys(const Description& keys, void* object, const Owns& owns);
     bool drawKey(const Key& key, void* object);
     bool drawPresence(const Key& key, void* object);
-    bool drawValue(const Key& key, void* value, const Slider& slider);
+    bool drawValue(const Key& key, const std::string& label, void* value, const Slider& slider);
     bool drawList(const Key& key, void* list);
     static std::string ruleBroken(const std::function<void()>& check);
 
