@@ -7,6 +7,7 @@ namespace shoal::app {
 
 int runCommand(const Options& options);
 int scenesCommand(const Options& options);
+int keysCommand(const Options& options);
 int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);

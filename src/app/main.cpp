@@ -50,6 +50,9 @@ int main(int argc, char** argv) {
             case Options::Command::scenes:
                 code = scenesCommand(*options);
                 break;
+            case Options::Command::keys:
+                code = keysCommand(*options);
+                break;
             case Options::Command::check:
                 code = checkCommand(*options);
                 break;

@@ -279,6 +279,10 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
         ->required()
         ->type_name("FILE");
     check->add_flag("--json", options.json, "Report as JSON on standard output");
+    add("keys", "Print what scene, molecule and layout files may say", scenes)
+        ->add_option("names", options.files,
+                     "Objects or keys, such as emitters or radius (default: all objects)")
+        ->type_name("NAME");
     CLI::App* explain = add("explain", "Print what a scene compiles to, and why", scenes);
     addScene(*explain, options);
     addOverrides(*explain, options, texts);
@@ -336,6 +340,7 @@ static Options::Command commandOf(const CLI::App& app) {
         {"check", Options::Command::check}, {"explain", Options::Command::explain},
         {"bench", Options::Command::bench}, {"measure", Options::Command::measure},
         {"field", Options::Command::field}, {"edit", Options::Command::edit},
+        {"keys", Options::Command::keys},
     };
     for (const auto& [name, command] : names)
         if (app.got_subcommand(name)) return command;

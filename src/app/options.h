@@ -26,6 +26,7 @@ struct Options : RunRequest {
     enum class Command {
         run,
         scenes,
+        keys,
         check,
         explain,
         info,

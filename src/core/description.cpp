@@ -143,6 +143,10 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
 void Description::readKey(const Key& key, JsonReader& r, void* object, void* context) {
     const std::string& name = key.name;
     const Range range = key.says.range;
+    if (key.read) {
+        r.raw(name);  // known even when absent
+        return key.read(r, object, context);
+    }
     switch (key.kind) {
     case Kind::number:
         return readValue(key, object, 0.0, [&](double& value) { return r.get(name, value, range); });
@@ -236,8 +240,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         }
         return;
     case Kind::byHand:
-        r.raw(name);  // known even when absent
-        return key.read(r, object, context);
+        break;
     }
 }
 

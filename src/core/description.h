@@ -111,7 +111,7 @@ struct Key {
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives
     std::string schema;                       // byHand: the JSON Schema of its value
-    std::function<void(JsonReader&, void* object, void* context)> read;  // byHand
+    std::function<void(JsonReader&, void* object, void* context)> read;  // byHand, and instead of a member
     // byHand, and where what is written is not the member itself; null: the key is left out
     std::function<JsonValue(const void* object, const void* context)> write;
 };
@@ -338,14 +338,14 @@ class Describe {
     }
     // A key that `read` takes; `schema` is the JSON Schema of its value.
     template <typename Context = void>
-    Describe& byHand(const char* name, const char* schema, Says says,
+    Describe& byHand(const char* name, std::string schema, Says says,
                      std::type_identity_t<std::function<void(JsonReader&, S&, Context*)>> read,
                      std::function<JsonValue(const S&, const void*)> write = {}) {
         Key& key = it_.keys_.emplace_back();
         key.name = name;
         key.kind = Key::Kind::byHand;
         key.says = std::move(says);
-        key.schema = schema;
+        key.schema = std::move(schema);
         key.read = [read](JsonReader& reader, void* object, void* context) {
             read(reader, *static_cast<S*>(object), static_cast<Context*>(context));
         };
@@ -354,8 +354,8 @@ class Describe {
     }
 
     // A key that the function of another key takes as well.
-    Describe& told(const char* name, const char* schema, Says says) {
-        byHand(name, schema, std::move(says), [](JsonReader&, S&, void*) {});
+    Describe& told(const char* name, std::string schema, Says says) {
+        byHand(name, std::move(schema), std::move(says), [](JsonReader&, S&, void*) {});
         return *this;
     }
 
@@ -381,6 +381,14 @@ class Describe {
     // Of the key before: its default in words.
     Describe& usually(std::string words) {
         last().usual = std::move(words);
+        return *this;
+    }
+    // Of the key before: how it is read instead.
+    template <typename Context>
+    Describe& reads(void (*read)(JsonReader&, S&, Context&)) {
+        last().read = [read](JsonReader& reader, void* object, void* context) {
+            read(reader, *static_cast<S*>(object), *static_cast<Context*>(context));
+        };
         return *this;
     }
     // Of the key before: what is written instead of its member; null: the key is left out.

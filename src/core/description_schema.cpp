@@ -358,6 +358,10 @@ std::string typeText(const Key& key) {
     return {};
 }
 
+std::string meaningOf(const Key& key) {
+    return key.says.sentence + conditions(key);
+}
+
 std::string usualText(const Key& key, const Description& of) {
     if (key.needed) return "required";
     if (!key.usual.empty()) return key.usual;
@@ -377,7 +381,7 @@ std::string tableOf(const Description& description) {
     std::string out = "| key | type, unit | default | meaning |\n|---|---|---|---|\n";
     for (const Key& key : description.keys())
         out += concat("| `", key.name, "` | ", typeText(key), " | ", usualText(key, description), " | ",
-                      key.says.sentence, conditions(key), " |\n");
+                      meaningOf(key), " |\n");
     return out;
 }
 

@@ -13,6 +13,8 @@
 
 namespace shoal {
 
+class Description;
+
 struct Vertex {
     glm::dvec3 position{0};  // m, in the rest shape
     glm::dvec2 uv{0};        // texture coordinates, (0,0) at the lower left
@@ -94,5 +96,11 @@ struct Molecule {
     double size() const;
     bool hasPins() const;
 };
+
+const Description& describe(const Vertex*);
+const Description& describe(const Actuation*);
+const Description& describe(const Spring*);
+const Description& describe(const Material*);
+const Description& describe(const Molecule*);
 
 }  // namespace shoal

@@ -80,7 +80,7 @@ TEST_CASE("mistakes in a scene are located", "[cli]") {
         {"\"type\": \"gust\"", "\"type\": \"gusts\"", "\"gusts\"", "did you mean \"gust\"?"},
         {"\"count\": 3", "\"count\": 0", "0,\n     \"place\"", "1"},
         {"\"count\": 3", "\"count\": -1", "-1,\n     \"place\"", "1"},
-        {"\"count\": 3", "\"count\": 1000000000", "1000000000", "at most 16777216"},
+        {"\"count\": 3", "\"count\": 1000000000", "1000000000", "from 1 to 16777216"},
         {"\"model\": \"hill\", \"select\"", "\"model\": \"hil\", \"select\"", "\"hil\"",
          "did you mean \"hill\"?"},
         {"\"object\": \"post\"", "\"object\": \"pots\"", "", "pots"},
@@ -105,7 +105,7 @@ TEST_CASE("mistakes in a molecule are located in its own file", "[cli]") {
     const Change changes[] = {
         {"\"a\": 1, \"b\": 2", "\"a\": 1, \"b\": 3", "3}", ""},
         {"\"triangles\": [[0, 1, 2]]", "\"triangles\": [[0, 1, 7]]", "", "7"},
-        {"\"mass\": 0.01", "\"mass\": -1", "-1,", "above 0"},
+        {"\"mass\": 0.01", "\"mass\": -1", "-1,", "from 1e-12"},
         {"\"pinned\": true", "\"pined\": true", "\"pined\"", "did you mean \"pinned\"?"},
         {"\"stiffness\": 20", "\"stiffness\": 1e999", "1e999", ""},
         {"\"vertices\": [", "\"vertices\": [7, ", "7", "expected an object"},

@@ -51,6 +51,20 @@ TEST_CASE("scenes are listed without a display, and each is called as it is list
     refusal({"scenes", scratch.path("none")}, "there is no scene");
 }
 
+TEST_CASE("what files may say is printed", "[cli]") {
+    const std::string all = runShoal({"keys"}, noDisplay).out;
+    CHECK_THAT(all, Catch::Contains("scene.groups[].emitters[]: ") &&
+                        Catch::Contains("molecule.springs[]: ") && Catch::Contains("layout: "));
+    CHECK_THAT(runShoal({"keys", "gust"}, noDisplay).out,
+               Catch::Contains("type \"gust\"") && Catch::Contains("  frontSpeed: number, m/s; "));
+    CHECK_THAT(
+        runShoal({"keys", "softness"}, noDisplay).out,
+        Catch::Contains("scene.groups[].particle\n  softness: ") && Catch::Contains("Only with `blend`"));
+    const Outcome wrong = runShoal({"keys", "softnes"}, noDisplay);
+    CHECK(wrong.code == 2);
+    CHECK_THAT(wrong.err, Catch::Contains("did you mean \"softness\"?"));
+}
+
 TEST_CASE("a scene that ships goes by its name", "[cli]") {
     const Scratch scratch;
     const Surroundings elsewhere{.folder = scratch.path("")};

@@ -178,7 +178,8 @@ TEST_CASE("bad input: molecules", "[badInput]") {
     const Wrong wrong;
     CHECK_THAT(wrong.molecule("\"b\": 1", "\"b\": 7"), Contains("m.json:10:") && Contains("7"));
     CHECK_THAT(wrong.molecule("[[0, 1, 2]]", "[[0, 1, -2]]"), Contains("m.json:11:"));
-    CHECK_THAT(wrong.molecule("\"mass\": 0.01", "\"mass\": 0"), Contains("m.json:4:") && Contains("above 0"));
+    CHECK_THAT(wrong.molecule("\"mass\": 0.01", "\"mass\": 0"),
+               Contains("m.json:4:") && Contains("from 1e-12"));
     CHECK_THAT(wrong.molecule("\"restLength\"", "\"restLenght\""), Contains("did you mean \"restLength\"?"));
     CHECK_THAT(wrong.molecule("0.05]", "nan]"), Contains("m.json:8:"));
 }

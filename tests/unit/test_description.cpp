@@ -5,6 +5,8 @@
 
 #include "core/description_schema.h"
 #include "core/file.h"
+#include "molecule/rules.h"
+#include "scene/field_files/read_raw.h"
 #include "scene/scene.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -152,61 +154,81 @@ TEST_CASE("what is made in code is held to the same", "[description]") {
     CHECK_THAT(message(thing), Catch::Contains("within 1e+15 of 0"));
 }
 
-TEST_CASE("the schema of scenes says what the descriptions say", "[description]") {
-    const std::string file = SHOAL_SOURCE_DIR "/models/scene.schema.json";
-    const std::string schema = schemaFile(*descriptionOf<Scene>(), "scene.schema.json", "Shoal scene");
-    if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, schema);
-    CHECK((schema == readFile(file)));
+TEST_CASE("the schemas say what the descriptions say", "[description]") {
+    const auto compare = [](const std::string& folder, const std::string& name,
+                            const Description& description, const std::string& title) {
+        const std::string file = SHOAL_SOURCE_DIR "/" + folder + "/" + name;
+        const std::string schema = schemaFile(description, name, title);
+        if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, schema);
+        INFO(name);
+        CHECK((schema == readFile(file)));
+    };
+    compare("models", "scene.schema.json", *descriptionOf<Scene>(), "Shoal scene");
+    compare("models", "field.schema.json", *descriptionOf<RawLayout>(),
+            "Shoal layout of a .raw vector field");
+    compare("molecules", "molecule.schema.json", *descriptionOf<Molecule>(), "Shoal molecule");
 }
 
-TEST_CASE("the tables of the scene's format say what the descriptions say", "[description]") {
-    const std::vector<std::pair<std::string, const Description*>> tables = {
-        {"scene", descriptionOf<Scene>()},
-        {"solver", descriptionOf<SolverSettings>()},
-        {"contact", descriptionOf<ContactSettings>()},
-        {"camera", descriptionOf<Camera>()},
-        {"light", descriptionOf<Light>()},
-        {"sky", descriptionOf<Sky>()},
-        {"model", descriptionOf<Model>()},
-        {"group", descriptionOf<Group>()},
-        {"particle", descriptionOf<ParticleType>()},
-        {"color", descriptionOf<ColorKey>()},
-        {"image", descriptionOf<ParticleImage>()},
-        {"life", descriptionOf<Lifecycle>()},
-        {"dies", descriptionOf<Lifecycle>()->find("dies")->objects[0]},
-        {"emitter", descriptionOf<Emitter>()},
-        {"burst", descriptionOf<Burst>()},
-        {"colorBy", descriptionOf<ColorScale>()},
-        {"groupContact", descriptionOf<GroupContact>()},
-        {"release", descriptionOf<Release>()},
-        {"place", descriptionOf<Placement>()},
-        {"item", descriptionOf<Placement::Item>()},
-        {"select", descriptionOf<Selection>()},
-        {"field", descriptionOf<Field>()},
-        {"grid", descriptionOf<GridField>()},
-        {"waves", descriptionOf<WavesField>()},
-        {"train", descriptionOf<WaveTrain>()},
-        {"hurricane", descriptionOf<HurricaneField>()},
-        {"force", descriptionOf<Force>()},
-        {"collider", descriptionOf<Collider>()},
-        {"heightField", descriptionOf<HeightFieldCollider>()},
-        {"distanceField", descriptionOf<DistanceFieldCollider>()},
-        {"path", descriptionOf<ColliderPath>()},
-        {"keyframe", descriptionOf<ColliderPath::Keyframe>()},
-        {"surfacePair", descriptionOf<SurfaceRule>()},
-        {"school", descriptionOf<School>()},
-        {"water", descriptionOf<Water>()}};
-    const std::string file = SHOAL_SOURCE_DIR "/docs/scene-format.md", committed = readFile(file);
+using Tables = std::vector<std::pair<std::string, const Description*>>;
+
+static void compareTables(const std::string& name, const Tables& tables) {
+    const std::string file = SHOAL_SOURCE_DIR "/docs/" + name, committed = readFile(file);
     std::string text = committed;
-    for (const auto& [name, description] : tables) {
-        INFO(name);
-        const std::string head = "<!-- keys: " + name + " -->\n";
+    for (const auto& [object, description] : tables) {
+        INFO(object);
+        const std::string head = "<!-- keys: " + object + " -->\n";
         const size_t begin = text.find(head), end = text.find("<!-- end -->", begin);
         REQUIRE((begin != std::string::npos && end != std::string::npos));
         text.replace(begin + head.size(), end - begin - head.size(), tableOf(*description));
     }
     if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, text);
     CHECK((text == committed));
+}
+
+TEST_CASE("the tables of the formats say what the descriptions say", "[description]") {
+    const Tables tables = {{"scene", descriptionOf<Scene>()},
+                           {"solver", descriptionOf<SolverSettings>()},
+                           {"contact", descriptionOf<ContactSettings>()},
+                           {"camera", descriptionOf<Camera>()},
+                           {"light", descriptionOf<Light>()},
+                           {"sky", descriptionOf<Sky>()},
+                           {"model", descriptionOf<Model>()},
+                           {"group", descriptionOf<Group>()},
+                           {"particle", descriptionOf<ParticleType>()},
+                           {"color", descriptionOf<ColorKey>()},
+                           {"image", descriptionOf<ParticleImage>()},
+                           {"life", descriptionOf<Lifecycle>()},
+                           {"dies", descriptionOf<Lifecycle>()->find("dies")->objects[0]},
+                           {"emitter", descriptionOf<Emitter>()},
+                           {"burst", descriptionOf<Burst>()},
+                           {"colorBy", descriptionOf<ColorScale>()},
+                           {"groupContact", descriptionOf<GroupContact>()},
+                           {"release", descriptionOf<Release>()},
+                           {"place", descriptionOf<Placement>()},
+                           {"item", descriptionOf<Placement::Item>()},
+                           {"select", descriptionOf<Selection>()},
+                           {"field", descriptionOf<Field>()},
+                           {"grid", descriptionOf<GridField>()},
+                           {"waves", descriptionOf<WavesField>()},
+                           {"train", descriptionOf<WaveTrain>()},
+                           {"hurricane", descriptionOf<HurricaneField>()},
+                           {"force", descriptionOf<Force>()},
+                           {"collider", descriptionOf<Collider>()},
+                           {"heightField", descriptionOf<HeightFieldCollider>()},
+                           {"distanceField", descriptionOf<DistanceFieldCollider>()},
+                           {"path", descriptionOf<ColliderPath>()},
+                           {"keyframe", descriptionOf<ColliderPath::Keyframe>()},
+                           {"surfacePair", descriptionOf<SurfaceRule>()},
+                           {"school", descriptionOf<School>()},
+                           {"water", descriptionOf<Water>()}};
+    compareTables("scene-format.md", tables);
+    compareTables("exchange.md", {{"layout", descriptionOf<RawLayout>()}});
+    compareTables("molecule-format.md", {{"molecule", descriptionOf<Molecule>()},
+                                         {"defaults", &describeDefaults()},
+                                         {"vertex", descriptionOf<Vertex>()},
+                                         {"spring", descriptionOf<Spring>()},
+                                         {"actuation", descriptionOf<Actuation>()},
+                                         {"material", descriptionOf<Material>()}});
 }
 
 TEST_CASE("tables of keys say type, default and meaning", "[description]") {

@@ -109,7 +109,7 @@ TEST_CASE(".vf needs bounds, and Unity's axes are left-handed", "[fieldFiles]") 
 TEST_CASE("raw numbers in every layout", "[fieldFiles]") {
     const std::vector<glm::dvec3> values = numbered();
     same(parseRaw(asFloatBytes(values), layout(), "w.raw"), values);
-    CHECK(layout().high == glm::dvec3(3, 2, 4));
+    CHECK(layout().bounds->high == glm::dvec3(3, 2, 4));
 
     std::string wide, big, half, planar, zFastest;
     for (const glm::dvec3& v : values)

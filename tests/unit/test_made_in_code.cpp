@@ -234,7 +234,7 @@ const MoleculeMistake moleculeMistakes[] = {
     {"'position': [1, 0, 0]", "'position': [1, 2e+06, 0]",
      [](Molecule& m) { m.vertices[1].position.y = 2e6; }},
     {"'mass': 2", "'mass': -2", [](Molecule& m) { m.vertices[1].mass = -2; }},
-    {"'mass': 2", "'mass': 1e13", [](Molecule& m) { m.vertices[1].mass = 1e13; }},
+    {"'mass': 2", "'mass': 1e+13", [](Molecule& m) { m.vertices[1].mass = 1e13; }},
     {"'uv': [0, 1]", "'uv': [0, 1e+07]", [](Molecule& m) { m.vertices[1].uv.y = 1e7; }},
     {"'b': 2, 'stiffness': 50", "'b': 3, 'stiffness': 50", [](Molecule& m) { m.springs[1].b = 3; }},
     {"'a': 0, 'b': 1", "'a': -1, 'b': 1", [](Molecule& m) { m.springs[0].a = -1; }},
@@ -242,7 +242,7 @@ const MoleculeMistake moleculeMistakes[] = {
     {"'a': 1, 'b': 2", "'a': 1, 'b': 0", [](Molecule& m) { m.springs[1].b = 0; }},
     {"'stiffness': 50, 'damping'", "'stiffness': -50, 'damping'",
      [](Molecule& m) { m.springs[0].stiffness = -50; }},
-    {"'damping': 0.1", "'damping': 1e16", [](Molecule& m) { m.springs[0].damping = 1e16; }},
+    {"'damping': 0.1", "'damping': 1e+16", [](Molecule& m) { m.springs[0].damping = 1e16; }},
     {"'restLength': 0.9", "'restLength': 1e-12", [](Molecule& m) { m.springs[0].restLength = 1e-12; }},
     {"{'position': [0, 1, 0]", "{'position': [1, 0, 0]",
      [](Molecule& m) {

@@ -1,41 +1,48 @@
 #include "scene/field_files/read_raw.h"
 
-#include "core/error.h"
+#include "core/description.h"
 #include "core/file.h"
-#include "core/json.h"
-#include "scene/json/reader.h"
+#include "core/file_format.h"
 
 namespace shoal {
+
+const Description& describe(const RawLayout*) {
+    using R = RawLayout;
+    static const auto rule = [](const R& layout, const Where& where) {
+        countCells(glm::dvec3(layout.resolution), where.at("resolution"));
+    };
+    static const Description it =
+        Describe<R>("layout", "How the numbers of a .raw vector field lie.")
+            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
+            .told("format", R"({"const": "shoal-field-1"})",
+                  {"`\"shoal-field-1\"`", "The format of the file and its version."})
+            .needed()
+            .key("resolution", &R::resolution,
+                 {"", "The number of cells along x, y and z, at most 2^24 in all."})
+            .needed()
+            .box(
+                "bounds", &R::bounds,
+                {"",
+                 "The outer faces of the outer cells, in the file's axes and units; required where the scene "
+                 "gives none."})
+            .word("encoding", &R::encoding, {"float16", "float32", "float64"},
+                  {"", "The type of the numbers."})
+            .word("byteOrder", &R::bigEndian, {"little", "big"}, {"", "The order of the bytes of a number."})
+            .word("components", &R::planar, {"interleaved", "planar"},
+                  {"", "Whether x, y and z of a cell stand together, or all x before all y before all z."})
+            .word("order", &R::zFastest, {"xFastest", "zFastest"}, {"", "Which way neighbouring cells lie."})
+            .key("skip", &R::skip, {"bytes", "What stands before the first number.", Range::atLeast(0)})
+            .rule(rule, R"({"properties": {"resolution": {"items": {"minimum": 1}}}})");
+    return it;
+}
 
 RawLayout parseRawLayout(const std::string& text, const std::string& file) {
     const JsonValue root = parseJson(text, file);
     JsonReader r(root, file);
-    int format = 0, encoding = 1, order = 0, components = 0, byteOrder = 0;
-    r.require("format");
-    r.choose("format", {"shoal-field-1"}, format);
+    needFormat(r, "shoal-field-1");
     RawLayout layout;
-    std::vector<int> resolution;
-    r.need("resolution", resolution);
-    if (resolution.size() != 3)
-        throw Error(r.at("resolution"), concat("expected three numbers, found ", resolution.size()));
-    layout.resolution = {resolution[0], resolution[1], resolution[2]};
-    countCells(glm::dvec3(layout.resolution), r.at("resolution"));
-    if (Box box; getBox(r, "bounds", box)) {
-        layout.low = box.low;
-        layout.high = box.high;
-    }
-    r.choose("encoding", {"float16", "float32", "float64"}, encoding);
-    r.choose("byteOrder", {"little", "big"}, byteOrder);
-    r.choose("components", {"interleaved", "planar"}, components);
-    r.choose("order", {"xFastest", "zFastest"}, order);
-    int skip = 0;
-    r.get("skip", skip, Range::atLeast(0));
+    describe(&layout).read(r, layout);
     r.finish();
-    layout.encoding = static_cast<NumberType>(encoding);
-    layout.bigEndian = byteOrder == 1;
-    layout.planar = components == 1;
-    layout.zFastest = order == 1;
-    layout.skip = size_t(skip);
     return layout;
 }
 
@@ -45,15 +52,16 @@ RawLayout readRawLayout(const std::string& file) {
 
 FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::string& file) {
     const Location where{file, 0, 0, {}};
-    FileGrid grid{layout.resolution, layout.low, layout.high, {}};
+    const Box bounds = layout.bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
+    FileGrid grid{layout.resolution, bounds.low, bounds.high, {}};
     const glm::ivec3 size = layout.resolution;
     const size_t cells = countCells(glm::dvec3(size), where);
-    const size_t expected = layout.skip + 3 * cells * bytesOf(layout.encoding);
+    const size_t expected = size_t(layout.skip) + 3 * cells * bytesOf(layout.encoding);
     if (bytes.size() != expected)
         throw Error(where, concat("the layout of ", size.x, " x ", size.y, " x ", size.z, " cells takes ",
                                   expected, " bytes, found ", bytes.size()));
     grid.values.resize(cells);
-    const auto numbers = std::as_bytes(std::span(bytes).subspan(layout.skip));
+    const auto numbers = std::as_bytes(std::span(bytes).subspan(size_t(layout.skip)));
     if (!layout.planar && !layout.zFastest) {
         takeNumbers(numbers, layout.encoding, layout.bigEndian, asFloats(grid.values));
         return grid;

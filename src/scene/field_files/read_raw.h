@@ -1,21 +1,27 @@
 // Vector fields as raw numbers, with a JSON file that says how they lie ("shoal-field-1", docs/exchange.md).
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "core/box.h"
 #include "scene/field_files/field_file.h"
 
 namespace shoal {
 
+class Description;
+
 struct RawLayout {
     glm::ivec3 resolution{0};
-    glm::dvec3 low{0}, high{0};  // both 0: not given
+    std::optional<Box> bounds;
     NumberType encoding = NumberType::float32;
     bool bigEndian = false;
     bool planar = false;    // all x, then all y, then all z; else x, y, z of each cell
     bool zFastest = false;  // cells: z fastest, then y, then x
-    size_t skip = 0;        // bytes before the first number
+    int skip = 0;           // bytes before the first number
 };
+
+const Description& describe(const RawLayout*);
 
 // Error, located: no such file, not JSON, a key missing or not known, a resolution below 1 or too large.
 RawLayout readRawLayout(const std::string& file);

@@ -160,9 +160,8 @@ void derive(Group& group, const Where& where) {
 }
 
 void checkGroup(const Group& group, const Where& where) {
-    Molecule molecule = group.molecule;
-    if (group.particle) molecule.material = Material();  // follows from the type, whose colours may glow
-    checkMolecule(molecule, where.in("molecule"));
+    // its file was held to the same; a particle's follows from the type, whose colours may glow
+    if (!where.given("molecule") && !group.particle) checkMolecule(group.molecule, where.in("molecule"));
     if (group.count != 0 || !group.life) {
         needWithin(where.at("count"), group.count, Range::between(1, maxGroupCount));
         checkItems(group.place, where.in("place"));

@@ -16,7 +16,7 @@ namespace shoal::window {
 
 namespace {
 
-// As in molecule_reader.cpp, less what no one means.
+// As in molecule_file.cpp, less what no one means.
 constexpr Limit place{-1e4, 1e4}, massLimit{1e-9, 1e6}, stiffnessLimit{0, 1e9}, dampingLimit{0, 1e6},
     lengthLimit{1e-6, 1e4}, amplitudeLimit{0, 0.9}, frequencyLimit{0, 100}, phaseLimit{-6.2831853, 6.2831853};
 

@@ -1,0 +1,449 @@
+// What a molecule file says: its keys, their limits, and the rules between them. What is refused here would
+// have no meaning or break a solver; what is merely unlikely to be meant is a warning of check().
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "core/description_schema.h"
+#include "core/file.h"
+#include "core/file_format.h"
+#include "molecule/molecule_file.h"
+#include "molecule/molecule_json.h"
+#include "molecule/rules.h"
+#include "molecule/skin_file.h"
+
+namespace shoal {
+
+namespace {
+
+constexpr size_t mostBytes = size_t{1} << 28;
+constexpr double leastLength = 1e-9;  // m, below which two vertices stand in one place
+constexpr double anySize = std::numeric_limits<double>::infinity();  // these limits are a molecule's own
+const Range share = Range::between(0, 1), coordinateLimits = Range::between(-maxCoordinate, maxCoordinate);
+const Range massLimits = Range::between(1e-12, 1e12);     // kg
+const Range coefficientLimits = Range::between(0, 1e15);  // N/m, and N s/m
+
+// ---- Values of elements that do not give their own
+
+// The value that most elements share, when at least two do.
+class Common {
+  public:
+    void count(double value) { ++counts_[value]; }
+    std::optional<double> value() const {
+        std::optional<double> best;
+        int most = 1;
+        for (const auto& [value, count] : counts_) {
+            if (count <= most) continue;
+            best = value;
+            most = count;
+        }
+        return best;
+    }
+
+  private:
+    std::map<double, int> counts_;
+};
+
+struct Defaults {
+    std::optional<double> mass, stiffness, damping;
+    bool spelled = false;  // every element says its own
+
+    Defaults() = default;
+    Defaults(const Molecule& molecule, bool all) : spelled(all) {
+        if (all) return;
+        Common masses, stiffnesses, dampings;
+        for (const Vertex& vertex : molecule.vertices)
+            masses.count(vertex.mass);
+        for (const Spring& spring : molecule.springs) {
+            stiffnesses.count(spring.stiffness);
+            dampings.count(spring.damping);
+        }
+        mass = masses.value();
+        stiffness = stiffnesses.value();
+        damping = dampings.value();
+    }
+};
+
+const Description& describe(const Defaults*) {
+    static const Description it =
+        Describe<Defaults>("defaults", "Values of elements that do not give their own.")
+            .key("mass", &Defaults::mass, {"kg", "The mass of a vertex.", massLimits})
+            .key("stiffness", &Defaults::stiffness, {"N/m", "The stiffness of a spring.", coefficientLimits})
+            .key("damping", &Defaults::damping,
+                 {"N s/m", "The damping of a spring, else 0.", coefficientLimits});
+    return it;
+}
+
+// The element's own value, else the default, else an error that names both ways to give it.
+void ownOrDefault(JsonReader& r, const char* key, Range range, const std::optional<double>& fallback,
+                  double& out) {
+    if (r.get(key, out, range)) return;
+    if (!fallback)
+        throw Error(r.here(), concat("missing key \"", key, "\" (give it here or in \"defaults\")"));
+    out = *fallback;
+}
+
+JsonValue unlessDefault(double value, const std::optional<double>& fallback) {
+    return value == fallback ? JsonValue() : JsonValue::makeNumber(value);
+}
+
+const Defaults& defaultsOf(const void* context) {
+    return *static_cast<const Defaults*>(context);
+}
+
+void readDefaults(JsonReader& root, Molecule&, Defaults* defaults) {
+    auto r = root.object("defaults");
+    if (!r) return;
+    describe(defaults).read(*r, *defaults);
+    r->finish();
+}
+
+JsonValue writeDefaults(const Molecule&, const void* context) {
+    const Defaults& defaults = defaultsOf(context);
+    JsonValue out = describe(&defaults).write(defaults);
+    return out.members.empty() ? JsonValue() : out;
+}
+
+// ---- Triangles
+
+bool isVertex(int index, const Molecule& molecule) {
+    return index >= 0 && size_t(index) < molecule.vertices.size();
+}
+
+void readTriangles(JsonReader& root, Molecule& molecule, Defaults*) {
+    std::vector<glm::ivec3> triples;
+    if (!root.get("triangles", triples)) return;
+    needAtMost(root, "triangles", triples.size(), maxMoleculeTriangles);
+    const JsonValue& array = *root.raw("triangles");
+    for (size_t t = 0; t < triples.size(); ++t) {
+        const glm::ivec3 triple = triples[t];
+        const JsonValue& item = array.items[t];
+        const std::string path = concat(root.path(), ".triangles[", t, "]");
+        for (int i = 0; i < 3; ++i) {
+            const JsonValue& corner = item.items[size_t(i)];
+            checkIndex(triple[i], molecule,
+                       {root.file(), corner.line, corner.column, concat(path, "[", i, "]")});
+        }
+        const Location here{root.file(), item.line, item.column, path};
+        const Triangle triangle{triple.x, triple.y, triple.z};
+        checkCorners(triangle, here);
+        molecule.triangles.push_back(triangle);
+        molecule.places.triangles.push_back(here);
+    }
+}
+
+JsonValue writeTriangles(const Molecule& molecule, const void*) {
+    JsonValue out = JsonValue::makeArray();
+    for (const Triangle& t : molecule.triangles)
+        out.items.push_back(JsonValue::makeVector(glm::dvec3(t.a, t.b, t.c)));
+    return molecule.triangles.empty() ? JsonValue() : out;
+}
+
+// ---- Rules
+
+void checkEnds(const Spring& spring, const Molecule& molecule, const Where& where) {
+    if (!isVertex(spring.a, molecule)) checkIndex(spring.a, molecule, where.at("a"));
+    if (!isVertex(spring.b, molecule)) checkIndex(spring.b, molecule, where.at("b"));
+    if (spring.a == spring.b)
+        throw Error(where.at("b"),
+                    concat("a spring needs two different vertices, found ", spring.a, " twice"));
+}
+
+void checkLength(const Spring& spring, const Molecule& molecule, const Where& where) {
+    if (molecule.restLength(spring) < leastLength)
+        throw Error(where.here(), concat("this spring has no length: vertices ", spring.a, " and ", spring.b,
+                                         " stand in the same place (move one, or give a restLength)"));
+}
+
+// `seen`: the ends of the springs before.
+void checkNew(const Spring& spring, std::set<std::pair<int, int>>& seen, const Where& where) {
+    if (!seen.insert(std::minmax(spring.a, spring.b)).second)
+        throw Error(where.here(), concat("a spring between vertices ", spring.a, " and ", spring.b,
+                                         " exists already: add up their stiffness instead"));
+}
+
+void checkParts(const Molecule& molecule, const Where& where) {
+    if (molecule.vertices.empty())
+        throw Error(where.at("vertices"), "expected at least one vertex, found none");
+    needAtMost(where, "vertices", molecule.vertices.size(), maxMoleculeVertices);
+    needAtMost(where, "springs", molecule.springs.size(), maxMoleculeSprings);
+    needAtMost(where, "triangles", molecule.triangles.size(), maxMoleculeTriangles);
+    std::set<std::pair<int, int>> seen;
+    for (size_t i = 0; i < molecule.springs.size(); ++i) {
+        const Where here = where.in("springs", i);
+        checkEnds(molecule.springs[i], molecule, here);
+        checkLength(molecule.springs[i], molecule, here);
+        checkNew(molecule.springs[i], seen, here);
+    }
+    for (size_t i = 0; i < molecule.triangles.size(); ++i) {
+        const Triangle& t = molecule.triangles[i];
+        for (const int corner : {t.a, t.b, t.c})
+            if (!isVertex(corner, molecule)) checkIndex(corner, molecule, where.in("triangles", i).here());
+        if (t.a == t.b || t.b == t.c || t.c == t.a) checkCorners(t, where.in("triangles", i).here());
+    }
+    checkSkin(molecule, where.in("skin"));
+    if (molecule.material.texture.find('\0') != std::string::npos)
+        throw Error(where.in("material").at("texture"), "expected a file name, found a zero byte in it");
+}
+
+// Where each element stands in the file.
+void findPlaces(Molecule& molecule, const Where& where) {
+    for (size_t i = 0; i < molecule.vertices.size(); ++i)
+        molecule.places.vertices.push_back(where.in("vertices", i).here());
+    for (size_t i = 0; i < molecule.springs.size(); ++i)
+        molecule.places.springs.push_back(where.in("springs", i).here());
+}
+
+}  // namespace
+
+// ---- Keys
+
+const Description& describe(const Vertex*) {
+    static const auto readMass = [](JsonReader& r, Vertex& vertex, Defaults& defaults) {
+        ownOrDefault(r, "mass", massLimits, defaults.mass, vertex.mass);
+    };
+    static const auto writeMass = [](const Vertex& vertex, const void* context) {
+        return unlessDefault(vertex.mass, defaultsOf(context).mass);
+    };
+    static const Description it =
+        Describe<Vertex>("vertex", "A point with a mass.")
+            .key("position", &Vertex::position,
+                 {"m",
+                  "Where it is in the rest shape; placement turns and scales it about [0, 0, 0], with +Y "
+                  "along the axis of the place.",
+                  coordinateLimits})
+            .needed()
+            .key("uv", &Vertex::uv,
+                 {"", "Its texture coordinates, [0, 0] at the lower left.", coordinateLimits})
+            .key("mass", &Vertex::mass, {"kg", "Its mass.", massLimits})
+            .usually("from `defaults`")
+            .reads<Defaults>(readMass)
+            .writes(writeMass)
+            .key("pinned", &Vertex::pinned,
+                 {"", "Whether it is held where it was placed, until the scene releases it."});
+    return it;
+}
+
+const Description& describe(const Actuation*) {
+    using A = Actuation;
+    static const Description it =
+        Describe<A>("actuation", "A muscle: L(t) = L (1 + amplitude sin(2π frequency t + phase)).")
+            .key("amplitude", &A::amplitude,
+                 {"", "The share of the rest length by which it swings.", Range::between(0, 0.99)})
+            .needed()
+            .key("frequency", &A::frequency, {"Hz", "How often it swings.", Range::between(0, mostFrequency)})
+            .needed()
+            .key("phase", &A::phase,
+                 {"rad", "Where in the swing it begins; a group's `phaseSpread` adds to it.",
+                  coordinateLimits});
+    return it;
+}
+
+const Description& describe(const Spring*) {
+    static const auto readStiffness = [](JsonReader& r, Spring& spring, Defaults& defaults) {
+        ownOrDefault(r, "stiffness", coefficientLimits, defaults.stiffness, spring.stiffness);
+    };
+    static const auto readDamping = [](JsonReader& r, Spring& spring, Defaults& defaults) {
+        ownOrDefault(r, "damping", coefficientLimits, defaults.damping.value_or(0), spring.damping);
+    };
+    static const auto writeStiffness = [](const Spring& spring, const void* context) {
+        return unlessDefault(spring.stiffness, defaultsOf(context).stiffness);
+    };
+    static const auto writeDamping = [](const Spring& spring, const void* context) {
+        const Defaults& defaults = defaultsOf(context);
+        if (defaults.spelled) return JsonValue::makeNumber(spring.damping);
+        return unlessDefault(spring.damping, defaults.damping.value_or(0));
+    };
+    static const Description it =
+        Describe<Spring>("spring", "A spring between two vertices, one a pair.")
+            .key("a", &Spring::a, {"", "The index of the vertex at one end."})
+            .needed()
+            .key("b", &Spring::b, {"", "The index of the vertex at the other end."})
+            .needed()
+            .key("stiffness", &Spring::stiffness, {"N/m", "Its stiffness.", coefficientLimits})
+            .usually("from `defaults`")
+            .reads<Defaults>(readStiffness)
+            .writes(writeStiffness)
+            .key("damping", &Spring::damping, {"N s/m", "Its damping, along the spring.", coefficientLimits})
+            .usually("from `defaults`, else 0")
+            .reads<Defaults>(readDamping)
+            .writes(writeDamping)
+            .key("restLength", &Spring::restLength,
+                 {"m",
+                  "Its rest length; another one than in the rest shape makes the molecule start under "
+                  "tension.",
+                  Range::between(leastLength, maxCoordinate)})
+            .usually("the distance in the rest shape")
+            .key("actuation", &Spring::actuation, {"", "A muscle: its rest length swings."})
+            .rule([](const Spring&, const Where&) {},
+                  R"({"properties": {"a": {"minimum": 0}, "b": {"minimum": 0}}})");
+    return it;
+}
+
+const Description& describe(const Material*) {
+    using M = Material;
+    static const auto writeColor = [](const M& material, const void*) {
+        return JsonValue::makeVector(material.color);
+    };
+    const std::string order = "is of the blend alpha: only what has it needs an order";
+    static const Description it =
+        Describe<M>("material", "How a molecule looks.")
+            .color("color", &M::color, {"", "Its colour, which multiplies the texture.", share})
+            .writes(writeColor)
+            .color(
+                "secondColor", &M::secondColor,
+                {"", "Instances vary between the colour and this one at random, most near the first.", share})
+            .key("texture", &M::texture,
+                 {"the name of a PNG",
+                  "The texture, from the molecule file's folder; its alpha cuts the shape out."})
+            .key("alphaCut", &M::alphaCut,
+                 {"", "Where the texture's alpha is lower, nothing is drawn.", share})
+            .key("translucency", &M::translucency,
+                 {"", "The share of the light that shines through from behind.", share})
+            .key("roughness", &M::roughness, {"", "How dull it is.", share})
+            .key(
+                "metallic", &M::metallic,
+                {"", "The share of a mirror, tinted by the colour: silver where the colour is light.", share})
+            .key("pointSize", &M::pointSize,
+                 {"m", "The diameter of the dots of a molecule without triangles.",
+                  Range{0, maxCoordinate, true}})
+            .word("blend", &M::blend, blendWords(),
+                  {"",
+                   "How it is laid over what lies behind: with its opacity, added to it, or as a filter of "
+                   "its colour."})
+            .key("opacity", &M::opacity, {"", "How much it covers.", share})
+            .only("blend", {"alpha", "additive", "multiplicative"},
+                  "needs a blend: alpha, additive or multiplicative")
+            .word("sort", &M::sort, sortWords(),
+                  {"",
+                   "Whether molecules are drawn as they are numbered, sorted from back to front in every "
+                   "frame, or sorted a little in every frame."})
+            .only("blend", {"alpha"}, order)
+            .key("spreadFrames", &M::spreadFrames,
+                 {"", "Over how many frames one sort is spread.", Range::between(1, mostSpreadFrames)})
+            .only("blend", {"alpha"}, order)
+            .only("sort", {"spread"}, "is of the sort spread");
+    return it;
+}
+
+static const Description& describeMolecule() {
+    using M = Molecule;
+    static const auto readSkinOf = [](JsonReader& r, M& molecule, void*) { readSkin(r, molecule); };
+    static const auto writeSkinOf = [](const M& molecule, const void*) {
+        return molecule.skin.vertices.empty() ? JsonValue() : skinJson(molecule.skin);
+    };
+    static const auto writeMaterial = [](const M& molecule, const void*) {
+        return describe(&molecule.material).write(molecule.material);
+    };
+    static const char* const triples = R"({"type": "array", "maxItems": 1048576, "items":
+        {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}})";
+    static const Description it =
+        Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
+            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
+            .told("format", R"({"const": "shoal-molecule-1"})",
+                  {"`\"shoal-molecule-1\"`", "The format of the file and its version."})
+            .needed()
+            .key("name", &M::name, {"", "Its name, and that of groups that have none."})
+            .byHand<Defaults>(
+                "defaults", writeJson(schemaOf(describe(static_cast<const Defaults*>(nullptr)))),
+                {"object", "Values of elements that do not give their own."}, readDefaults, writeDefaults)
+            .key("vertices", &M::vertices, {"", "Its vertices, 1 to 65,536."})
+            .needed()
+            .key("springs", &M::springs, {"", "Its springs, at most 1,048,576."})
+            .byHand<Defaults>("triangles", triples,
+                              {"list of [a, b, c]",
+                               "Three different vertices each, anticlockwise seen from the front, at most "
+                               "1,048,576. They are drawn, and give normals and directional drag."},
+                              readTriangles, writeTriangles)
+            .byHand("skin", skinSchema,
+                    {"object",
+                     "A finer mesh that is drawn instead of the triangles and moves with the vertices."},
+                    readSkinOf, writeSkinOf)
+            .key("material", &M::material, {"", "How it looks."})
+            .writes(writeMaterial)
+            .derive(findPlaces)
+            .rule(checkParts, R"({"properties": {"vertices": {"minItems": 1, "maxItems": 65536},
+                                                 "springs": {"maxItems": 1048576}}})");
+    return it;
+}
+
+const Description& describe(const Molecule*) {
+    return describeMolecule();
+}
+
+const Description& describeDefaults() {
+    return describe(static_cast<const Defaults*>(nullptr));
+}
+
+// ---- What others check by the same rules
+
+void checkIndex(int index, const Molecule& molecule, const Location& where) {
+    const size_t count = molecule.vertices.size();
+    if (!isVertex(index, molecule))
+        throw Error(where, concat("vertex index ", index, " is out of range: the molecule has ", count,
+                                  count == 1 ? " vertex" : " vertices"));
+}
+
+void checkCorners(const Triangle& t, const Location& where) {
+    if (t.a == t.b || t.b == t.c || t.c == t.a)
+        throw Error(where,
+                    concat("a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ", t.c));
+}
+
+void checkMolecule(const Molecule& molecule, const Where& where) {
+    describe(&molecule).check(molecule, where, anySize);
+}
+
+// ---- Files
+
+Molecule parseMolecule(const std::string& text, const std::string& file) {
+    const JsonValue value = parseJson(text, file);
+    JsonReader root(value, file);
+    needFormat(root, "shoal-molecule-1");
+    Molecule molecule;
+    molecule.file = file;
+    root.get("comment", molecule.comment);
+    Defaults defaults;
+    describe(&molecule).read(root, molecule, &defaults);
+    root.finish();
+    return molecule;
+}
+
+Image readTexture(const Molecule& molecule) {
+    const std::filesystem::path file =
+        std::filesystem::path(molecule.file).parent_path() / molecule.material.texture;
+    try {
+        return readPng(file);
+    } catch (const Error& error) {
+        throw Error(Location{molecule.file, 0, 0, "$.material.texture"},
+                    concat("the texture \"", file.string(), "\": ", error.message()));
+    }
+}
+
+Molecule readMolecule(const std::string& file) {
+    return parseMolecule(readFile(file, mostBytes), file);
+}
+
+JsonValue toJson(const Molecule& molecule, bool spelled) {
+    const Defaults defaults(molecule, spelled);
+    JsonValue out = JsonValue::makeObject();
+    out.add("format", JsonValue::makeString("shoal-molecule-1"));
+    for (JsonMember& member : describe(&molecule).write(molecule, &defaults).members) {
+        const bool named = member.first == "name";
+        if (!named && !molecule.comment.empty() && !out.find("comment"))
+            out.add("comment", JsonValue::makeString(molecule.comment));
+        out.members.push_back(std::move(member));
+    }
+    return out;
+}
+
+std::string writeMolecule(const Molecule& molecule, const std::string& originalText) {
+    JsonValue root = toJson(molecule, false);
+    if (originalText.empty()) return writeJson(root);
+    return writeJson(inOrderOf(parseJson(originalText, molecule.file), std::move(root)));
+}
+
+}  // namespace shoal
