@@ -7,6 +7,21 @@
 
 namespace shoal {
 
+const char* const skinSchema = R"({"type": "object", "additionalProperties": false,
+    "required": ["weights", "triangles"], "properties": {
+        "comment": {"$ref": "#/$defs/comment"},
+        "weights": {"description": "For each vertex of the skin: a vertex of the molecule and its weight, up to 8 times; the weights add up to 1.",
+            "type": "array", "maxItems": 262144,
+            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 16}},
+        "uvs": {"description": "Texture coordinates, as many; all (0, 0) when absent.",
+            "type": "array", "maxItems": 262144,
+            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}},
+        "offsets": {"description": "How far each stands off along the molecule's normal, as many; all 0 when absent. [m]",
+            "type": "array", "maxItems": 262144, "items": {"type": "number"}},
+        "triangles": {"description": "Three vertices of the skin each, anticlockwise seen from the front.",
+            "type": "array", "minItems": 1, "maxItems": 524288,
+            "items": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}}}})";
+
 namespace {
 
 constexpr double mostValue = 1e6;  // of weights, uvs and offsets

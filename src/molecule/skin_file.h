@@ -16,21 +16,7 @@ namespace shoal {
 constexpr int maxSkinVertices = 1 << 18;
 constexpr int maxSkinTriangles = 1 << 19;
 
-// The JSON Schema of its value.
-inline constexpr const char* skinSchema = R"({"type": "object", "additionalProperties": false,
-    "required": ["weights", "triangles"], "properties": {
-        "comment": {"$ref": "#/$defs/comment"},
-        "weights": {"description": "For each vertex of the skin: a vertex of the molecule and its weight, up to 8 times; the weights add up to 1.",
-            "type": "array", "maxItems": 262144,
-            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 16}},
-        "uvs": {"description": "Texture coordinates, as many; all (0, 0) when absent.",
-            "type": "array", "maxItems": 262144,
-            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}},
-        "offsets": {"description": "How far each stands off along the molecule's normal, as many; all 0 when absent. [m]",
-            "type": "array", "maxItems": 262144, "items": {"type": "number"}},
-        "triangles": {"description": "Three vertices of the skin each, anticlockwise seen from the front.",
-            "type": "array", "minItems": 1, "maxItems": 524288,
-            "items": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}}}})";
+extern const char* const skinSchema;  // the JSON Schema of its value
 
 // After the molecule's vertices and triangles. Error: located.
 void readSkin(JsonReader& root, Molecule& molecule);
