@@ -129,7 +129,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     if (location_ >= 0) *reinterpret_cast<Location*>(static_cast<char*>(out) + location_) = reader.here();
     for (const Key& key : keys_) {
         if (const Condition* condition = unmet(key, out)) {
-            if (reader.raw(key.name))
+            if (reader.has(key.name))
                 throw Error(reader.at(key.name), concat("\"", key.name, "\" ", condition->because));
             continue;
         }

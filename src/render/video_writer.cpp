@@ -89,10 +89,12 @@ void VideoWriter::start(double frameRate) {
     // In memory: what ffmpeg has to say about a full disk must not need that disk.
     log_ = memfd_create("ffmpeg's log", MFD_CLOEXEC);
     const EndingSignalsHeld held;
+    const pid_t parent = getpid();
     process_ = log_ >= 0 ? fork() : -1;
     if (process_ == 0) {
         // Only calls that are safe between fork and exec.
-        prctl(PR_SET_PDEATHSIG, SIGKILL);  // its file is removed with us
+        prctl(PR_SET_PDEATHSIG, SIGKILL);     // its file is removed with us
+        if (getppid() != parent) _exit(127);  // who has died before that sends no signal
         dup2(ends[0], STDIN_FILENO);
         dup2(log_, STDOUT_FILENO);
         dup2(log_, STDERR_FILENO);

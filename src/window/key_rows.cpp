@@ -16,17 +16,20 @@ using Kind = Key::Kind;
 constexpr double degrees = 57.29577951308232;
 
 // Angles are shown in degrees.
-Row rowOf(const std::string& label, const Key& key, std::string& format, bool steep) {
+Row rowOf(const std::string& label, const Key& key, std::string& format, const Slider& slider) {
     Row row{label.c_str(), key.says.sentence.c_str()};
     const std::string& unit = key.says.unit;
     const bool angle = unit.starts_with("rad");
     if (angle) row.scale = degrees;
-    const char* digits = key.kind == Kind::whole ? "%d" : "%.5g";
+    std::string digits = key.kind == Kind::whole ? "%d" : "%.5g";
+    // ImGui takes the decimals for the smallest number of a logarithmic slider that begins at 0.
+    if (slider.steep && slider.least <= 0 && key.kind != Kind::whole)
+        digits = concat("%.", std::clamp(4 - int(std::floor(std::log10(slider.most))), 1, 9), "f");
     format = angle          ? concat(digits, "\xC2\xB0", unit.substr(3))
              : unit.empty() ? digits
                             : concat(digits, " ", unit);
     row.format = format.c_str();
-    row.steep = steep;
+    row.steep = slider.steep;
     row.free = key.kind == Kind::ends;
     return row;
 }
@@ -180,7 +183,7 @@ bool KeyRows::drawKey(const Key& key, void* object) {
 
 bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, const Slider& slider) {
     std::string format;
-    const Row row = rowOf(label, key, format, slider.steep);
+    const Row row = rowOf(label, key, format, slider);
     const Limit limit{slider.least, slider.most};
     switch (key.kind) {
     case Kind::number: {

@@ -147,7 +147,7 @@ bool LifeEditor::drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life)
         if (from == From::surface) return !scene.models.empty();
         return from != From::death || !dying.empty();
     };
-    beginRow({"from", "What it bears from."});
+    beginRow({"from", "Where they are born, or from what."});
     bool changed = false;
     if (!ImGui::BeginCombo("##from", name(emitter.from))) return false;
     for (int kind = 0; kind < kinds; ++kind) {

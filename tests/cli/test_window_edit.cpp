@@ -54,9 +54,9 @@ const JsonValue& emittersIn(const JsonValue& root) {
     return member(member(root, "groups").items[0], "emitters");
 }
 
-// In the right panel, with one group and one emitter, whose rate is the first slider.
+// In the right panel, with one group and one emitter.
 constexpr const char* places =
-    "rate() { drag 700 159 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
+    "rate() { drag 700 225 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
     "addEmitter() { press 580 455; }\nabandon() { press 390 329; }\n";
 
 }  // namespace

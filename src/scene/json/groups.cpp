@@ -180,7 +180,7 @@ void checkGroup(const Group& group, const Where& where) {
 const Description& describeGroup() {
     using G = Group;
     static const auto readMoleculeOf = [](JsonReader& r, G& group, void*) {
-        if (r.has("molecule")) group.molecule = readMolecule(needFile(r, "molecule"));
+        if (r.has("molecule") && !r.has("particle")) group.molecule = readMolecule(needFile(r, "molecule"));
     };
     static const Description it =
         Describe<G>("group", "Molecules or particles of one kind.")
@@ -209,8 +209,7 @@ const Description& describeGroup() {
                     readDrag)
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
-            .only("held", {"true"},
-                  "has nothing to release: \"held\" is false, so pins are free from the start")
+            .only("held", {"true"}, "means nothing: \"held\" is false, so pins are free from the start")
             .key("stiffness", &G::stiffness,
                  {"", "What multiplies the stiffness of every spring.", Range::atLeast(0)})
             .key("damping", &G::damping,
