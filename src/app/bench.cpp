@@ -55,7 +55,7 @@ class BulletRunner : public BenchRunner {
 // Everything is asked for by its name: cases, and these beside them.
 constexpr const char *errors = "errors", *starts = "start-up", *passes = "passes";
 
-// What this run is to do.
+// The cases and measurements that this run was asked for.
 struct Wanted {
     std::vector<std::vector<BenchCase>> groups;
     bool errors = false, starts = false, passes = false;

@@ -1,4 +1,4 @@
-// What `shoal bench collide` says: tables, or JSON.
+// The report of `shoal bench collide`, as tables or JSON.
 #pragma once
 
 #include <optional>

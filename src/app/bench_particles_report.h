@@ -1,4 +1,4 @@
-// What `shoal bench particles` says: tables, or JSON.
+// The report of `shoal bench particles`, as tables or JSON.
 #pragma once
 
 #include <string>

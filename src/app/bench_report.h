@@ -1,4 +1,4 @@
-// What `shoal bench` says: a table and plain sentences, or JSON.
+// The report of `shoal bench`, as a table and plain sentences, or JSON.
 #pragma once
 
 #include <string>

@@ -64,8 +64,8 @@ struct BulletBaseline::World {
     btDbvtBroadphase broadphase;
     btSequentialImpulseConstraintSolver solver;
     btSoftRigidDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
-    // Soft bodies meet convex shapes only, through a signed distance: no plane. That distance is found in
-    // floats by iteration, and fails with a box of kilometres.
+    // Soft bodies collide with convex shapes only, through a signed distance: no plane. That distance is
+    // found in floats by iteration, and fails with a box of kilometres.
     btBoxShape ground{btVector3(200, 50, 200)};
     btRigidBody groundBody{btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &ground)};
     btSoftBodyWorldInfo info;

@@ -1,8 +1,9 @@
-// What a general-purpose physics library makes of the same molecules: Bullet 3's soft bodies on one thread.
+// A baseline from a general-purpose physics library: the same molecules as soft bodies of Bullet 3 on one
+// thread.
 //
 // Bullet solves positions (one pass over the links a step), not forces: its stiffness is no spring constant.
-// It is a mark of speed only. Gravity, wind and drag are one linear part as ours; the ground is the top of a
-// box. Molecules do not meet each other.
+// It is a baseline of speed only. Gravity, wind and drag are one linear part as ours; the ground is the top
+// of a box. Molecules do not collide with each other.
 #pragma once
 
 #include <memory>

@@ -17,7 +17,7 @@ void Canvas::blend(int x, int y, const Color& color, float share) {
         pixel[i] = uint8_t(std::lround(glm::mix(float(pixel[i]), 255 * color[i], opacity)));
 }
 
-// What of a pixel lies within half the width of the line.
+// Blends each pixel by the share of it that lies within half the width of the line.
 void Canvas::line(glm::vec2 a, glm::vec2 b, float width, const Color& color) {
     const float half = width / 2;
     const glm::vec2 low = glm::min(a, b) - half - 1.0f, high = glm::max(a, b) + half + 1.0f, ab = b - a;

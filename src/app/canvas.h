@@ -11,7 +11,7 @@ namespace shoal::app {
 
 class Canvas {
   public:
-    // Of an image with four channels, part of it at `corner`; everything stays within the part.
+    // Draws on the part of `size` at `corner` of an image with four channels, and clips to that part.
     Canvas(Image& image, glm::ivec2 corner, glm::ivec2 size) : image_(&image), corner_(corner), size_(size) {}
 
     using Color = glm::vec4;  // as displayed, with opacity; each in [0, 1]

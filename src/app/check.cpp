@@ -33,8 +33,8 @@ bool isScene(const std::string& file) {
     return json.find("groups") != nullptr;
 }
 
-// Groups whose molecules are born lie in one storage block, which a context limits: what llvmpipe and many
-// GPUs have is not more than this.
+// Warns of groups with a life cycle that are larger than 128 MiB. Each lies in one storage block, whose size
+// a context limits; llvmpipe and many GPUs have no more than this.
 void warnOfCapacity(const Plan& plan, std::vector<Warning>& out) {
     constexpr size_t common = size_t{1} << 27;  // bytes
     for (const GroupPlan& group : plan.groups) {
@@ -93,7 +93,8 @@ Verdict checkMolecule(const std::string& file) {
     return out;
 }
 
-// What ships is as it should be: its comment says why, and a scene cannot mend it.
+// Whether the molecule ships. A scene's check leaves out its warnings: the scene cannot mend them, and the
+// molecule's own comment explains them.
 bool isShipped(const Molecule& molecule) {
     std::error_code ignored;
     return !molecule.file.empty() &&

@@ -16,7 +16,8 @@ constexpr size_t mostLookedAt = 2000;  // molecules of a group, vertices of a mo
 // eyes.
 constexpr double deepEnough = 1e-3;
 
-// Of what is scattered over a surface or a volume a few always land inside, and come out unseen.
+// The share of a group from which to warn. Some of the molecules that are scattered over a surface or a
+// volume always start inside a collider, and come out unseen.
 constexpr double fewInside = 0.05;
 
 glm::dvec3 positionOf(const GroupPlan& group, size_t molecule, size_t vertex) {

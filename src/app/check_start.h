@@ -1,4 +1,4 @@
-// What `shoal check` finds in how a scene starts: valid, but probably not what was meant.
+// The warnings of `shoal check` about how a scene starts: it is valid, but probably not what was meant.
 #pragma once
 
 #include <vector>

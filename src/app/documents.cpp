@@ -127,7 +127,7 @@ std::vector<std::string> optionsOf(const CLI::App& command) {
     return out;
 }
 
-// What may follow an option, as a case of "command option".
+// Adds the words that may follow an option, as a case of "command option".
 void addValues(std::string& out, const CLI::App& command, const std::string& name) {
     for (const CLI::Option* option : command.get_options()) {
         const std::string words = wordsOf(*option);
@@ -144,7 +144,7 @@ void addValues(std::string& out, const CLI::App& command, const std::string& nam
         addValues(out, *below, name + " " + below->get_name());
 }
 
-// What may stand where no option's value is due, as a case of the command.
+// Adds the words that may stand where no option's value is due, as a case of the command.
 void addWords(std::string& out, const CLI::App& command, const std::string& name) {
     std::vector<std::string> words = optionsOf(command);
     std::string scenes;

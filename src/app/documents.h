@@ -1,5 +1,5 @@
-// What is told of the command, by --help and beside it where it is installed: made from the declarations of
-// its options.
+// The command's documentation, made from the declarations of its options: --help, and the files that are
+// installed with it.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace shoal::app {
 
-// Of --help: an option's type behind its name, its default behind what it does.
+// Formats --help: an option's type follows its name, its default follows its description.
 std::shared_ptr<CLI::FormatterBase> helpFormat();
 
 // In the language of man (section 1).

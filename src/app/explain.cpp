@@ -9,7 +9,8 @@
 
 namespace shoal::app {
 
-// Of a context as it is nearly everywhere; what is not given is not asked of a driver. Only --error measures.
+// Explains for the default limits of a context (PathLimits), without asking a driver. Only --error makes a
+// context, to measure on it.
 int explainCommand(const Options& options) {
     Loaded loaded = load(options);
     std::optional<measure::Calibration> found;

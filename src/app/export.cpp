@@ -116,7 +116,7 @@ bool Exporter::asksFor(int frame) const {
     return !asksForLast() && (frame - first_) % options_.exportEvery.value_or(1) == 0;
 }
 
-// Of an index every one: that of a single frame is of no use.
+// An index gets every frame instead: that of a single one is of no use.
 bool Exporter::asksForLast() const {
     return !options_.exports.empty() && options_.exportFrames.empty() && !options_.exportEvery &&
            lowerExtension(options_.exports) != ".pvd";

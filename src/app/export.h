@@ -22,8 +22,8 @@ std::string exportName(const std::string& target, int frame, bool several, int l
 // The state of a run, frame by frame, as --export and what belongs to it say.
 class Exporter {
   public:
-    // Of the frames from `first`, of which `last` is the last one of the run. Error: cannot be written, or
-    // another run writes there.
+    // `first`, `last`: the first and the last frame of the run. Error: cannot be written, or another run
+    // writes there.
     Exporter(const Options& options, int first, int last);
     bool asksFor(int frame) const;
     bool asksForLast() const;  // whichever that is: a run may end early

@@ -15,7 +15,7 @@ namespace shoal::app {
 
 namespace {
 
-// What is written, in the order of the file.
+// The arrays that are written, in the order of the file.
 struct Tables {
     std::vector<double> points;
     std::vector<float> velocities, normals;

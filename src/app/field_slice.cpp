@@ -62,7 +62,7 @@ class SliceCanvas {
         return {(p[across_] - field_.grid.low[across_]) / pixel_ - 0.5, down / pixel_ - 0.5};
     }
 
-    // What is seen of distances sets the colours and the contours.
+    // Finds the range of distances on the slice, which sets the colours and the contours.
     void findRange() {
         double low = 0, high = 0;
         for (int y = 0; y < rows_; y += 4)

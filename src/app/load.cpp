@@ -1,4 +1,4 @@
-// What commands read, and where they may read it.
+// Loads the commands' scenes, and restricts what they may open (--sandbox).
 #include <filesystem>
 
 #include "app/commands.h"

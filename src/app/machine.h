@@ -1,4 +1,4 @@
-// What a report of times says of the machine.
+// The description of the machine in reports of times.
 #pragma once
 
 #include <string>

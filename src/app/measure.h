@@ -1,4 +1,4 @@
-// What the commands share that measure a scene.
+// Functions that the commands which measure a scene share.
 #pragma once
 
 #include "app/commands.h"
@@ -8,7 +8,7 @@
 
 namespace shoal::app {
 
-// What --error, --solver, --substeps and --field-sampling ask for.
+// Returns the options that --error, --solver, --substeps, --field-sampling and --duration ask for.
 measure::CalibrationOptions calibrationOptions(const Options& options);
 measure::AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context,
                                        gpu::ProgramCache& cache);

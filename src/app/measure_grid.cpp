@@ -60,7 +60,7 @@ void tellLeft(size_t index, size_t count, const ReportScene& scene, double secon
               << "; all that is left takes about " << roughly(secondsEach * double(count - index)) << "\n";
 }
 
-// What `measureScene` would write of itself.
+// Returns how this run would measure the scene, as its report would say.
 MeasuredWith withWhat(const Options& options, const ReportScene& scene, const AccuracyDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
     MeasuredWith out;
@@ -96,7 +96,7 @@ bool isMissing(const Options& options, const ReportScene& scene, const AccuracyD
     return !differs.empty();
 }
 
-// Those that are asked for and have no file yet, or one of another measurement.
+// Measures the scenes that are asked for and have no file yet, or one that was measured differently.
 void measureMissing(const Options& options, const std::vector<ReportScene>& all,
                     const AccuracyDevice& device) {
     std::vector<const ReportScene*> missing;
@@ -115,7 +115,7 @@ void measureMissing(const Options& options, const std::vector<ReportScene>& all,
     }
 }
 
-// Of the files: with --only, others may have been measured elsewhere.
+// Returns the heads of all files, each once: with --only, some may have been measured elsewhere.
 std::string headOf(const std::vector<Measured>& there) {
     std::vector<std::string> heads;
     for (const Measured& one : there) {

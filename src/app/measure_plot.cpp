@@ -18,7 +18,7 @@ namespace {
 // Colours that differ for the colour-blind as well [Okabe 2008], by the place in the table of solvers.
 constexpr const char* colors[] = {"#555555", "#56B4E9", "#0072B2", "#009E73",
                                   "#E69F00", "#D55E00", "#CC79A7", "#8A6FD1"};
-// Of the samplings: line style and marker (gnuplot's dash and point types).
+// Line style and marker of a field sampling (gnuplot's dash and point types).
 struct Stroke {
     int dash, marker;
 };
@@ -32,7 +32,7 @@ double nanoseconds(const AccuracyPoint& point) {
     return point.time.min * 1e9;
 }
 
-// What is beyond is no curve but a method at steps that mean nothing.
+// The axes leave out points of a larger relative error: their steps are too long to mean anything.
 constexpr double worstError = 2;
 
 struct Limits {

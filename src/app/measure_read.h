@@ -1,4 +1,4 @@
-// What `shoal measure --json` wrote, read again: so that a report goes on where it was ended.
+// Reads what `shoal measure --json` wrote, so that a report goes on where it was ended.
 #pragma once
 
 #include <optional>

@@ -225,7 +225,7 @@ const AccuracyPoint* chosenPoint(const MeasureReport& report) {
     return nullptr;
 }
 
-// Of which molecules an error is claimed.
+// Says how large the error is, and for which molecules that is claimed.
 static std::string sampleText(const Calibration& one) {
     const SampleError& s = one.sample;
     std::string out = concat("measured ", exponent(one.error), " RMS");

@@ -1,4 +1,4 @@
-// What `shoal measure` says: a table, JSON, CSV.
+// The report of `shoal measure`, as a table, JSON or CSV.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ JsonValue asJson(const MeasureReport& report);
 // A row a point; the first names the columns.
 std::string asCsv(const MeasureReport& report);
 
-// Of a calibration, also for `explain`; as JSON: measure/calibration_store.h.
+// A calibration as text, also for `explain`. measure/calibration_store.h writes it as JSON.
 std::string asText(const measure::Calibration& calibration);
 std::string oneLine(const measure::Calibration& calibration);
 

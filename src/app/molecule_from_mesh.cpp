@@ -60,7 +60,7 @@ MadeMolecule make(const std::string& file, const Mesh& mesh, const MoleculeOptio
     return made;
 }
 
-// What is read back is what is reported, and what was not meant to be lost would show.
+// Reads the written file back for the report, so that anything lost in writing would show.
 void write(const MoleculeOptions& options, MadeMolecule& made) {
     const std::string text = writeMolecule(made.molecule);
     made.molecule = parseMolecule(text, options.output);

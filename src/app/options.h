@@ -1,5 +1,5 @@
-// What the command line says. Every command takes the same common options, as far as they mean something to
-// it.
+// The options of the command line. Every command takes the same common options, as far as they mean
+// something to it.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace shoal::app {
 
-// What of a state's molecules becomes cells of a .vtp file.
+// Selects the parts of a state's molecules that become cells of a .vtp file.
 enum class ExportCells {
     surface,   // triangles, and vertices of groups that have none
     springs,   // springs, and vertices of groups that have none
@@ -62,7 +62,7 @@ struct Options : RunRequest {
     std::string screenshot;  // window: a picture of it after `frames`, then close
 
     // bench
-    std::string benchOf;  // "sort", "collide", "particles", or empty: the simulation's frames
+    std::string benchOf;  // "sort", "collide", "particles", "school", or empty: the simulation's frames
     bool quick = false;
     std::optional<double> seconds;  // of measuring, each group of cases
     std::string only;               // cases with this in their name
@@ -90,7 +90,7 @@ struct Options : RunRequest {
     MoleculeOptions molecule;
 };
 
-// What the command line asks for cannot be: exit code 2, where a run that fails has 1.
+// Thrown when the command line asks for something impossible: exit code 2, where a run that fails has 1.
 class WrongUse : public Error {
     using Error::Error;
 };

@@ -8,7 +8,7 @@ namespace shoal::app {
 
 namespace {
 
-// What `shoal bench` measures beside the simulation's frames, each in a file bench_<word>.cpp.
+// The benchmarks of `shoal bench` beside the simulation's frames, each in a file bench_<word>.cpp.
 const std::vector<std::string> benchWords = {"sort", "collide", "particles", "school"};
 
 std::string joined(const std::vector<std::string>& words, const char* between) {

@@ -34,7 +34,7 @@ void addBench(CLI::App& command, Options& options, Texts& texts);
 // Error: unknown; `option` is what it was given to. Nothing: auto.
 std::optional<SolverKind> solverNamed(const char* option, const std::string& word);
 
-// What was asked of `measure` or `bench`. Error: unknown words, or out of range.
+// Reads and checks the options of `measure` and `bench`. Error: unknown words, or out of range.
 void finishMeasure(const Texts& texts, Options& options);
 
 }  // namespace shoal::app

@@ -1,4 +1,4 @@
-// What `run --json` says about a run.
+// The report of `run --json` about a run.
 #pragma once
 
 #include <optional>
@@ -28,7 +28,7 @@ struct RunReport {
 };
 
 std::vector<GroupLives> livesOf(const Simulation& simulation);
-std::string text(const GroupLives& lives);  // "drops: 512 of 600 places taken, 2048 born, none lost"
+std::string text(const GroupLives& lives);  // "drops: 512 of 600 places taken, 2048 born"
 
 JsonValue asJson(const std::vector<gpu::PassTime>& passes);  // an array
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,

@@ -86,7 +86,7 @@ void checkFrames(const char* option, const std::vector<int>& frames, int first, 
     }
 }
 
-// What a run writes lies here.
+// Returns the folder of the files that a run writes.
 std::string outputFolder(const Options& options) {
     if (!options.save.empty()) return fs::path(options.save).parent_path().string();
     const std::string target = options.capture.empty() ? options.exports : options.capture;
@@ -243,7 +243,7 @@ class HeadlessRun {
     }
     std::string target() const { return pictures_ ? pictures_->target() : std::string(); }
 
-    // What was written, and where: "pictures: pictures/hello: 8, frame-00030.png to frame-00240.png".
+    // Prints what was written, and where: "pictures: pictures/hello, 8 pictures".
     void tellWritten() {
         if (drawn_ > 0) {
             std::cout << (isVideo(target()) ? "video: " : "pictures: ") << printable(target()) << ", "
@@ -262,12 +262,12 @@ class HeadlessRun {
         std::cout << "\n";
     }
 
-    // What frames leave in files beside pictures.
+    // Exports and saves the frame where that was asked for.
     void writeIfAsked(int frame) {
         if (exporter_->asksFor(frame)) note(exported_, exporter_->write(simulation_, loaded_.scene));
         if (contains(options_.saveFrames, frame)) save(frame);
     }
-    // What is asked of the last frame, which may be one before its time.
+    // Exports and saves the last frame where that was asked for; the run may have ended early.
     void writeLast() {
         if (exporter_->asksForLast()) note(exported_, exporter_->write(simulation_, loaded_.scene));
         if (options_.saveFrames.empty() && !options_.save.empty()) save(simulation_.frames());

@@ -21,7 +21,8 @@ using Eigen::VectorXd;
 constexpr double soft = 1e-6;    // eigenvalue by the largest
 constexpr double noHelp = 1e-7;  // of a pair to a motion of length 1
 
-// What a spring of stiffness 1 does to the mass-scaled motion u is the square of this row's product with u.
+// Returns the row r of a spring of stiffness 1, which adds (r . u)^2 to u^T K u for the mass-scaled motion u
+// and stiffness matrix K.
 VectorXd row(const Molecule& m, int a, int b) {
     VectorXd out = VectorXd::Zero(3 * Eigen::Index(m.vertices.size()));
     const Eigen::Vector3d n = direction(m, a, b);
@@ -45,8 +46,8 @@ MatrixXd softMotions(const Molecule& m) {
     return basisOf(found, 0.1);
 }
 
-// What is left of orthonormal motions when their combination `held` is resisted (a Householder reflection of
-// the coefficients takes it to the first column).
+// Removes from orthonormal motions their combination with the coefficients `held`, which is resisted: a
+// Householder reflection of the coefficients takes it to the first column, which is dropped.
 MatrixXd without(const MatrixXd& motions, VectorXd held) {
     held(0) += held(0) < 0 ? -held.norm() : held.norm();
     const VectorXd v = held.normalized();

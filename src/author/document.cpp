@@ -28,8 +28,8 @@ JsonValue listOf(const std::vector<int>& numbers) {
     return out;
 }
 
-// What an editor of the file kept, if it can still be understood. Its elements are those of the file as long
-// as that has not changed since.
+// Reads the draft that an editor of the file kept; nothing: it cannot be understood. Its elements are those
+// of the file as long as that has not changed since.
 std::optional<Draft> readKept(const std::string& text, const std::string& file, const std::string& fileText) {
     try {
         const JsonValue root = parseJson(text, file);
@@ -122,8 +122,8 @@ bool Document::redo() {
     return true;
 }
 
-// The same molecule as its file has it now. What undo holds came from the file before: its elements are new
-// to this one.
+// Starts again from the molecule as its file has it now. The drafts of undo and redo came from the earlier
+// file: their elements are new to this one.
 void Document::restart(Molecule molecule) {
     now_.draft = Draft(std::move(molecule));
     saved_ = toJson(now_.draft.molecule, true);

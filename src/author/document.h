@@ -31,7 +31,7 @@ class Document {
     int newGesture() { return ++gestures_; }
     bool undo();
     bool redo();
-    // Of the step that undo or redo would take back; empty: there is none.
+    // The label of the step that undo or redo would take back; empty: there is none.
     std::string undoLabel() const { return past_.empty() ? "" : past_.back().label; }
     std::string redoLabel() const { return future_.empty() ? "" : future_.back().label; }
 
@@ -43,7 +43,7 @@ class Document {
     // The file was written by someone else since it was read or saved.
     bool changedOnDisk() const;
 
-    // What an earlier editor of the same file left unsaved; nothing: it closed in order.
+    // Whether an earlier editor of the same file left unsaved work that is neither taken nor dropped yet.
     bool recovered() const { return recovered_.has_value(); }
     void takeRecovered();  // one step of undo
     void dropRecovered();

@@ -1,5 +1,5 @@
-// What an editor does to a draft, and to its mirror image where symmetry is on. `axis`: of the plane of
-// symmetry (0 x, 1 y, 2 z), or -1 for none; the image of what is not mirrored is left alone.
+// Edits of a draft, and of its mirror image where symmetry is on. `axis`: the normal of the plane of symmetry
+// (0 x, 1 y, 2 z), or -1 for none. Elements that have no mirror image are edited alone.
 #pragma once
 
 #include <set>
@@ -18,8 +18,8 @@ struct ElementSet {
 // With the images of what is selected.
 ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int axis);
 
-// Those that are selected by `shift`, their images by its mirror image; what lies on the plane stays on it.
-// Positions as they are in `before`, so that one drag does not add up.
+// Moves the vertices by `shift`, and their images by its mirror image; a vertex on the plane stays on it.
+// Starts from their positions in `before`, so that one drag does not add up.
 void moveVertices(Draft& draft, const Draft& before, const std::set<int>& vertices, const glm::dvec3& shift,
                   int axis);
 // The new vertex; its image is there, too, unless it lies on the plane.

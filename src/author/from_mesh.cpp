@@ -87,7 +87,7 @@ Mesh placed(const Mesh& source, const FromMesh& options) {
     return mesh;
 }
 
-// What is spread over a body or a sheet: how much, and how it lies.
+// The distribution of a body's volume or a sheet's area, over the coarse vertices and in space.
 struct Spread {
     std::vector<double> shares;  // of each coarse vertex; they add up to 1
     glm::dvec3 axis{0, 0, 1};    // unit, along which it is spread widest
@@ -271,7 +271,7 @@ class Maker {
         length_ = extentAlong(spread.axis);
         // of a plate: E / (1 - nu^2), and a section as thick as the sheet; what is bent bends as a whole
         const double plate = material_->thickness / std::sqrt(12 * (1 - 0.09));
-        // What is bulky as a whole may have its mass in one plane.
+        // the plate's is the least: a bulky shape, too, may have its mass in one plane
         gyration_ = inside_ || bulky() ? std::max(spread.gyration, plate) : plate;
         const std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
         const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});

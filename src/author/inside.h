@@ -10,7 +10,7 @@ namespace shoal {
 
 class Inside {
   public:
-    // Of a mesh that is closed. Parts thinner than a cell, a 250th of the longest side at the finest, may be
+    // Samples a closed mesh. Parts thinner than a cell, a 250th of the longest side at the finest, may be
     // missed.
     explicit Inside(const Mesh& mesh);
 

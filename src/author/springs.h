@@ -24,8 +24,8 @@ struct SpringPairs {
     void add(std::vector<Pair>& kind, int a, int b);
 };
 
-// Of ringsOf(): around and along, both diagonals between neighbouring rings, and both across each ring. What
-// bends the body sideways shortens one flank and lengthens the other.
+// Springs for ringsOf(): around and along, both diagonals between neighbouring rings, and both across each
+// ring. A bend sideways shortens one flank and lengthens the other.
 SpringPairs springsOfRings(int rings);
 
 // `inside`: null for a sheet, which gets no braces.

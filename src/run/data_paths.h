@@ -7,7 +7,7 @@ namespace shoal {
 
 // Error: neither holds the shaders; says where was looked. SHOAL_DATA in the environment goes first.
 std::string shaderRoot();
-// Of what ships, beside the shaders.
+// Folders of the shipped data, beside the shaders.
 std::string moleculeFolder();
 std::string modelFolder();  // with the scenes
 

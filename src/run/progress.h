@@ -1,5 +1,5 @@
-// What is told on standard error while a user waits, so that reports on standard output stay clean: how far
-// the work is, and warnings.
+// Progress and warnings for a user who waits, on standard error, so that reports on standard output stay
+// clean.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,5 @@
-// What the user asks for of a run, in a window or without: how it is solved, what stands in place of what the
-// scene's file says, and which states are saved.
+// The user's request for a run, in a window or without: how it is solved, which values replace those of the
+// scene's file, and which states are saved.
 #pragma once
 
 #include <cstdint>

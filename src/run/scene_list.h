@@ -18,7 +18,7 @@ std::vector<ListedScene> scenesBelow(const std::string& folder);
 // The file of a word on the command line: a file's name, or a scene that ships, such as tree/leaves; hello is
 // hello/hello, and so is what only one is called. Nothing: neither. Error: several scenes are called so.
 std::optional<std::string> sceneFile(const std::string& word);
-// The same. Error: neither, with the nearest.
+// Returns the file as sceneFile() does. Error: there is none, with the nearest name.
 std::string needScene(const std::string& word);
 // A line for each scene below the folder: what to call it, and what it says of itself.
 std::string listOfScenes(const std::string& folder);

@@ -1,12 +1,12 @@
-// What ends the program from outside: SIGINT (Ctrl-C), SIGTERM, SIGHUP.
+// Handles the signals that end the program: SIGINT (Ctrl-C), SIGTERM, SIGHUP.
 //
-// It ends at once and leaves no file that is not whole; while something lives that can be finished, the first
-// signal only asks for that, and the second ends at once.
+// The program ends at once and leaves no incomplete file; while a FinishesOnSignal lives, the first signal
+// only asks for the end, and the second ends at once.
 #pragma once
 
 namespace shoal {
 
-// Once, by main(). What was ignored when the program started, as nohup does, stays ignored.
+// Called once, by main(). Signals that were ignored when the program started, as by nohup, stay ignored.
 void catchSignals();
 
 // While it lives, the first signal only asks.

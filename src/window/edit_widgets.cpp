@@ -37,7 +37,7 @@ bool slideShown(const Row& row, const Limit& limit, double* values, int count) {
     return changed;
 }
 
-// What was shown, stored: an end of the slider is the limit itself, whatever rounding says.
+// Converts a shown value to a stored one: an end of the slider is the limit itself, despite rounding.
 double stored(const Row& row, const Limit& limit, double shown) {
     return std::clamp(shown / row.scale, limit.least, limit.most);
 }

@@ -41,7 +41,7 @@ bool toggle(const char* label, bool on);  // a button that looks pressed
 void tip(const char* words);              // of what was drawn last
 std::string plain(double number);         // four digits
 
-// Of a row with something else at the right: what is drawn next takes it.
+// Draws the label of a row; the widget that is drawn next takes the rest of it.
 void beginRow(const Row& row);
 
 }  // namespace shoal::window

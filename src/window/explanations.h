@@ -1,5 +1,5 @@
-// What the window draws among the molecules to show how they work: springs by their strain, arrows of the
-// fluid's velocity on a slice, and the molecule that was picked.
+// Drawings among the molecules that show how they work: springs by their strain, arrows of the fluid's
+// velocity on a slice, and the molecule that was picked.
 #pragma once
 
 #include <optional>

@@ -31,7 +31,7 @@ class LifeEditor {
 // Sliders for the looks of one group of point particles.
 class ParticleEditor {
   public:
-    // Whether the user changed the type in this frame. `ages`: some are born or die.
+    // Whether the user changed the type in this frame. `ages`: the group has a life cycle.
     bool draw(ParticleType& type, bool ages);
 
   private:

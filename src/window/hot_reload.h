@@ -26,7 +26,7 @@ class HotReload {
     // Why the files as they are do not run; located, empty: they do.
     const std::string& problem() const { return problem_; }
 
-    // What was edited in the window and changed in the file, too: nothing is reloaded before settle().
+    // Values that were edited in the window and changed in the file, too: they wait for settle().
     const std::vector<std::string>& conflicts() const { return conflicts_; }
     bool settle(RunningScene& running, Prefer prefer);  // true: the scene was built anew
 

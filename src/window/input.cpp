@@ -82,8 +82,8 @@ void Input::next() {
     }
 }
 
-// What comes after a move or the wheel finds the pointer and the picture where they then are: it is of the
-// next frame. A key that was released and is pressed again must have been seen up.
+// Whether this frame takes the event. Other events after a move or the wheel wait for the next frame, where
+// pointer and picture have followed. So does a key that is pressed again, so that its release is seen.
 bool Input::fits(const Event& event, const Taken& taken) const {
     using Kind = Event::Kind;
     if (taken.rolled) return event.kind == Kind::wheel;

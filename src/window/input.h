@@ -1,5 +1,5 @@
-// What the user does with pointer and keys, in the order in which it was done. A frame may take longer than a
-// click or a key: what came since the last frame waits, and each frame takes as much as it can tell apart.
+// Events of pointer and keys, in the order in which they came. A frame may take longer than a click or a key:
+// events since the last frame wait, and each frame takes as many as it can tell apart.
 #pragma once
 
 #include <deque>

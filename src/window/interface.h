@@ -25,7 +25,7 @@ class Interface {
     double pixelsPerPoint() const { return double(made_.unitsPerPoint * made_.pixelsPerUnit); }
 
   private:
-    // Of the interface's units, in which the window system may count several pixels as one.
+    // How many of the interface's units a point is, and how many pixels the window system counts as a unit.
     struct Density {
         float unitsPerPoint = 1, pixelsPerUnit = 1;
         bool operator==(const Density&) const = default;

@@ -136,7 +136,7 @@ bool KeyRows::drawKeys(const Description& keys, void* object, const Owns& owns) 
     return changed;
 }
 
-// What may be absent has a box to tick, and a row of its own below it.
+// Draws the box to tick for a value that may be absent; its own row is below it.
 bool KeyRows::drawPresence(const Key& key, void* object) {
     const void* value = key.member.look(memberOf(key, object));
     const bool endless = isEndless(key, value);
@@ -216,7 +216,8 @@ bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, c
     }
 }
 
-// What an element cannot do without that nothing here can say, such as the name of a group.
+// Returns a text that an element needs and that nothing here can enter, such as the name of a group; null:
+// none.
 static const Key* nameOf(const Description& element) {
     for (const Key& key : element.keys())
         if (key.needed && key.kind == Kind::text) return &key;

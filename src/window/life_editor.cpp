@@ -22,7 +22,8 @@ std::string titleOf(const Emitter& emitter, size_t index) {
                                 : concat(emitter.name, ": ", kind);
 }
 
-// Whether some way along the deaths leads from `from` to the group: then it cannot be born from the group's.
+// Whether the group is `from`, or emits through a chain of deaths from its deaths: then `from` cannot emit
+// from the group's deaths.
 bool bearsFrom(const Scene& scene, const Group& group, const std::string& from, size_t depth = 0) {
     if (group.name == from || depth > scene.groups.size()) return true;
     if (!group.life) return false;
@@ -34,7 +35,7 @@ bool bearsFrom(const Scene& scene, const Group& group, const std::string& from, 
     return false;
 }
 
-// Names of groups from whose deaths this one can be born.
+// Names of groups from whose deaths this one can emit.
 std::vector<std::string> dyingGroups(const Scene& scene, const Group& group) {
     std::vector<std::string> out;
     for (const Group& other : scene.groups)
@@ -128,7 +129,7 @@ bool LifeEditor::drawEmitter(Scene& scene, size_t index) {
     if (emitter.from == From::line || emitter.from == From::box) owns["along"] = {};
     if (emitter.along == Along::outward && emitter.from != From::disc) owns["direction"] = {};
     bool changed = emitters_[index].draw(emitter, owns);
-    // a group of which none is there and none is born would be nothing
+    // a group with no molecule at the start needs an emitter
     if (life.emitters.size() == 1 && scene.groups[group_].count == 0) return changed;
     if (ImGui::SmallButton("Remove")) {
         life.emitters.erase(life.emitters.begin() + std::ptrdiff_t(index));

@@ -16,7 +16,7 @@ constexpr int molecules = 4;      // of each group
 constexpr double duration = 0.5;  // s
 constexpr double secondsAMolecule = 0.5;
 
-// What the reference does not have.
+// Says what the reference lacks to run the plan; empty: nothing.
 std::string lacking(const Plan& plan) {
     if (plan.contact.any()) return "no error: the reference has no contact between molecules";
     if (plan.hasLife()) return "no error: the reference has no birth and death";

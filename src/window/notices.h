@@ -1,4 +1,4 @@
-// What the window has to say or to ask, over the picture.
+// Messages and questions of the window, over the picture.
 #pragma once
 
 #include <map>
@@ -11,7 +11,7 @@
 
 namespace shoal::window {
 
-// What is wrong now, each by its cause: it is shown until that is gone, or the user closes it.
+// The current problems by their causes: each is shown until it is gone, or the user closes it.
 class Troubles {
   public:
     // False: it was said already.
@@ -53,12 +53,12 @@ class StatusLine {
 
 void drawOpening(const std::string& file);  // that a scene is being opened
 
-// Of the question whether to save, before something goes on ("close").
+// Asks whether to save before `what` goes on ("close").
 enum class Answer { none, save, discard, stay };
 Answer askBeforeLeaving(const std::string& file, const char* what);
 
-// Of what was edited in the window and changed in the file, too. Nothing: not answered yet. Without conflicts
-// nothing is asked any more.
+// Asks which wins of values edited in the window and changed in the file, too. Nothing: not answered yet.
+// Without conflicts the question closes.
 std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts);
 
 // Keys and what they do, over the picture: rows that a row of nulls ends. False: the user closed it.

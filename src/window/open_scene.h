@@ -31,9 +31,9 @@ struct OpenScene {
     Simulation& simulation() { return running.simulation(); }
     const Simulation& simulation() const { return running.simulation(); }
     void follow();  // after the scene was built anew
-    // What --save names: at the frames of --save-frames as the run passes them, else once at its end.
+    // Saves what --save names: at the frames of --save-frames as the run passes them, else once at its end.
     void saveIfAsked(bool end) const;
-    // Of a state that ran away; returns what is to be said of it.
+    // Saves a state that ran away; returns the sentence that tells the user.
     std::string saveForInspection(const Runaway& runaway) const;
 
     // The molecule under a place of the picture, in [0, 1] from the upper left corner; or none any more.

@@ -13,8 +13,8 @@
 
 namespace shoal::window {
 
-// What the sliders say. The simulation's parameters follow them over a fifth of a second, so that a sudden
-// move does not kick the springs.
+// The values of the sliders. The simulation's parameters follow them over a fifth of a second, so that a
+// sudden move does not kick the springs.
 struct Controls {
     glm::dvec3 gravity{0};
     float gravityFactor = 1, wind = 1, drag = 1, stiffness = 1, damping = 1;
@@ -40,7 +40,7 @@ class Panel {
     Action draw(Controls& controls, Simulation& simulation, Renderer& renderer, Explanations& explanations,
                 double frameSeconds, const gpu::Traffic& lastFrame);
 
-    // What rebuild asks for.
+    // Puts the choices for which draw() asks for a rebuild into `choices`.
     void apply(Choices& choices) const;
     std::string error;            // of the method, as measured; empty: it was not
     Path path = Path::automatic;  // that runs, and after switchPath the one to go on with

@@ -15,7 +15,7 @@ namespace shoal::window {
 
 namespace {
 
-// What is edited and saved of groups.
+// Copies the values of groups that are edited and saved.
 void copyEdits(const std::vector<Group>& from, std::vector<Group>& to) {
     for (size_t g = 0; g < from.size(); ++g) {
         to[g].life = from[g].life;
@@ -197,7 +197,7 @@ void RunningScene::revert() {
     edit();
 }
 
-// Those whose value the file changed, too.
+// Returns the choices whose value the file changed, too.
 std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const {
     std::vector<std::string> out;
     if (choices.solver && theirs.solver.kind != original_.solver.kind &&

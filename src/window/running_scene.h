@@ -19,11 +19,11 @@
 
 namespace shoal::window {
 
-// What the panel chose in place of what the scene says. It is not saved, and stays when the file changes.
+// The panel's choices in place of the scene's values. They are not saved, and stay when the file changes.
 struct GroupChoice {
     std::optional<int> count;
     std::string molecule;  // its file; empty: as in the scene
-    // Of the molecule's material.
+    // Values of the molecule's material.
     std::optional<double> roughness, translucency, opacity;
     bool any() const { return count || !molecule.empty() || roughness || translucency || opacity; }
 };
@@ -56,7 +56,7 @@ class RunningScene {
     void remakePrograms();
 
     bool unsaved() const;  // differs from the file
-    // What was accepted last: edits from then on may be taken back.
+    // Accepts the groups as they are now: a later edit that fails goes back to them.
     void accept() { accepted_ = scene.groups; }
 
     // The file, or one that it names, has changed. Edits that are not saved, and choices, are kept where the

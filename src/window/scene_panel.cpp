@@ -25,7 +25,7 @@ std::string grouped(uint64_t number) {
     return out;
 }
 
-// Of the plan that runs; groups without molecules are not in it.
+// The group's index in the plan that runs, which leaves out groups without molecules.
 std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
     for (size_t g = 0; g < plan.groups.size(); ++g)
         if (plan.groups[g].index == group) return g;

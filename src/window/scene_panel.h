@@ -1,7 +1,7 @@
 // The second panel: each group's looks, birth and death, edited while it runs, and saved into the scene file.
 //
-// What can change at once does; for what needs another plan the panel asks for a rebuild when the user lets
-// go.
+// Edits take effect at once where they can; for those that need another plan the panel asks for a rebuild
+// when the user releases the widget.
 #pragma once
 
 #include <string>
@@ -44,8 +44,8 @@ class ScenePanel {
     std::vector<Edited> groups_;
     std::string said_;
     bool changed_ = false;
-    bool lives_ = false;    // particles, or something is born or dies
-    bool pending_ = false;  // a rebuild, when the user lets go
+    bool lives_ = false;    // some group has particles, a life cycle or a school
+    bool pending_ = false;  // a rebuild, when the user releases the widget
 };
 
 }  // namespace shoal::window

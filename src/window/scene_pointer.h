@@ -1,5 +1,5 @@
-// What the pointer does on the picture of a scene: it turns, moves and zooms the camera, picks a molecule,
-// and holds the forces that follow the mouse.
+// Handles the pointer on the picture of a scene: it turns, moves and zooms the camera, picks a molecule, and
+// holds the forces that follow the mouse.
 #pragma once
 
 #include <optional>

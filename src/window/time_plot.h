@@ -1,4 +1,4 @@
-// What each pass took in the last frames: stacked over time, and as a table in the same colours.
+// The time of each pass in the last frames: stacked over time, and as a table in the same colours.
 #pragma once
 
 #include "gpu/pass_timers.h"

@@ -26,7 +26,7 @@ namespace shoal::window {
 
 namespace {
 
-// What the user asked for in a frame, done at its end.
+// The user's requests in a frame, carried out at its end.
 struct Wish {
     Panel::Action panel = Panel::Action::none;
     ScenePanel::Action scene = ScenePanel::Action::none;
@@ -161,7 +161,7 @@ class Viewer : public WindowLoop {
         drawNotices();
     }
 
-    // What runs away stands still, to be looked at and restarted.
+    // Simulates a frame; a scene that runs away is paused, to be looked at and restarted.
     void advance() {
         try {
             open_->simulation().frame();
@@ -183,14 +183,14 @@ class Viewer : public WindowLoop {
 
     // ---- What was asked for
 
-    // What needs another simulation or may fail; what cannot be had is said, and what ran runs on.
+    // Makes a change that needs another simulation or may fail; a failure is shown, and what ran runs on.
     template <typename Work>
     void change(const Work& work) {
         troubles.attempt("change", work);
         open_->follow();
     }
 
-    // What could not be had before was of the files as they were.
+    // Follows the reloaded scene, and clears earlier failures, which were those of the old files.
     void takeReloaded() {
         open_->follow();
         for (const char* cause : {"change", "run"})
@@ -399,7 +399,7 @@ class Viewer : public WindowLoop {
         if (keys().pressed(GLFW_KEY_5) && open_->explanations->picked) open_->follows = !open_->follows;
     }
 
-    // What lies on top goes first, the window last.
+    // Closes whatever lies on top, the window last.
     void escape() {
         if (helps_)
             helps_ = false;

@@ -96,7 +96,7 @@ void drawFacts(const Editor& editor) {
     ImGui::Text("stable step: leapfrog %s s", plain(a.stableStepLeapfrog).c_str());
 }
 
-// What a frame of 1/60 s holds of it.
+// Offers to measure the molecule's cost, and shows how much of it a frame of 1/60 s holds.
 EditorAction drawCost(Editor& editor) {
     heading("Cost");
     EditorAction action = EditorAction::none;

@@ -1,5 +1,5 @@
-// What the editor's parts share: the molecule that is edited, how it is shown and played, and what is known
-// of it.
+// The state that the editor's parts share: the molecule that is edited, how it is shown and played, and what
+// is known of it.
 #pragma once
 
 #include <optional>
@@ -29,7 +29,7 @@ struct Editor {
     std::string message;  // what was done
     bool help = false, asksToClose = false;
 
-    // Of the molecule as it is, made anew when it changes.
+    // Results for the molecule as it is, computed anew when it changes; the cost only on request.
     int version = -1;
     std::vector<Finding> findings;
     Analysis analysis;

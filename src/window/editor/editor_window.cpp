@@ -93,7 +93,7 @@ class EditorWindow : public WindowLoop {
         if (!wrong.empty()) tell("run", wrong);
     }
 
-    // What hangs on the molecule, when it has changed; and how it is played.
+    // Recomputes what depends on the molecule when it has changed; updates the stage, also for new settings.
     void follow() {
         Document& document = editor_.document;
         if (document.version() != editor_.version) {
@@ -178,7 +178,7 @@ class EditorWindow : public WindowLoop {
         return action;
     }
 
-    // What plays is followed; and its middle is that of what the panels leave free.
+    // Returns a view that follows the molecule as it plays, and is centred above the panel at the bottom.
     View view() const {
         View out = camera_.view();
         const float free = ImGui::GetIO().DisplaySize.y;

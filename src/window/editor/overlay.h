@@ -29,7 +29,7 @@ class Projector {
     ImVec2 size_;
 };
 
-// What is drawn besides the picture.
+// Settings of what is drawn over the picture, and the elements to highlight.
 struct EditorOverlay {
     bool springs = true, vertices = true, normals = false, numbers = false;
     bool tension = true;                                   // springs by their strain, else in one colour

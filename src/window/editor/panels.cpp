@@ -243,7 +243,7 @@ void drawHelp(Editor& editor) {
 
 namespace {
 
-// Of a popup with one line and buttons: the button pressed, or -1.
+// Shows a popup with one line and buttons; returns the button pressed, or -1.
 int ask(const char* id, const std::string& question, std::initializer_list<const char*> answers) {
     if (!ImGui::IsPopupOpen(id)) ImGui::OpenPopup(id);
     ImGui::SetNextWindowPos(ImGui::GetMainViewport()->GetCenter(), ImGuiCond_Always, ImVec2(0.5f, 0.5f));

@@ -71,7 +71,7 @@ void EditorPointer::click(const Projector& projector, const glm::dvec3& near) {
     }
 }
 
-// What is under the pointer; false: nothing.
+// Selects the element under the pointer, with Shift adds or removes it; false: there is none.
 bool EditorPointer::select() {
     const EditorOverlay& o = editor_.overlay;
     if (!o.hoveredVertex && !o.hoveredSpring && !o.hoveredTriangle) return false;

@@ -1,5 +1,5 @@
-// What the pointer does in the editor: it turns the view, selects, adds and links, moves what is selected,
-// and pulls at what plays.
+// Handles the pointer in the editor: it turns the view, selects, adds and links, moves what is selected, and
+// pulls at what plays.
 #pragma once
 
 #include <optional>
@@ -14,8 +14,8 @@
 
 namespace shoal::window {
 
-// Of the vertices, as they are drawn: at rest those of the draft itself, so that nothing lags behind the
-// pointer.
+// Positions of the vertices as they are drawn, m: at rest those of the draft itself, so that nothing lags
+// behind the pointer.
 std::vector<glm::dvec3> shownPlaces(const Editor& editor, const EditorStage& stage);
 
 class EditorPointer {

@@ -20,7 +20,7 @@ namespace {
 constexpr Limit place{-1e4, 1e4}, massLimit{1e-9, 1e6}, stiffnessLimit{0, 1e9}, dampingLimit{0, 1e6},
     lengthLimit{1e-6, 1e4}, amplitudeLimit{0, 0.9}, frequencyLimit{0, 100}, phaseLimit{-6.2831853, 6.2831853};
 
-// What follows while a widget is held is one step of undo.
+// Makes all changes while a widget is held one step of undo.
 void hold(Editor& editor) {
     if (ImGui::IsItemActivated() || editor.gesture == 0) editor.gesture = editor.document.newGesture();
 }

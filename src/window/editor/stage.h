@@ -32,7 +32,7 @@ class EditorStage {
   public:
     EditorStage(gpu::Context& context, gpu::ProgramCache& cache);
 
-    // What is edited, valid, and how it is played: what differs from before is taken over. Error: compile's;
+    // Shows a valid molecule, played by `settings`; takes over what differs from before. Error: compile's;
     // the stage goes on as it was.
     void show(const Molecule& molecule, const StageSettings& settings);
     bool ready() const { return simulation_ != nullptr; }
@@ -62,7 +62,7 @@ class EditorStage {
 
     void draw(const View& view, int width, int height);  // into the window
     Image picture(const View& view, int width, int height);
-    // Of the vertices, as they are drawn.
+    // Positions of the vertices as they are drawn, m.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
 
     SolverKind solver() const { return simulation_->plan().groups[0].solver; }
@@ -88,7 +88,7 @@ class EditorStage {
     bool wobbling_ = false;
 };
 
-// What the molecule costs: many of it, stepped here and now.
+// The cost of stepping the molecule, measured with many of it on this machine.
 struct MoleculeCost {
     double secondsPerMolecule = 0;  // of a frame, simulate only
     int measuredAt = 0;             // molecules
