@@ -352,8 +352,11 @@ struct Arguments {
 
 Arguments argumentsOf(int argc, char** argv) {
     Arguments out;
-    for (int i = 1; i + 1 < argc; i += 2) {
-        const std::string option = argv[i], value = argv[i + 1];
+    for (int i = 1; i < argc; i += 2) {
+        const std::string option = argv[i];
+        if (i + 1 == argc)
+            throw Error("expected [--kind NAME] [--count N] [--seconds S] [--seed N], found " + option);
+        const std::string value = argv[i + 1];
         if (option == "--kind")
             out.kind = value;
         else if (option == "--count")
