@@ -236,7 +236,6 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
     Program(testContext(), "nowhere", drawing(&other, "void main() { color = vec4(7.0); }\n"));
     const std::string another = shoal::readFile(filesIn(scratch.path("other")).front());
 
-    const char* const refused = ": the driver does not accept the cached program; compiled anew";
     struct Damage {
         const char* name;
         std::string bytes;
@@ -258,8 +257,9 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
         {"empty", ""},
         {"a text", "This is no program at all, but it is longer than a header.\n"},
         {"another program", another},
-        {"foreign binary", sealed(good.substr(0, 32) + std::string(good.size() - 32, 'x'), key), refused},
-        {"foreign format", sealed(flipped(12), key), refused},
+        // a driver may refuse what is whole at any time, without a word
+        {"foreign binary", sealed(good.substr(0, 32) + std::string(good.size() - 32, 'x'), key), nullptr},
+        {"foreign format", sealed(flipped(12), key), nullptr},
     };
     for (const Damage& damage : damages) {
         INFO(damage.name);
@@ -267,7 +267,10 @@ TEST_CASE("a file that is not what was written is replaced, with a warning", "[p
         const Start damaged = start(folder);
         CHECK(damaged.hits == 0);
         CHECK(damaged.misses == 1);
-        CHECK(damaged.warnings == std::vector<std::string>{path + damage.warning});
+        if (damage.warning)
+            CHECK(damaged.warnings == std::vector<std::string>{path + damage.warning});
+        else
+            CHECK(damaged.warnings.empty());
         const Start repaired = start(folder);
         CHECK(repaired.hits == 1);
         CHECK(repaired.warnings.empty());
