@@ -5,7 +5,8 @@
 //   8 bytes   "shoalprg"                  8 bytes   length of the binary
 //   4 bytes   version of this layout      8 bytes   FNV-1a of the key, the format and the binary
 //   4 bytes   format, the driver's own    then the binary
-// A cache never fails: what it cannot use or keep is compiled as if there were none, with a warning.
+// A cache never fails: what it cannot use or keep is compiled as if there were none. It warns of damage, and
+// not of what the driver refuses.
 #pragma once
 
 #include <cstddef>
