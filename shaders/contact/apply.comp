@@ -1,6 +1,6 @@
-// What contact does to the vertices of one group, into the state.
-//   a lane a slot in contact: of a vertex, and nothing else acts on it
-//   TRIANGLES: a lane a vertex, on which the spheres of the triangles around it act as well
+// Adds the impulses and shifts of contact to the vertices of one group in the state.
+//   without TRIANGLES: one lane per slot in contact, which is that of a vertex, and nothing else acts on it
+//   TRIANGLES: one lane per vertex, on which the spheres of the triangles around it act as well
 #include "contact/shape.glsl"
 
 uniform usamplerBuffer counts;

@@ -21,7 +21,8 @@ int placeOfKey(usampler2D pairs, uint key, int count)
     return low;
 }
 
-// Of a sphere, from the first place of its key on. The sort is not stable, but each pair is somewhere.
+// Returns the place of a sphere's pair, searched for from the first place of its key on: the sort is not
+// stable, but keeps every pair.
 int placeOfSphere(usampler2D pairs, uint sphere, int from, int count)
 {
     int place = from;

@@ -11,7 +11,7 @@ ivec2 texelOf(int i)
     return ivec2(i & ((1 << ROW_BITS) - 1), i >> ROW_BITS);
 }
 
-// Of the texel that a pass writes.
+// Returns the number of the texel that the pass writes.
 int ownNumber()
 {
     ivec2 texel = ivec2(gl_FragCoord.xy);

@@ -24,7 +24,8 @@ layout(std430, binding = 2) writeonly buffer Shifts { vec4 shifts[]; };  // kg m
 #endif
 
 #ifdef WALLS
-// What the sphere lies on, or comes to lie on within a step, holds it like a sphere without end.
+// Responds to the collider that the sphere lies on or reaches within a step, as to a contact with a body of
+// infinite mass.
 void respondToWall(int slot)
 {
     vec4 wall = texelFetch(walls, sphereOf(slot));

@@ -78,7 +78,7 @@ int numberOf(int slot)
     return int(fetch(counts, slot).x) + 1;
 }
 
-// Of the slot that respond() has been told.
+// respond() sets these for the slot that it is called with.
 uint ownLabel;
 float ownWeight;
 vec3 impulse = vec3(0.0);

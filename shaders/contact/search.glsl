@@ -18,7 +18,7 @@ int startOf(int key)
 #endif
 }
 
-// Of the eight cells; bit a of c: the further one along axis a.
+// Returns cell c of the eight to search: bit a of c selects the one further along axis a.
 ivec3 cellBeside(ivec3 side, int c)
 {
     return ownCell + side * ivec3(c & 1, (c >> 1) & 1, c >> 2);

@@ -1,7 +1,7 @@
-// What the spheres of a molecule are: one texel each.
-//   of a vertex     x 1/mass (1/kg), y 1: pinned, z first of its triangles' spheres in `around`, w their number
+// `shapes` describes the spheres of a molecule, one texel each:
+//   of a vertex     x 1/mass (1/kg), y 1: pinned, z first of its triangles' spheres in `around`, w how many
 //   of a triangle   xyz its corners
-// Behind them `around`: the spheres of the triangles around a vertex, one texel each (x).
+// Behind them is `around`: the spheres of the triangles around a vertex, one texel each (x).
 // Set by C++: VERTICES, SPHERES, BLOCK, POSITION_ELEMENTS, STATE_ELEMENTS.
 #include "state/packed.glsl"
 

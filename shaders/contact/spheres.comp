@@ -30,7 +30,8 @@ uniform float wallTime;   // s, since the frame's start
 uniform float wallStep;   // s, of a contact step
 uniform float wallNudge;  // m
 
-// Of the collider nearest to a sphere: xyz unit normal, w m from its surface; 1e30: none is near.
+// The collider nearest to each sphere: xyz unit normal, w the centre's distance from its surface, m; 1e30:
+// none is near.
 layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
 
 float wallDistance(vec3 anchor, vec3 position)

@@ -61,7 +61,8 @@ bool mayMeetSelf(int slot)
 }
 #endif
 
-// Of a neighbour in the order of the keys. Places repeat: only of cells next to each other.
+// Returns whether a neighbour in the order of the keys is to be tested for contact. Local places repeat, so
+// they are compared only between cells next to each other.
 bool isCandidate(int slot)
 {
     ivec3 apart = abs(cellOf(slot) - ownCell);

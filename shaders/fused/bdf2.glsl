@@ -6,8 +6,9 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, when pins have let go, when the substep or a slider has
-// changed - a step is exact for free flight in a fluid of that velocity, however heavy the drag, and takes the springs by backward Euler:
+// Where there is no history - at the start, after a contact, when pins have been released, when the substep
+// or a slider has changed - a step is exact for free flight in a fluid of that velocity, however heavy the
+// drag, and takes the springs by backward Euler:
 //
 //   z = flight - h flown,  q = flight without springs,  eta = h
 //

@@ -78,7 +78,8 @@ void push(inout Body body, vec3 arm, vec3 before, vec3 alone, vec4 struck, vec3 
     body.spin += spinOf(body, arm, rub);
 }
 
-// The same for its way.
+// Does for the body's displacement what push() does for its velocity; `way`: the displacement of the vertex
+// alone.
 void lift(inout Body body, vec3 arm, vec3 way, vec3 n, inout float height)
 {
     vec3 left = way - body.shift - cross(body.turn, arm);

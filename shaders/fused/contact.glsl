@@ -36,7 +36,7 @@ float margin(vec3 position, vec3 velocity)
 #endif
 
 #ifdef KEEP_SURFACE
-// What findContacts saw: a height field costs more to look up than to keep.
+// The surfaces that findContacts() found: a height field costs more to look up than to keep.
 vec4 seen[VERTICES];
 #endif
 
@@ -71,7 +71,8 @@ bool findContacts()
     return least < 0.0;
 }
 
-// Of all vertices; nothing happens to those that do not touch.
+// Resolves the contacts of all vertices. One that does not touch changes only where the molecule answers as a
+// rigid body (RIGID_IMPACT).
 void resolveContacts()
 {
     for (int i = 0; i < VERTICES; ++i) {

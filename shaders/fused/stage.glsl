@@ -1,4 +1,4 @@
-// What the implicit solvers share: a stage finds the displacements q of the substep that solve
+// The stage that the implicit solvers share. It finds the displacements q of the substep that solve
 //
 //   m (q - z) / eta = m w + eta (f(x + q, (q - z) / eta) + m g + m gamma (u - (q - z) / eta))
 //
@@ -47,7 +47,7 @@ void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, f
     pushed += change;
 }
 
-// Whether pins let go, from the springs' forces at the start of the frame.
+// Decides from the springs' forces at the start of the frame whether pins are released.
 void releasePins(int step)
 {
 #ifdef RELEASE

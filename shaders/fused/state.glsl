@@ -6,10 +6,11 @@
 //
 //   4-vector e of molecule m:   (m / BLOCK) * BLOCK * STATE_ELEMENTS + e * BLOCK + m % BLOCK
 //
-// so that neighbouring lanes touch neighbouring memory and a block is one contiguous piece. Normals lie alike, with
-// POSITION_ELEMENTS. A record is one 4-vector a molecule: xyz anchor (m); w: 1 + seed, negative once the pins have
-// let go. Where molecules are born and die (LIFE), age and length of life in s are the w of the last 4-vector of the
-// positions and of the velocities, or where those are full the x and y of one more. The constants, where instances differ: x scale, y phase of the muscles (rad).
+// so that neighbouring lanes touch neighbouring memory and a block is one contiguous piece. Normals lie
+// alike, with POSITION_ELEMENTS. A record is one 4-vector a molecule: xyz anchor (m); w: 1 + seed, negative
+// once the pins are released. Where molecules are born and die (LIFE), age and length of life in s are the w
+// of the last 4-vector of the positions and of the velocities, or where those are full the x and y of one
+// more. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
 // Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
 #include "state/packed.glsl"
@@ -41,9 +42,9 @@ uniform int givenRestarts;
 uniform int givenSlips;
 uniform vec2 givenFlightBend;
 
-// The same where the step reads them. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser: it fetches a uniform lane by
-// lane, in every turn of a loop again, and a plain copy is a uniform to it; an operation that changes nothing makes a
-// value of it.
+// Copies of the uniforms, for the step to read. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser, each copy
+// goes through an operation that changes nothing: a plain copy counts as a uniform, which is fetched lane by
+// lane, and again in every turn of a loop.
 int frame;  // number of this frame, from 0
 int substeps;  // of a frame
 float substep;  // h, s
@@ -54,7 +55,7 @@ vec2 decay;  // 1 - exp(-gamma h) across and along the surface
 vec2 phi;  // decay / gamma, h where gamma = 0
 float stiffnessFactor;
 float dampingFactor;
-float releaseForce;  // N: above this pull on a pin, all pins of the molecule let go
+float releaseForce;  // N: above this pull on a pin, all pins of the molecule are released
 float releaseChance;  // in this frame
 vec3 driftOfStep;  // physics/collide.glsl: step, kickDrift, lag
 vec2 dragRate;  // gamma, 1/s, across and along the surface
@@ -126,7 +127,7 @@ PER_VERTEX comingKick[VERTICES];  // m/s, what the springs still owe the velocit
 vec3 anchor;            // m
 float scale = 1.0;      // of the rest lengths
 float phase = 0.0;      // rad
-bool released = false;  // the pins have let go
+bool released = false;  // whether the pins are released
 uint seed;
 #ifdef LIFE
 float age;              // s
@@ -139,12 +140,12 @@ bool taken()
 }
 #endif
 
-// Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so that
-// every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own vertices,
-// after all lanes have met. Loops over j (fields) and k (contacts) are the same for bodies that may be too long to
-// write out (src/simulate/vertex_loops.h).
+// Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so
+// that every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own
+// vertices, after a barrier. Loops over j (fields) and k (contacts) are the same for bodies that may be too
+// long to write out (src/simulate/vertex_loops.h).
 
-// Before a vertex is read by a lane that did not write it.
+// Barrier before a vertex is read by a lane that did not write it.
 void meet()
 {
 #ifdef SHARED_MOLECULE

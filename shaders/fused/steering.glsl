@@ -1,4 +1,4 @@
-// What steers a molecule over a frame (shaders/school/steer.comp), three 4-vectors each:
+// The steering of a molecule over a frame (shaders/school/steer.comp), as three 4-vectors:
 //   xyz acceleration of all of it, m/s^2          w  curvature that its muscles bend it to, 1/m
 //   xyz acceleration of its turning, rad/s^2      w  rate of its muscles' clock
 //   xyz steering as it was smoothed, m/s^2        w  its muscles' clock at the end of the frame, s

@@ -1,6 +1,6 @@
-// What a solver calls in a substep beside the springs: fields, drag and gravity, pins that let go. Needs
-// fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl, with FORCES, THRUST or WIND
-// generated/scene_forces.glsl. Times are in s since the frame's start.
+// The parts of a substep that a solver calls beside the springs: fields, drag and gravity, the release of
+// pins. Needs fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl, with FORCES,
+// THRUST or WIND generated/scene_forces.glsl. Times are in s since the frame's start.
 #include "physics/drag.glsl"
 #include "physics/random.glsl"
 
@@ -11,7 +11,7 @@
 #define FALL(i) gravity
 #endif
 
-// The same anywhere, m.
+// Returns gravity and the forces' acceleration at any position (m), in m/s^2, without steering.
 vec3 fallAt(vec3 position)
 {
 #ifdef FORCES
@@ -138,7 +138,7 @@ void gain(vec3 gained)
     }
 }
 
-// What a thrust adds to the mean of the velocities w over a substep, or over half of one.
+// Adds to v what a thrust changes the mean of the velocities w by over a substep, or over half of one.
 void thrustBy(bool whole)
 {
     meet();
@@ -159,7 +159,7 @@ void thrust(bool whole)
 #endif
 }
 
-// What the fields and the wind among the forces make of the fluid's velocity.
+// Returns the fluid's velocity: u of the fields, if there are any, and the wind among the forces.
 vec3 fluidOf(vec3 u)
 {
 #ifndef FIELDS

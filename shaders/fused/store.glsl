@@ -1,4 +1,4 @@
-// What a lane writes of a molecule: the whole state, and its record.
+// The buffers to which a lane writes a molecule: the whole state, and its record.
 #ifdef PAIRED_STORES
 // Half as many stores, which a CPU rasteriser makes one by one.
 #define ELEMENT dvec2

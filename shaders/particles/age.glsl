@@ -1,6 +1,6 @@
-// What lives grows older, and dies of age, outside a box (CONFINED), or some time after it has touched a collider
-// (TOUCH_COUNTS): its place becomes free, and with DEATHS_LISTED others are told. One bit a place, so that neighbours
-// that die together leave the same behind in whatever order. Needs fused/state.glsl.
+// Ages a molecule by a frame. It dies of age, outside a box (CONFINED), or some time after it has touched a
+// collider (TOUCH_COUNTS): its place becomes free, and with DEATHS_LISTED its death is recorded. One bit a
+// place, so that neighbours that die together leave the same bits in whatever order. Needs fused/state.glsl.
 layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 #ifdef DEATHS_LISTED
 layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };

@@ -1,5 +1,5 @@
-// What a particle looks like at an age, from its type and its seed: nothing of it is stored [Latta 2004, section 3.3].
-// Pure functions; read as C++ through GLM by the tests.
+// The looks of a particle at an age, from its type and its seed: nothing of it is stored [Latta 2004, section
+// 3.3]. Pure functions; read as C++ through GLM by the tests.
 
 #include "physics/random.glsl"
 #include "physics/rotation.glsl"

@@ -178,7 +178,8 @@ void shape(Start start)
 #endif
 }
 
-// Newborn i: its seed, what it is born from, and its birth in s from the frame's start; returns its emitter.
+// Returns the emitter of newborn i, and sets its seed, the molecule whose death emits it, if one does, and
+// its birth in s from the frame's start.
 int findRun(int i, out Source source, out float at)
 {
     source = Source(0, 0.0);

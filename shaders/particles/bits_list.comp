@@ -34,7 +34,7 @@ void main()
             list[rank] = place;
             ++rank;
 #ifndef DEATHS
-            if (rank == limit) {  // the last newborn, which only this lane meets
+            if (rank == limit) {  // the last newborn, which only this lane reaches
                 reachTo(max(control[controlBase + controlMark], place + 1u));
             }
 #endif

@@ -1,5 +1,5 @@
-// Where and how fast what an emitter bears starts out. Everything random hangs on the newborn's seed. Distributions:
-// src/scene/emitter.h. Needs physics/random.glsl.
+// The initial place and velocity of what an emitter emits. Everything random depends on the newborn's seed.
+// Distributions: src/scene/emitter.h. Needs physics/random.glsl.
 #include "physics/rotation.glsl"
 
 // Counters of a newborn's hashes, beyond those of the frames (fused/step.glsl).

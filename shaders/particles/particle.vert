@@ -143,7 +143,7 @@ void main()
     size *= mix(growth.x, growth.y, age);
 #endif
     drawn = drawn && size > 0.0;
-    // What is less than a few samples wide is drawn wider, and in return lets more through.
+    // A particle narrower than `leastPixels` is drawn wider, and in return lets more through.
     vec4 clip = toClip * vec4(middle, 1.0);
     float shown = size * pixelsPerMeter / max(clip.w, 1e-6);
     float wider = max(leastPixels / max(shown, 1e-6), 1.0);
@@ -154,7 +154,7 @@ void main()
 
 #ifdef SPRITES
     gl_Position = clip;
-    // What encloses the turned one, and a pixel of edge all around.
+    // The point encloses the turned particle, and a pixel of edge all around.
     shown = max(shown, leastPixels);
     gl_PointSize = (abs(c) + abs(s)) * shown + 2.0;
     toSquare = 2.0 / shown * vec4(c, -s, s, c);

@@ -1,7 +1,7 @@
 uniform int laneCount;   // of the sums, WORDS words each
 uniform int placeCount;
 
-// Of word w, those that stand for a place.
+// Returns the bits of word w that stand for a place.
 uint validBits(int w)
 {
     int left = placeCount - w * 32;

@@ -1,4 +1,4 @@
-// records: once a frame, per molecule: the anchor follows the molecule, and pins may let go.
+// records: once a frame, per molecule: the anchor follows the molecule, and pins may be released.
 // Positions are moved to the new anchor by the frame's first advect, from the same shift.
 #include "state/textures.glsl"
 #include "physics/anchor.glsl"
@@ -8,7 +8,7 @@
 #endif
 
 #ifdef RELEASE
-uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule let go
+uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule are released
 uniform float releaseChance;  // in this frame
 uniform int frame;
 #endif

@@ -7,7 +7,7 @@ struct Contact {
     vec3 velocity;
 };
 
-// What the solver's last drift was like.
+// Describes the solver's last drift.
 //   step       h of the substep, s
 //   kickDrift  how long the velocity that the step's acceleration added has moved the position: h for euler, h/2
 //              for leapfrog
@@ -64,8 +64,9 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     vec3 position = surface + n * height - lostVelocity * frictionTime;
     vec3 velocity = tangential - lostVelocity + n * newNormal;
 
-    // What started its drift on the surface, at rest, goes back exactly: anything else would add up a rounding a
-    // step. The slack stays well below the drift itself, or what rests above the surface would seem to bounce.
+    // A vertex that started its drift on the surface, at rest, goes back exactly: anything else would add up
+    // a rounding a step. The slack stays well below the drift itself, or what rests above the surface would
+    // seem to bounce.
     float started = distance - vn * drift.kickDrift;
     float slack = min(restingSlack, -0.02f * vn * drift.kickDrift);
     bool rests = !bounces && lost >= speed && abs(started) < slack;

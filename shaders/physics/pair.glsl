@@ -3,10 +3,10 @@
 
 struct PairContact {
     vec3 normal;   // unit, from the other sphere to this one
-    float since;   // s, since they touched; 0 unless they have just met
+    float since;   // s, since they touched; 0 without an impact
     float depth;   // m, of what overlaps now
-    float speed;   // m/s, along the normal; negative: they approach (or did, when they met)
-    bool impact;   // they met within the last step, fast enough to bounce
+    float speed;   // m/s, along the normal; negative: they approach (or did, at the first touch)
+    bool impact;   // they first touched within the last step, fast enough to bounce
 };
 
 // Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii
@@ -32,9 +32,9 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
                        impact ? touchSpeed : dot(now, u), impact);
 }
 
-// What an impulse (N s) between spheres of inverse masses that sum up to w must still add so that their speed along the
-// normal becomes `target`. `pushed`: what they have exchanged so far; together they never pull. `share`: of several
-// contacts, so that together they do not outdo themselves (docs/contact.md).
+// Returns how much an impulse (N s) between spheres of inverse masses that sum up to w must still grow so
+// that their speed along the normal becomes `target`. `pushed`: the impulse so far; together they never pull.
+// `share`: of several contacts, so that together they do not outdo themselves (docs/contact.md).
 float pairImpulse(float speed, float target, float pushed, float w, float share)
 {
     return max(share * (target - speed) / w, -pushed);

@@ -1,4 +1,4 @@
-// Random numbers that hang on a molecule's seed and a counter, never on its index.
+// Random numbers that depend on a molecule's seed and a counter, never on its index.
 // PCG with output permutation RXS-M-XS [O'Neill 2014]. Read as C++ through GLM by the tests.
 
 uint hashSeed(uint seed, uint counter)

@@ -1,4 +1,4 @@
-// What a state must not be (src/simulate/watchdog.h): faster than FASTEST_SQUARED says, or not finite.
+// Detects a runaway state (src/simulate/watchdog.h): faster than FASTEST_SQUARED says, or not finite.
 // Read as C++ through GLM by the tests.
 
 // The bits of a square, of which those of what is not finite are larger than all others. As whole numbers, because a

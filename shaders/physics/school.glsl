@@ -73,7 +73,7 @@ float wanderSine(float time, float least, float random, float phase)
     return sin(time * ((least + floor(256.0f * random)) / 256.0f) + 40.0f * phase);
 }
 
-// Here and there, in [-1, 1]: three sines whose periods, 2 to 7 s, and phases hang on the seed.
+// Here and there, in [-1, 1]: three sines whose periods, 2 to 7 s, and phases depend on the seed.
 float wanderOf(float time, float a, float b, float c)
 {
     return (wanderSine(time, 230.0f, a, b) + wanderSine(time, 435.0f, b, c) + wanderSine(time, 666.0f, c, a)) / 3.0f;

@@ -15,7 +15,7 @@ vec3 ambientAt(vec3 place, vec3 normal)
     return ambientLight(normal);
 }
 
-// What a mirror sees.
+// Returns the radiance that a mirror reflects to the eye from a direction.
 vec3 mirroredFrom(vec3 place, vec3 direction, float roughness)
 {
     return mix(ambientLight(vec3(0.0, -1.0, 0.0)), skyGradient(direction) + sunGlow(direction),
@@ -34,7 +34,7 @@ vec3 withHaze(vec3 radiance, vec3 place)
     return mix(hazeColor(place / max(distance, 1e-4)), radiance, exp(-fogDensity * distance));
 }
 
-// What the distance fades into.
+// Returns the colour that distant things fade into.
 vec3 farColor(vec3 direction)
 {
     return hazeColor(direction);

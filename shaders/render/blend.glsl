@@ -1,4 +1,5 @@
-// What a blended surface hands to the blending of the framebuffer. Variants: BLENDED, FILTERS (multiplicative).
+// The colour and alpha that a surface hands to the blending of the framebuffer. Variants: BLENDED, FILTERS
+// (multiplicative).
 #ifdef BLENDED
 uniform float opacity;
 #endif

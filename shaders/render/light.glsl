@@ -5,8 +5,8 @@
 #include "render/sky.glsl"
 #include "render/tone.glsl"
 
-// Where leaves are dense they hide the sky. The crown is a sphere around all molecules that hang on a model;
-// the sky that it hides is found in closed form. A radius of 0 switches it off.
+// Where leaves are dense they hide the sky. The crown is a sphere around the molecules that are placed
+// densely on a model; the sky that it hides is found in closed form. A radius of 0 switches it off.
 uniform vec4 crown;  // xyz middle, w radius, m
 
 struct Surface {
@@ -59,8 +59,8 @@ float sunVisibility(vec3 place, vec3 normal)
 }
 #endif
 
-// Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside, less
-// and less towards the middle. Both meet at its edge.
+// Share of the sky left over by the crown: outside of it, what a sphere hides under a cosine lobe; inside,
+// less and less towards the middle. Both agree at its edge.
 float crownOpenness(vec3 place, vec3 normal)
 {
     if (crown.w <= 0.0) return 1.0;
@@ -88,7 +88,7 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
 }
 
 #ifdef METALLIC
-// The same of a mirror that reflects all.
+// As sheen(), for a mirror that reflects all.
 float lobe(vec3 normal, vec3 toEye, float roughness)
 {
     vec3 halfway = normalize(sunDirection + toEye);

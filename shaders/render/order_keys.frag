@@ -1,5 +1,5 @@
-// The same as a pass: numbers the molecules of a group, or keeps the order that there is, and gives them their keys.
-// Texels as src/sort/network_sort.h has them. Variant: ORDER_PAIRED.
+// render/order_keys.comp as a fragment pass: numbers the molecules of a group, or keeps the order that there
+// is, and gives them their keys. Texels as src/sort/network_sort.h has them. Variant: ORDER_PAIRED.
 #include "render/order_key.glsl"
 #include "render/order.glsl"
 

@@ -1,6 +1,6 @@
-// A corner of a molecule's skin (src/molecule/skin.h): gl_InstanceID is the molecule, gl_VertexID the skin's vertex,
-// which hangs on SKIN_WEIGHTS (1 to 8) of the molecule's vertices. Its two tangents move as it does, so that its
-// normal turns and shears with the molecule.
+// A corner of a molecule's skin (src/molecule/skin.h): gl_InstanceID is the molecule, gl_VertexID the skin's
+// vertex, which depends on SKIN_WEIGHTS (1 to 8) of the molecule's vertices. Its two tangents move as it
+// does, so that its normal turns and shears with the molecule.
 // Variants: SKIN_OFFSETS (offsets along the molecule's normal), and those of render/molecule.vert.
 
 #include "state/molecule.glsl"

@@ -1,4 +1,4 @@
-// What is behind everything. Variant: WATER.
+// Draws the background, behind everything else. Variant: WATER.
 
 #include "render/sky.glsl"
 #ifdef WATER

@@ -29,7 +29,7 @@ vec3 sunDisc(vec3 direction)
     return sunColor * 12.0 * smoothstep(0.99992, 0.99997, dot(direction, sunDirection));
 }
 
-// What distance fades into, seen along a direction: the sky just above the horizon.
+// Returns the colour that distant things fade into along a direction: the sky just above the horizon.
 vec3 hazeColor(vec3 direction)
 {
     vec3 level = normalize(vec3(direction.x, max(direction.y, 0.0) * 0.5 + 0.01, direction.z));

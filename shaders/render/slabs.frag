@@ -1,6 +1,6 @@
-// Cuts the depths into slabs that hold about as many molecules each of the group whose order is read: texel s has the
-// first key of slab s and the first one past it. The first slab lies behind all of that group, the last begins at its
-// nearest. Slabs meet without a gap, also where the order is not quite sorted.
+// Cuts the depths into slabs that hold about as many molecules each of the group whose order is read: texel s
+// has the first key of slab s and the first one past it. The first slab lies behind all of that group, the
+// last begins at its nearest. Slabs adjoin without a gap, also where the order is not quite sorted.
 #include "render/order.glsl"
 
 uniform int moleculeCount, slabCount;

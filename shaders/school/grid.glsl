@@ -2,7 +2,7 @@
 // scattered over a table, a row's cells follow one another in it, and past its end at its beginning: the 27 cells around
 // one are nine runs. What other rows left in a run is told from its place.
 
-// Of the cell along one axis.
+// Returns the cell of a place. inverseCell: 1 over a cell's width, 1/m.
 ivec3 cellOf(vec3 place, float inverseCell)
 {
     return ivec3(floor(clamp(place * inverseCell, -1e6, 1e6)));

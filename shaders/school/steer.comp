@@ -120,7 +120,7 @@ Others lookAround(vec3 place, vec3 forward, int slot)
 }
 
 #if TARGETS > 0
-// Of a row no more are looked at than this, evenly spread over it: each for as many as it stands for.
+// At most so many members of a row are looked at, evenly spread over it: each for as many as it stands for.
 const int mostOfRun = 48;
 
 // Towards those that are hunted, away from those that are fled from.

@@ -6,10 +6,11 @@
 // Every molecule of a type shares the factors of A: computed on the CPU in double (compile/corotated.h), the block Factors of
 // generated/factors.glsl. R turns the rest shape onto the predicted one, and for the second step onto
 // what the first has made of it [Mueller 2016].
-// Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where the second
-// step is not much smaller than the first, or once pins have let go, or in a step without history, two sweeps go ahead as in
-// bdf2-xpbd. Sweeps alone can hold a pinned molecule in a shape at which its springs are far from rest and the stage far
-// from solved, so the two steps are then tried from where the sweeps ended, and kept if the second is much smaller.
+// Guarded: where the predicted shape is further than STRAYS of its size from the turned rest shape, or where
+// the second step is not much smaller than the first, or once pins have been released, or in a step without
+// history, two sweeps go ahead as in bdf2-xpbd. Sweeps alone can hold a pinned molecule in a shape at which
+// its springs are far from rest and the stage far from solved, so the two steps are then tried from where the
+// sweeps ended, and kept if the second is much smaller.
 
 mat3 turn;  // of the rest shape
 vec3 start[VERTICES];     // m, q without springs

@@ -10,7 +10,7 @@ void beginSolver()
 }
 
 // The accelerations of a stage at x, v; adds them up and moves x, v to the next.
-// `step`: 0 in the frame's first stage, where pins may let go.
+// `step`: 0 in the frame's first stage, where pins may be released.
 void stage(int step, float time, float share, float ahead)
 {
 #ifdef SPRINGS

@@ -25,7 +25,7 @@ void main()
         other = sortedTexel(other, j + 1);
     }
     if (crossed) other = other.zwxy;
-    // The pairs that meet: i and j, i + 1 and j + 1; crossed, i and j + 1, i + 1 and j.
+    // The pairs that are compared: i and j, i + 1 and j + 1; crossed, i and j + 1, i + 1 and j.
     int cross = int(crossed);
     bvec2 inside = lessThan(max(ivec2(i, i + 1), ivec2(j + cross, j + 1 - cross)), ivec2(count));
     bvec2 less = lessThan(other.xz, own.xz), greater = greaterThan(other.xz, own.xz);

@@ -63,7 +63,7 @@ void main()
 {
     int lane = int(gl_LocalInvocationID.x), part = int(gl_WorkGroupID.x);
     int first = part * TILE_PAIRS, size = min(TILE_PAIRS, count - first);
-    // What fills up the last tile has the greatest digit and stays behind all others.
+    // The padding of the last tile has the greatest digit and stays behind all pairs.
     for (int i = lane; i < TILE_PAIRS; i += LANES) tile[i] = i < size ? pairs[first + i] : uvec2(0xffffffffu);
     waitForGroup();
     sortTile(lane, 0);

@@ -13,7 +13,7 @@ uniform vec3 originRest;
 
 uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
 uniform samplerBuffer normals;  // alike
-uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once pins have let go
+uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
 
 vec3 moleculeAnchor(int molecule)
 {

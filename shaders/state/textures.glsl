@@ -48,7 +48,7 @@ vec4 inertia(int vertex)
     return table(topologyBase + vertexCount + vertex);
 }
 
-// Held by a pin that has not let go.
+// Whether a pin holds the vertex and has not been released.
 bool isHeld(vec4 vertexInertia, int molecule)
 {
 #ifdef PINS

@@ -19,7 +19,8 @@ const float stillSquared = 1e-10;
 const int mostMarches = 48;   // steps along a way
 const int mostTouches = 6;    // of a substep; a vertex that touches more stops there
 
-// Of a collider in the table, negative: -1 - the uniform's index.
+// Returns restitution and friction. A negative x stands for a collider in the table: -1 - the uniform's
+// index.
 vec2 materialOf(Touch t)
 {
 #ifdef TABLED
@@ -101,7 +102,8 @@ Contact comesOut(vec3 anchor, Contact c, vec3 gravity, Drift drift, float time)
 }
 #endif
 
-// The next surface that the vertex meets on its way from `from` to c.position; none: its distance is not negative.
+// The next surface that the vertex touches on its way from `from` to c.position; none: its distance is not
+// negative.
 Touch nextTouch(vec3 anchor, Contact c, inout vec3 from, inout float begin, float end, inout ivec3 skip)
 {
     Touch found = noTouch();

@@ -4,7 +4,8 @@
 #include "physics/solid.glsl"
 
 #ifdef RIGID_IMPACT
-// What a vertex has struck in this substep: the surface's normal and friction, and its velocity; w negative: nothing.
+// The surface that a vertex has struck last in this substep: its normal and friction, and its velocity; w
+// negative: none.
 vec4 struckLast;
 vec3 struckVelocity;
 #endif

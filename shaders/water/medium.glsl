@@ -38,9 +38,9 @@ vec3 sunlightAt(vec3 place)
     return sunColor * exp(-waterExtinction * way) * max(light, 0.0);
 }
 
-// What endless water sends along a direction to a place at some depth, from within `way` metres: scattering of light
-// that loses itself on its way down, and then on its way along. In closed form: with k the extinction and y the
-// direction's rise, the integral of k exp(-k (depth - y s)) exp(-k s).
+// Returns the light that endless water sends along a direction to a place at some depth, from within `way`
+// metres: scattering of light that is attenuated on its way down, and then on its way along. In closed form:
+// with k the extinction and y the direction's rise, the integral of k exp(-k (depth - y s)) exp(-k s).
 vec3 scatteredFrom(float depth, vec3 direction, float way)
 {
     float slant = max(1.0 - direction.y, 0.02);
@@ -61,7 +61,8 @@ vec3 ambientAt(vec3 place, vec3 normal)
     return mix(below, above, 0.5 + 0.5 * normal.y);
 }
 
-// What a mirror sees along a direction: the bright round window above, the water's own light around and below it.
+// Returns the radiance that a mirror reflects from a direction: the bright round window above, the water's
+// own light around and below it.
 vec3 mirroredFrom(vec3 place, vec3 direction, float roughness)
 {
     float depth = depthOf(place);
@@ -99,7 +100,7 @@ vec3 withHaze(vec3 radiance, vec3 place)
     return mix(hazeColor(direction), seen, exp(-fogDensity * (total - way.y)));
 }
 
-// What the distance fades into.
+// Returns the colour that distant things fade into.
 vec3 farColor(vec3 direction)
 {
     if (eyeDepth <= 0.0 && direction.y >= 0.0) return hazeColor(direction);

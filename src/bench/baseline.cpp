@@ -114,7 +114,7 @@ struct Baseline::Data {
     }
 
     size_t blockFloats() const { return size_t(6 * vertexCount + 3) * size_t(kernels->lanes); }
-    // Of component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
+    // Returns component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
     float& at(int molecule, int vertex, int component) const {
         const int lanes = kernels->lanes;
         return blocks.data()[size_t(molecule / lanes) * blockFloats() +

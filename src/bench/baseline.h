@@ -1,4 +1,4 @@
-// The same method as the `euler` passes, written for the CPU by hand: what `shoal bench` compares them with.
+// The method of the `euler` passes, written for the CPU by hand: the baseline of `shoal bench`.
 //
 // A fixed workload: uniform wind, plain drag and gravity taken exactly, damped springs, one ground plane.
 //   v += h F(x, v) / m;  v = exact drag and gravity;  x += h v;  contact (shaders/physics/collide.glsl)

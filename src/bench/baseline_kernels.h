@@ -1,6 +1,6 @@
-// What the baseline's parts share: plain data, because the SIMD kernels are compiled for processors that the
-// rest of the program need not have. An inline function with linkage in such a file could be the copy that
-// the linker keeps for everyone; those files include this and nothing else of ours that holds code.
+// Types that the baseline's parts share: plain data, because the SIMD kernels are compiled for processors
+// that the rest of the program need not have. An inline function with linkage in such a file could be the
+// copy that the linker keeps for everyone; those files include this and nothing else of ours that holds code.
 #pragma once
 
 namespace shoal::bench {

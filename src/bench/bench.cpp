@@ -16,9 +16,9 @@ double since(Clock::time_point start) {
     return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
-// Of a visit: after a restart one frame that is not timed, so that caches are as in a run of one case, then
-// these. Slow frames do without and are timed one by one: five frames of a fall differ by little, and any two
-// samples of a case by nothing.
+// The frames that a visit times, after a restart and one frame that is not timed, so that caches are as in a
+// run of one case. Slow frames do without that one and are timed one by one: five frames of a fall differ by
+// little, and any two samples of a case by nothing.
 constexpr int framesTimed = 4;
 constexpr double slowFrameSeconds = 0.1;
 

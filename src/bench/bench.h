@@ -34,7 +34,7 @@ struct BenchResult {
     double perMolecule() const { return frame.min / one.count; }  // s, by the shortest
 };
 
-// What is being done, and the estimated seconds that this group still takes.
+// Reports what is being done, and the estimated seconds that this group still takes.
 using BenchProgress = std::function<void(const std::string& what, double secondsLeft)>;
 
 // Cases of one group: same molecule and count. Error: the driver refuses a shader.

@@ -1,4 +1,4 @@
-// What `shoal bench` measures: plain data.
+// The cases that `shoal bench` measures: plain data.
 //
 // One workload: molecules fall from random places in a box through uniform wind {2, 0, 0.5} m/s with gravity
 // and drag of 1/s, onto a ground plane; `euler`, 1/60 s a frame in 4 substeps. A case says what differs.
@@ -73,7 +73,7 @@ struct BenchMolecules {
 Molecule cloth(int side);
 
 Scene benchScene(const BenchCase& one, const Molecule& molecule);
-// The same for the baseline.
+// Returns the step of the baseline in a scene of benchScene().
 BaselineStep baselineStep(const Scene& scene);
 
 }  // namespace shoal::bench

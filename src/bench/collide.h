@@ -16,7 +16,7 @@
 
 namespace shoal::bench {
 
-// Of a share in [0, 1].
+// Reports the share of the work that is done, in [0, 1].
 using CollideProgress = std::function<void(double share)>;
 
 struct ContactCase {

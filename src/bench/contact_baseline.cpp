@@ -24,13 +24,13 @@ struct Motion {
     float weight;
 };
 
-// Of the slot that has it in its list, with another.
+// A contact with another slot, in the list of the slot that it acts on.
 struct Contact {
     int other;              // slot
     vec3 normal;            // from the other
     float mass;             // kg, that both together put against an impulse
     float target;           // m/s, along the normal afterwards
-    float since;            // s, since they met; 0 where they rest
+    float since;            // s, since they touched; 0 where they rest
     float push;             // kg m: how far those that rest are pushed; m until the shares are known
     float share;            // of the impulse that the contact alone would take
     float pushed, earlier;  // N s, so far, and an iteration before
@@ -40,7 +40,7 @@ struct Active {
     int slot, begin, end;  // of the thread's contacts
 };
 
-// What one thread found among its slots, and works on.
+// The part of one thread: what it found among its slots, and works on.
 struct Piece {
     std::vector<uint32_t> next;  // of each cell: how many spheres of the piece, then the slot of the next one
     std::vector<Contact> contacts;
@@ -103,7 +103,7 @@ struct ContactBaseline::Data {
     std::vector<uint32_t> starts;        // of the cells, in slots
     std::vector<int> sphereOf, numbers;  // by slot: whose it is, and how many it touches
     std::vector<Place> places;
-    // Of slots in contact.
+    // By slot, set where it is in contact.
     std::vector<Motion> motions;
     std::vector<float> crowds, kept;
     std::vector<vec3> impulses, newImpulses, earlierImpulses;  // N s
@@ -132,7 +132,7 @@ struct ContactBaseline::Data {
     void relax(Piece& piece, float momentum);
     void settle(Piece& piece, const ContactBaselineStep& step);
     void apply(Piece& piece, const ContactBaselineStep& step);
-    // Of an iteration, which begins where the last two point to.
+    // Returns the impulse that an iteration begins with, extrapolated from the last two.
     vec3 impulse(int slot, float momentum) const {
         const vec3 last = impulses[size_t(slot)];
         return last + (last - earlierImpulses[size_t(slot)]) * momentum;

@@ -272,7 +272,7 @@ class Entrant {
     std::vector<double> samples_, packing_;
 };
 
-// Of constant force and drag, t s after the start.
+// Returns the position t s after the start, exactly, under constant force and drag.
 glm::dvec3 exactAfter(const Scene& scene, const glm::dvec3& x, const glm::dvec3& v, double t) {
     const double gamma = scene.groups[0].drag.tangent;
     const glm::dvec3 last = std::get<UniformField>(scene.fields[0].shape).velocity + scene.gravity / gamma;

@@ -175,7 +175,7 @@ class MemoryCopy : public BenchRunner {
     std::vector<char> from_, to_;
 };
 
-// Of one side of the fused path's state.
+// Returns the bytes of one side of the fused path's state.
 size_t sideBytes(const BenchCase& one, const Molecule& molecule) {
     const BufferLayout layout{int(molecule.vertices.size())};
     return layout.padded(size_t(one.count)) * size_t(layout.stateElements()) * sizeof(glm::vec4);

@@ -1,4 +1,4 @@
-// What runs a case of the benchmark, one frame at a time.
+// Runs a case of the benchmark, one frame at a time.
 #pragma once
 
 #include <cstdint>

@@ -49,7 +49,7 @@ struct SortBenchDevice {
 
 // Error: a sort did not sort; out of memory; the driver refuses a shader.
 SortTable measureSorts(int side, const SortBenchDevice& device, const measure::Schedule& schedule);
-// What others published.
+// The speed of a sort as others published it.
 struct PublishedSort {
     const char* where;
     double millionItems[4];  // a second, for 128, 256, 512 and 1024 squared

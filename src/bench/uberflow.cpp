@@ -139,7 +139,7 @@ class CpuParticles {
             positions_[i] = anchors_[i] + relative_[i];
         current_ = velocities_;
     }
-    // The same field, drag and gravity as in the scene.
+    // Moves all particles by a frame, with the scene's field, drag and gravity.
     void move() {
         const VortexField field;
         const auto h = float(1 / frameRate), decay = float(-std::expm1(-gamma / frameRate)),

@@ -1,4 +1,4 @@
-// What the times of a run mean: ratios between cases, and whether the project's targets hold. Pure.
+// Judges the times of a run: ratios between cases, and whether the project's targets hold. Pure.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace shoal::bench {
 
-// Of the shortest times; nothing where there is nothing to compare with in the case's group.
+// Ratios of the shortest times; nothing where there is nothing to compare with in the case's group.
 struct Ratios {
     std::optional<double> avx512, avx2;  // the case's time over that baseline's
     std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is

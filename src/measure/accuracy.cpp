@@ -162,7 +162,7 @@ class Sweep {
         progress_.estimate(expected_);
     }
 
-    // What came before took as long as it took: the rest is bounded, and what it has no time for is said now.
+    // Reports the seconds of the rest, and the share of all errors and times that fits into them.
     void tellWhatIsLeft() {
         const double all = secondsOfErrors() + secondsOfTimes();
         progress_.left(options_.seconds ? std::min(all, *options_.seconds) : all,

@@ -1,9 +1,9 @@
-// What an error costs: a scene is run by every method, at every step and field sampling, on the real path in
-// float, and held against the double-precision reference.
+// Measures what an error costs: a scene is run by every method, at every step and field sampling, on the real
+// path in float, and compared with the double-precision reference.
 //
 // The error is measured on a few molecules of each group, where the reference tells; the time on as many as
 // the scene has, because few do not fill a device. Both start from the same state, to the bit of a float.
-// Pins that may let go are held throughout.
+// Pins that may be released are held throughout.
 #pragma once
 
 #include <functional>
@@ -56,7 +56,7 @@ struct AccuracyOptions {
     std::function<std::vector<std::pair<Method, Step>>()> extra = {};
 };
 
-// What was measured of a group.
+// A group as it was measured.
 struct AccuracyGroup {
     std::string name, molecule;
     int vertices = 0, springs = 0;

@@ -287,7 +287,7 @@ Drift ExactEnds::driftOf(const std::vector<Snapshot>& ends) const {
     Drift out;
     const double count = double(molecules_.size());
     for (const One& one : molecules_) {
-        // at the reference's own time, of which the muscles' rest lengths hang
+        // at the reference's own time, on which the muscles' rest lengths depend
         reference::State end = stateOf(ends[one.group], one.index);
         end.time = one.end.time;
         const Drift d = driftOf(one, end);

@@ -66,7 +66,7 @@ class ExactEnds {
     ErrorParts errorOf(const std::vector<Snapshot>& ends) const;
     Drift driftOf(const std::vector<Snapshot>& ends) const;
     int molecules() const { return int(molecules_.size()); }
-    // Of each molecule; and where among them one is.
+    // Returns the relative error of each molecule; placeOf() says where among them one is.
     std::vector<double> eachOf(const std::vector<Snapshot>& ends) const;
     std::optional<size_t> placeOf(size_t group, int molecule) const;
     static reference::State stateOf(const Snapshot& snapshot, int molecule);

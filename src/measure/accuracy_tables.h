@@ -23,7 +23,7 @@ struct ReportEntry {
 std::string speedUpTable(const std::vector<ReportEntry>& entries, double error);
 // Nanoseconds per vertex and simulated second of every solver at `error`; a row a scene.
 std::string costTable(const std::vector<ReportEntry>& entries, double error);
-// What the calibration takes for its error.
+// The method and substeps that the calibration chooses for its error.
 std::string chosenTable(const std::vector<ReportEntry>& entries);
 
 }  // namespace shoal::measure

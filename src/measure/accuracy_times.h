@@ -23,10 +23,10 @@ struct Contender {
 // frames are timed, between two waits, or the first one alone where frames are long.
 double secondsOfVisit(const Contender& one);
 
-// What the least number of samples of all will take.
+// Estimates the seconds of all samples: the least number of each, and more while they fit into half a minute.
 double leastSeconds(const std::vector<Contender>& contenders);
 
-// Those that fit when each takes its seconds, cheapest first, as flags. Nothing bounds them: all.
+// Flags the contenders that fit when each takes its seconds, cheapest first. Nothing bounds them: all.
 std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<double> seconds);
 
 // Visits in turn, round after round; `visit(i)` is left out where it would end after `seconds`, by `now` (s)

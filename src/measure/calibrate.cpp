@@ -138,7 +138,7 @@ class Search {
         return concat("--error: the motion is chaotic, so that no error can be given: ", why);
     }
 
-    // Cheapest substeps first, so that the dear ones meet a good bound.
+    // Cheapest substeps first, so that the dear ones have a good bound to beat.
     void searchAll() {
         std::vector<size_t> order;
         for (size_t i = 0; i < runs_.size(); ++i)
@@ -251,7 +251,8 @@ class Search {
         return error;
     }
 
-    // What one look finds too dear is timed again, in turn with the best: a busy moment must not decide.
+    // Returns whether the method can be cheapest. If one look finds it too dear it is timed again, in turn
+    // with the best: a busy moment must not decide.
     bool canWin(Run& run, int substeps) {
         Run* best = cheapest();
         if (best == nullptr) return true;
@@ -267,7 +268,8 @@ class Search {
         return false;
     }
 
-    // Those that get there were timed one after the other: the best is found in turn.
+    // Times the methods that reach the error again, each in turn with the best: the search timed them one
+    // after the other.
     void timeAgain() {
         for (Run& run : runs_) {
             Run* best = cheapest();
@@ -344,7 +346,7 @@ class Search {
     std::vector<Run> runs_;
 };
 
-// Of what is simulated, whatever the scene says of solvers.
+// Compiles the scene with a fixed solver, so that the plan tells only what is simulated.
 Plan plainPlan(const Scene& scene) {
     Scene plain = withMolecules(scene, manyOnGpu);
     plain.solver.kind = SolverKind::bdf2Xpbd;

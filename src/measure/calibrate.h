@@ -4,8 +4,8 @@
 // again in turn. What gets there has to hold over a sample of some hundred molecules (sample.h), else it
 // takes more substeps: what is claimed is claimed of that sample.
 //
-// What was found is kept as a file under a hash of everything that it hangs on: the scene as compiled (with
-// its molecules), the error, what the search was narrowed to, the shaders, the kernels, the driver, the
+// The result is kept as a file under a hash of everything that it depends on: the scene as compiled (with its
+// molecules), the error, what the search was narrowed to, the shaders, the kernels, the driver, the
 // processor, the version.
 #pragma once
 
@@ -20,7 +20,7 @@ namespace shoal::measure {
 
 struct CalibrationOptions {
     double error = 1e-3;  // relative: see accuracy_reference.h
-    // What the search is narrowed to; empty: everything.
+    // These narrow the search; empty: everything.
     std::vector<SolverKind> solvers = {};
     std::vector<FieldSampling> samplings = {};
     std::optional<int> substeps = {};

@@ -10,7 +10,7 @@
 
 namespace shoal::measure {
 
-// 16 hexadecimal digits of everything that a calibration hangs on. `plan`: of the scene, with a solver that
+// 16 hexadecimal digits of everything that a calibration depends on. `plan`: of the scene, with a solver that
 // takes every step.
 std::string calibrationKey(const Plan& plan, const CalibrationOptions& options, const AccuracyDevice& device);
 

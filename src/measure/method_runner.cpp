@@ -36,7 +36,7 @@ Scene MethodRunner::at(Step step) const {
 
 std::string MethodRunner::refusal(Step step) const {
     try {
-        compile(withMolecules(at(step), 1));  // whether it is refused does not hang on their number
+        compile(withMolecules(at(step), 1));  // whether it is refused does not depend on their number
         return {};
     } catch (const Error& error) {
         return error.message();

@@ -1,4 +1,4 @@
-// One solver and field sampling on the device, at any step: kernels do not hang on the step, so that one
+// One solver and field sampling on the device, at any step: kernels do not depend on the step, so that one
 // simulation serves them all.
 #pragma once
 
@@ -39,7 +39,7 @@ struct AccuracyDevice {
     bool inPlace = false;
 };
 
-// The scene with at most so many molecules of each group, pins that never let go.
+// The scene with at most so many molecules of each group, pins that are never released.
 Scene withMolecules(Scene scene, int most);
 
 class MethodRunner {

@@ -1,4 +1,4 @@
-// What a set of (time, error) points says: which are worth having, and what an error costs. Pure.
+// Evaluates a set of (time, error) points: which are worth having, and what an error costs. Pure.
 #pragma once
 
 #include <optional>
@@ -21,7 +21,7 @@ struct Sample {
     double steps = 0;  // a second
 };
 
-// What an error costs on one curve.
+// The cost of an error on one curve.
 struct AtError {
     double time = 0;
     double stepsPerSecond = 0;

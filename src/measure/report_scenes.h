@@ -3,7 +3,7 @@
 //
 // Molecules have masses of 1 and springs of stiffness k with a damping of 0.05 sqrt(k), are centred on the
 // origin and start turned by 0.7 rad about (1, 2, 3); the others of a group are turned at random, so that
-// more than one direction counts. Molecules do not meet: all start at the same place, where the fields are.
+// more than one direction counts. There is no contact of molecules: all start where the fields are.
 //
 //   fall     in a shear flow, drag 1 /s, gravity
 //   gusts    two vertices pinned, in a shear flow with four oscillations, drag 2 /s, gravity

@@ -11,10 +11,10 @@
 
 namespace shoal::measure {
 
-// Of each group: of so many molecules one of a hundred that fail is seen with a probability of 95 %.
+// Molecules of each group: if one of a hundred fails, so many show it with a probability of 95 %.
 constexpr int sampleMolecules = 300;
 
-// What is said of a method over the sample. An error is relative: accuracy_reference.h.
+// The errors of a method over the sample. An error is relative: accuracy_reference.h.
 struct SampleError {
     double rms = 0, worst = 0;
     int measured = 0;  // molecules, to a third of the error wanted or nearer: those of the RMS

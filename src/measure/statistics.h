@@ -1,4 +1,4 @@
-// What is said about a handful of times.
+// Statistics of a handful of times.
 #pragma once
 
 #include <functional>

@@ -17,7 +17,8 @@ struct Surface {
     bool exists() const { return distance < 1e20; }
 };
 
-// Of the drawn surface. A height field's is (y - height) times the normal's y: exact where it is flat.
+// Returns the drawn surface at x. A height field's distance is (y - height) times the normal's y: exact where
+// it is flat.
 Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x);
 
 // The surfaces that vertices rest on, each its collider's thickness off the drawn one.
@@ -29,8 +30,8 @@ class RestSurfaces {
     size_t count() const { return colliders_->size(); }
     const Collider& collider(size_t i) const { return (*colliders_)[i]; }
     Surface at(size_t i, const glm::dvec3& x) const;
-    // The same for a vertex that is held: goes on a little past the border of a height field, so that the
-    // motion is smooth until it leaves it.
+    // As at(), for a vertex that is held: the surface goes on a little past the border of a height field, so
+    // that the motion is smooth until the vertex leaves it.
     Surface under(size_t i, const glm::dvec3& x) const;
 
     // m: a way no longer than this cannot pass through the collider unnoticed between its ends.
@@ -41,8 +42,8 @@ class RestSurfaces {
     // fields.
     bool exact(size_t i) const { return facts_[i].exact; }
 
-    // What a vertex that is held on the surface and moves at v does besides: the rate at which it is shifted
-    // along the normal to stay there, in m/s, and v . dn/dt, in m/s^2.
+    // How a vertex that is held on the surface and moves at v follows it: `shift`, the rate at which it is
+    // shifted along the normal to stay there, in m/s, and `turning`, v . dn/dt, in m/s^2.
     struct Following {
         double shift = 0, turning = 0;
     };

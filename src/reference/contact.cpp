@@ -361,7 +361,7 @@ class ContactIntegrator {
         }
     }
 
-    // After something has happened at `event`: which held vertices stick, slide or let go.
+    // After something has happened at `event`: which held vertices stick, slide or are released.
     void classify(const std::optional<Event>& event) {
         equations_.everything(state_.position, state_.velocity, state_.time, free_);
         for (const size_t i : std::vector<size_t>(held_.list())) {

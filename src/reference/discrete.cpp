@@ -19,7 +19,7 @@ glm::dvec3 relaxed(const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& g
     return v + decay * (u - v) + decay / rate * gravity;
 }
 
-// The same with a rate along the unit normal n and another across it.
+// As relaxed(), with one rate along the unit normal n and another across it.
 glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dvec3& u, const glm::dvec3& a,
                       const glm::dvec3& n, double h, bool slips) {
     const glm::dvec3 plain = relaxed(v, u, a, problem.drag.tangent, h, slips);

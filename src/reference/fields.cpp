@@ -70,7 +70,7 @@ glm::dvec3 velocity(const CurlNoiseField& field, const glm::dvec3& x, double tim
     return sum;
 }
 
-// Of one frame of a grid.
+// Returns the velocity at x in one frame of a grid.
 glm::dvec3 gridVelocity(const GridField& field, const glm::dvec3& x, size_t frame) {
     glm::ivec3 low, high;
     glm::dvec3 share;

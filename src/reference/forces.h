@@ -9,7 +9,7 @@
 
 namespace shoal::reference {
 
-// Those that act on the group.
+// Returns the forces that act on the group.
 std::vector<Force> forcesOn(const Scene& scene, const Group& group);
 
 // Sum of attract and vortexLine at x, m/s^2.
@@ -20,8 +20,8 @@ glm::dvec3 shapeAcceleration(const ForceShape& shape, const glm::dvec3& x);
 // Sum of the winds, m/s: part of the fluid's velocity.
 glm::dvec3 forceWind(const std::vector<Force>& forces, double time);
 
-// Of a molecule's mean velocity: what thrust adds to it, m/s^2, and what it is after a while (s), exactly,
-// with the factors of that time.
+// Thrust on a molecule's mean velocity: the acceleration, m/s^2, and the velocity after `duration` (s),
+// exactly, with the factors of `time`.
 glm::dvec3 thrustAcceleration(const std::vector<Force>& forces, const glm::dvec3& velocity, double time);
 glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration);
 

@@ -7,8 +7,8 @@ namespace shoal::reference {
 
 namespace {
 
-// Of several surfaces that hold a vertex at rest: rounds in which each answers the others, and the share of
-// the force that may be left.
+// Where several surfaces hold a vertex at rest: rounds in which each answers the others, and the share of the
+// force that may be left.
 constexpr int rounds = 200;
 constexpr double balanced = 1e-9;
 

@@ -12,7 +12,7 @@ namespace shoal::reference {
 
 constexpr double restSpeed = 1e-8;  // m/s: slower than this along a normal is not moving
 
-// What can happen to a vertex.
+// The events that change how a vertex moves.
 enum class Change { impact, release, slip, stop, press };
 
 class Held {
@@ -25,13 +25,14 @@ class Held {
     bool holds(size_t vertex, size_t collider) const;
 
     void hold(size_t vertex, size_t collider);  // a fourth surface at once is left out
-    // The same for one that is on its way out by the normal, and yet would run into the surface: a height
+    // Holds a vertex that is on its way out by the normal, and yet would run into the surface: a height
     // field's normals are smoother than its cells. It is shifted out and keeps its velocity, as on the GPU,
     // until it is off the surface or presses into it.
     void graze(size_t vertex, size_t collider);
     void release(size_t vertex, size_t collider);
     void releaseAll(size_t vertex);
-    // Whether it sticks, slides or lets go from now on. `slipped`: friction has just failed to hold it.
+    // Decides whether it sticks, slides or is released from now on. `slipped`: friction has just failed to
+    // hold it.
     void classify(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free,
                   bool slipped);
 
@@ -85,10 +86,10 @@ class Held {
 
     bool rough(const Contacts& contacts) const;
     double friction(size_t collider) const { return surfaces_->collider(collider).friction; }
-    // Of a vertex that slides.
+    // Returns the forces of the surfaces on a vertex that slides.
     Forces forces(const Contacts& contacts, const glm::dvec3& x, const glm::dvec3& v,
                   const glm::dvec3& free) const;
-    // Of a vertex at rest: Coulomb's law at every surface.
+    // Returns the reply of the surfaces to a vertex at rest: Coulomb's law at every surface.
     Reply reply(const Contacts& contacts, const glm::dvec3& x, const glm::dvec3& free) const;
     void classifyResting(size_t vertex, const glm::dvec3& x, const glm::dvec3& free, bool slipped);
     void classifySliding(size_t vertex, const glm::dvec3& x, const glm::dvec3& v, const glm::dvec3& free);

@@ -42,7 +42,7 @@ Rates ratesOf(const Drag& drag, const Function& function) {
     return {function(drag.normal), function(drag.tangent)};
 }
 
-// Of drag over a whole step.
+// The coefficients of drag over a whole step.
 struct Flight {
     Rates decay, phi, bend;  // bend: (h - phi) / gamma
 };

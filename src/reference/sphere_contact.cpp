@@ -9,7 +9,7 @@ namespace {
 
 using Contacts = std::vector<std::pair<int, int>>;
 
-// What is known of a contact before its impulse.
+// The terms of a contact, known before its impulse.
 struct Meeting {
     glm::dvec3 normal{0, 1, 0};  // from the second to the first
     double since = 0;            // s
@@ -60,7 +60,8 @@ Contacts touching(const std::vector<Sphere>& spheres) {
 
 namespace {
 
-// The same bound of the largest eigenvalue of the sum of n n^T.
+// Returns the shaders' bound of the largest eigenvalue of `sum`, the sum of n n^T
+// (shaders/physics/pair.glsl).
 double crowdOf(const glm::dmat3& sum) {
     double rows = 0, squares = 0;
     for (int i = 0; i < 3; ++i) {

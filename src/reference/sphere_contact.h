@@ -13,7 +13,7 @@ struct Sphere {
     glm::dvec3 position{0}, velocity{0};  // m, m/s
     double radius = 0;                    // m
     double weight = 1;                    // 1/kg: 1 / mass, 0 where held
-    int molecule = 0;                     // spheres of one do not meet
+    int molecule = 0;                     // spheres of one never touch
 };
 
 // All that overlap, of different molecules: first below second. O(n^2).

@@ -17,7 +17,8 @@ static bool isEmpty(const Box& box) {
     return !(box.low.x <= box.high.x);
 }
 
-// Of a group's start state. Molecules are followed by their first vertex and padded by their size.
+// Returns the bounds of a group's start state. Molecules are followed by their first vertex and padded by
+// their size.
 static Box boundsOf(const GroupPlan& group) {
     Box box = emptyBox;
     const size_t vertices = size_t(group.vertexCount);

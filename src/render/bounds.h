@@ -14,10 +14,10 @@ struct Sphere {
 };
 
 struct SceneBounds {
-    // What throws the shadows that matter: molecules, the models that carry them, and spheres. All models
-    // where there is none of these.
+    // Bounds of the shadow casters: molecules, the models that carry them, and drawn colliders with an end.
+    // All drawn models where there is none of these.
     Box casters;
-    // Around the molecules that hang densely on a model and hide the sky from one another.
+    // Around the molecules that are placed densely on a model and hide the sky from one another.
     Sphere crown;
 };
 

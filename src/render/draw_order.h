@@ -37,8 +37,8 @@ class DrawOrder {
     std::vector<std::string> defines() const;
     void bind(const gpu::Program& program) const;
 
-    // Of the state as it is, seen from there. Changes the framebuffer and what fragment passes change.
-    // Error: the group is in several pieces, because its state is larger than a storage block.
+    // Updates the order to the state as `eye` sees it. Changes the framebuffer and what fragment passes
+    // change. Error: the group is in several pieces, because its state is larger than a storage block.
     void update(const StateView& state, const Eye& eye);
 
     std::vector<KeyIndex> download() const;  // for tests

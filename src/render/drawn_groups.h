@@ -26,17 +26,17 @@ class DrawnGroups {
     bool readsDepth() const;  // whether a blended group asks for DrawInputs::sceneDepth
 
     void drawShadows(const StateView& state, const ShadowMap& shadow, double time);
-    // What is not blended. With several samples a pixel, edges of cut-out shapes are spread over them (alpha
-    // to coverage).
+    // Draws the groups that are not blended. With several samples a pixel, edges of cut-out shapes are spread
+    // over them (alpha to coverage).
     void draw(const StateView& state, const DrawInputs& inputs);
     // Before the framebuffer of the picture is bound: the orders of what is blended.
     void order(const StateView& state, const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
 
-    // Of a group of particles of the plan: ParticleDrawer::change. True where the group is not drawn.
+    // Calls ParticleDrawer::change for a group of the plan. True where the group is not drawn.
     bool changeParticle(size_t group, const ParticleType& type, const Lighting& lighting);
 
-    // Of a group of molecules of the plan: MoleculeDrawer::change.
+    // Calls MoleculeDrawer::change for a group of the plan.
     void changeLooks(size_t group, const Group& looks);
 
     const DrawOrder* orderOf(size_t group) const;  // of the plan; null: it has none. For tests

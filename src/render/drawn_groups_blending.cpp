@@ -1,4 +1,4 @@
-// Of DrawnGroups: what is blended.
+// The part of DrawnGroups that orders and draws blended groups.
 #include <algorithm>
 
 #include "gpu/gl.h"

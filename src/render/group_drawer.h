@@ -1,4 +1,4 @@
-// What draws one group, whatever it is made of: straight from the state of either path, many molecules an
+// Draws one group, whatever it is made of: straight from the state of either path, many molecules an
 // instanced draw. The state is read and nothing of it crosses the bus. DrawnGroups says when and in which
 // order.
 #pragma once
@@ -20,7 +20,7 @@
 
 namespace shoal {
 
-// What a picture is drawn with besides the state. Borrows.
+// The inputs of a picture besides the state. Borrows.
 struct DrawInputs {
     const Eye& eye;
     const Lighting& lighting;
@@ -39,7 +39,7 @@ class GroupDrawer {
     const DrawStream& stream() const { return stream_; }
     virtual bool readsDepth() const { return false; }  // DrawInputs::sceneDepth
 
-    // What the order adds to the programs of the picture, before the first is made.
+    // Adds the defines of the draw order to the programs of the picture, before the first is made.
     void addOrderDefines(const std::vector<std::string>& defines);
 
     // Colours by what the molecules do, before the first program is made.

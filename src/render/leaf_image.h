@@ -7,9 +7,9 @@
 
 namespace shoal {
 
-// RGBA, rows bottom first. Colour is spread from inside the shape over what is cut away, so that smaller mip
-// levels do not mix the background's colour into the rim.
-// What is inside has an alpha of at least `inside`.
+// Returns the image as RGBA, rows bottom first. Colour is spread from inside the shape, where alpha is at
+// least `inside`, over what is cut away, so that smaller mip levels do not mix the background's colour into
+// the rim.
 Image bledImage(const Image& image, int inside = 128);
 
 // Mipmapped. Error: no such file, or not a PNG.

@@ -27,7 +27,7 @@ class Lighting {
     Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, const WaterLight* water,
              bool blends);
 
-    // What the programs are compiled with.
+    // Returns the defines of programs that light surfaces.
     std::vector<std::string> defines() const;
     std::vector<std::string> toneDefines() const;  // those of the picture
     std::vector<std::string> skyDefines() const;

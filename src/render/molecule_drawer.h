@@ -32,7 +32,7 @@ class MoleculeDrawer : public GroupDrawer {
     std::vector<std::string> skinDefines_;  // none: the molecule's own triangles are drawn
     double grow_ = 0, shrink_ = 0;          // s (scene/emitter.h)
     gpu::Buffer uvs_, indices_;             // none: points
-    gpu::Buffer skin_;                      // what its vertices hang on (shaders/render/skinned.vert)
+    gpu::Buffer skin_;                      // on which vertices its own depend (shaders/render/skinned.vert)
     gpu::Texture image_;                    // none: plain colour
 };
 

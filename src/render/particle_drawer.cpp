@@ -22,8 +22,8 @@ bool turns(const ParticleType& type) {
     return any && (type.facing == ParticleFacing::free || type.image);
 }
 
-// What is there but has no effect on the type's shape is left at its default. Sprites that the context cannot
-// draw twice as large as they are where the camera looks become quads, which look the same.
+// Returns the type with all that has no effect on its shape left at the default. Sprites that the context
+// cannot draw twice as large as they are where the camera looks become quads, which look the same.
 ParticleType effective(ParticleType type, double pixelsPerMeter, float maxPointSize) {
     const ParticleType usual;
     const double largest = type.size.y * std::max(type.growth.x, type.growth.y) * std::numbers::sqrt2;

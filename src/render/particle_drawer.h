@@ -5,7 +5,7 @@
 // An instance of a draw is a batch of particles that share one stream of corners: an instance each would
 // leave most lanes of a GPU, or of a CPU's vectors, idle.
 //
-// Those that are not blended cast shadows; blended ones do not.
+// Particles that are not blended cast shadows; blended ones do not.
 #pragma once
 
 #include "render/group_drawer.h"

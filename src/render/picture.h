@@ -24,7 +24,8 @@ bool isVideo(const std::string& target);
 // Takes the pictures of a run, one a frame.
 class PictureWriter {
   public:
-    // Of frames up to `last`. Error: ffmpeg is needed and not installed, frameFile's, or SoleWriter's.
+    // `last`: the greatest frame number. Error: ffmpeg is needed and not installed, frameFile's, or
+    // SoleWriter's.
     PictureWriter(std::string target, double frameRate, bool many = true, int last = 99999);
 
     // Error: disk full, no permission, ffmpeg failed, a video's pictures differ in size, or a frame of folder

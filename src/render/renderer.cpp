@@ -30,7 +30,7 @@ static Sphere crownOf(const Scene& scene, const Plan& plan, const RenderOptions&
     return options.crownShade ? boundsOf(scene, plan).crown : Sphere{};
 }
 
-// Of a picture of so many rows, at the distance of what the camera looks at.
+// Returns the pixels per metre at the camera's target, in a picture `height` rows high.
 static double pixelsPerMeterAt(const Camera& camera, int height) {
     const double distance = std::max(glm::distance(camera.eye, camera.target), 1e-3);
     return height / (2 * std::tan(camera.fieldOfView / 2) * distance);

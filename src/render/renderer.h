@@ -35,7 +35,7 @@ struct RenderOptions {
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model
 };
 
-// What is drawn among the molecules to show how they work; part of the picture, with its depth.
+// Draws among the molecules to show how they work; part of the picture, with its depth.
 class Overlay {
   public:
     virtual ~Overlay() = default;

@@ -34,7 +34,7 @@ void ShadowMap::begin() const {
     framebuffer_.bind();
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_TRUE);
-    // What flew out of the box towards the sun still casts; what lies below it is as good as at its bottom.
+    // Casters outside the box towards the sun still cast shadows; those below it count as at its bottom.
     glEnable(GL_DEPTH_CLAMP);
     glEnable(GL_POLYGON_OFFSET_FILL);
     glPolygonOffset(1.5f, 2);

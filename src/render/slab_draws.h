@@ -11,7 +11,7 @@
 
 namespace shoal {
 
-// What an instance of a draw call is.
+// The contents of one instance of a draw call.
 struct DrawStream {
     int corners = 1;       // indices, or vertices where there are none
     bool indexed = false;  // triangles; else points

@@ -19,9 +19,9 @@ class SpringLines {
     // Borrows nothing. `plan` of the scene.
     SpringLines(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan);
 
-    // Of all molecules. `strainShown`: at which a colour is full, above 0; `width`: pixels.
+    // Draws those of all molecules. `strainShown`: at which a colour is full, above 0; `width`: pixels.
     void draw(const StateView& state, const DrawInputs& inputs, double strainShown, double width);
-    // Of one. `group`: of the plan.
+    // Draws those of one molecule. `group`: of the plan.
     void drawOne(const StateView& state, const DrawInputs& inputs, double strainShown, double width,
                  size_t group, int molecule);
 

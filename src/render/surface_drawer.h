@@ -1,4 +1,4 @@
-// Draws what stands still: host models and terrain, and the colliders that molecules meet.
+// Draws what stands still: host models and terrain, and the colliders that molecules touch.
 #pragma once
 
 #include <optional>

@@ -26,7 +26,7 @@ SurfaceMesh meshOf(const Mesh& mesh);
 SurfaceMesh sphereMesh(const SphereCollider& sphere);
 SurfaceMesh boxMesh(const BoxCollider& box);
 SurfaceMesh capsuleMesh(const CapsuleCollider& capsule);
-// Of radius 1 around the origin; rings closer together in the middle, where the eye is.
+// A disc of radius 1 around the origin; its rings are closer together in the middle, where the eye is.
 SurfaceMesh discMesh(const glm::dvec3& normal);
 
 // Two unit directions across a unit normal; x and z for one that points up.

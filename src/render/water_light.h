@@ -1,5 +1,5 @@
-// What light does in water (scene/water.h), as the shaders of the picture take it (shaders/water): the net of
-// caustics, drawn anew for every picture from the waves of the surface, and the waves themselves.
+// Light in water (scene/water.h), as the shaders of the picture take it (shaders/water): the net of caustics,
+// drawn anew for every picture from the waves of the surface, and the waves themselves.
 //
 // Waves repeat on square tiles of the surface, eight meshes wide. Where refraction carries the light that
 // enters a small triangle of the surface is again a triangle, as much brighter as it is smaller [Arvo 1986];

@@ -38,7 +38,7 @@ inline Outcome runShoal(const Words& arguments, const Surroundings& surroundings
     return runProgram(SHOAL_COMMAND, arguments, surroundings);
 }
 
-// The same while it runs, in a group of processes of its own.
+// Starts the program and talks to it while it runs, in a group of processes of its own.
 class StartedShoal {
   public:
     explicit StartedShoal(const Words& arguments, const Surroundings& surroundings = {},

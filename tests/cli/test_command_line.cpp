@@ -1,4 +1,4 @@
-// What the command says about itself, and about words that it does not know.
+// Tests what the command says about itself, and about words that it does not know.
 #include <filesystem>
 
 #include "cli/shoal_command.h"

@@ -1,4 +1,4 @@
-// What goes to other programs: written by the command, opened by the real readers where this machine has
+// Tests files for other programs: written by the command, opened by the real readers where this machine has
 // them.
 #include <cmath>
 #include <cstdlib>

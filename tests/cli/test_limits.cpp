@@ -1,5 +1,5 @@
-// What `check` takes, `run` takes; what a context cannot hold is refused with its place and the limit; and
-// --sandbox.
+// Tests limits: `run` takes what `check` takes; what a context cannot hold is refused with its place and the
+// limit; and --sandbox.
 #include <filesystem>
 
 #include "cli/shoal_command.h"

@@ -1,4 +1,4 @@
-// What is wrong is shown in the window until its cause is gone, and no longer. Needs a display and xdotool.
+// An error is shown in the window until its cause is gone, and no longer. Needs a display and xdotool.
 #include "cli/shoal_command.h"
 #include "cli/window_user.h"
 #include "core/file.h"

@@ -272,7 +272,7 @@ Kind meshes() {
 
 // ---- The driver
 
-// What a signal handler can say.
+// The file of the current input, for the signal handler to name.
 char currentInput[4096];
 
 [[noreturn]] void tooLong(int) {

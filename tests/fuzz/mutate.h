@@ -13,7 +13,7 @@ size_t below(Random& random, size_t count);
 
 // Text: bits flipped, cut short, pieces left out, repeated or exchanged, numbers and nesting at the limits.
 std::string mutateText(const std::string& text, Random& random);
-// The same of binary files, with whole numbers at the limits.
+// Binary files: bits flipped, cut short, pieces left out or repeated, whole numbers at the limits.
 std::string mutateBytes(std::string bytes, Random& random);
 
 }  // namespace shoal::test

@@ -44,7 +44,7 @@ void compareGroup(const GroupPlan& group, const GroupState& before, const Snapsh
         ++out.molecules;
         out.contacts += contact;
         out.releases += release;
-        // whether a pull is above the force may hang on a rounding; the lots that are drawn do not
+        // whether a pull is above the force may depend on a rounding; the lots that are drawn do not
         const bool disagree = a.released[m] != b.released[m];
         const bool mayRelease = release && (!disagree || group.release.force);
         const bool apart =

@@ -8,8 +8,8 @@
 
 namespace shoal::test {
 
-// Where a vertex touches something or pins let go, a rounding decides in which substep: such molecules may be
-// further apart, and are counted. (On Mesa's rasteriser none is.)
+// Where a vertex touches something or pins are released, a rounding decides in which substep: such molecules
+// may be further apart, and are counted. (On Mesa's rasteriser none is.)
 struct Comparison {
     int molecules = 0, contacts = 0, releases = 0;
     int excepted = 0;     // beyond the tolerance, with a contact or a release
@@ -26,7 +26,7 @@ class Agreement {
     // 1e-5 of a molecule's size: one rounding of a position, up to 1 m from its anchor, is 6e-8 m, and each
     // of a frame's substeps makes a few. Velocities count as far as they carry in a frame.
     static constexpr double tolerance = 1e-5;
-    // Of unit normals; a thin triangle's turns by many times what its corners move.
+    // The tolerance of unit normals; a thin triangle's turns by many times what its corners move.
     static constexpr double normalTolerance = 1e-3;
 
     Agreement(const Scene& scene, const SimulationOptions& first, const SimulationOptions& second);

@@ -36,7 +36,7 @@ inline Emitter burst(int count, double time = 0) {
     return emitter;
 }
 
-// What lives in a group of points, in world coordinates.
+// A living member of a group of points, in world coordinates.
 struct Living {
     size_t place = 0;
     glm::dvec3 position{0}, velocity{0};

@@ -1,4 +1,4 @@
-// What a picture of blended squares should be, from pictures of each alone: blending in closed form.
+// Predicts a picture of blended squares from pictures of each alone: blending in closed form.
 #pragma once
 
 #include <cmath>
@@ -8,7 +8,7 @@
 
 namespace shoal::test {
 
-// What the picture shows of a channel's radiance (shaders/render/tone.glsl), from 0 to 255.
+// Returns what the picture shows of a channel's radiance (shaders/render/tone.glsl), from 0 to 255.
 inline double shownOf(double radiance) {
     const double x = radiance * 0.5;
     const double y = std::clamp(x * (2.51 * x + 0.03) / (x * (2.43 * x + 0.59) + 0.14), 0.0, 1.0);

@@ -55,7 +55,7 @@ void addPins(std::vector<FeatureScene>& out) {
 
         // what flies apart is far from its anchor, where formulas that round otherwise differ by more
         if (solver == SolverKind::verlet || solver == SolverKind::rk4) continue;
-        groupOf(byRate).molecule.springs.clear();  // nothing pulls: only the rate lets go
+        groupOf(byRate).molecule.springs.clear();  // nothing pulls: only the rate releases them
         // All are held: what flew metres off beside a pin would be rounded by 1e-5 of a leaf.
         for (Vertex& vertex : groupOf(byRate).molecule.vertices)
             vertex.pinned = true;

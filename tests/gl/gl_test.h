@@ -1,4 +1,4 @@
-// What the tests of OpenGL share.
+// The context and the path that the tests of OpenGL share.
 #pragma once
 
 #include "compile/path.h"

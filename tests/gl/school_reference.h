@@ -10,7 +10,7 @@
 
 namespace shoal::test {
 
-// What is known of a molecule from its state.
+// The motion of a molecule as a whole, computed from its state.
 struct SchoolBody {
     glm::dvec3 place, velocity, forward, upper, spin;
     uint32_t seed = 0;
@@ -26,7 +26,7 @@ struct Steered {
 class SchoolReference {
   public:
     SchoolReference(const Scene& scene, const Plan& plan) : scene_(&scene), plan_(&plan) {}
-    // Of a group, from a state at the start of a frame.
+    // Both answer for each molecule of a group, from a state at the start of a frame.
     std::vector<SchoolBody> bodies(size_t group, const GroupState& state) const;
     std::vector<Steered> steer(size_t group, const SavedState& state, double duration) const;
 

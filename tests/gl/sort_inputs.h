@@ -1,4 +1,4 @@
-// What sorts are tested on: pairs of a key and an index, keys in every kind of order, indices that count up.
+// Inputs to test sorts on: pairs of a key and an index, keys in every kind of order, indices that count up.
 #pragma once
 
 #include <cstddef>

@@ -62,7 +62,7 @@ TEST_CASE("points and particles are coloured by their speed as well", "[render][
     plain.groups[0].colorBy->colors = {middle, middle};
     CHECK(difference(pixel(show(scene).image, 80, 60), pixel(show(plain).image, 80, 60)) <= 1);
 
-    // What sends its own light shows the colour itself.
+    // A particle that sends its own light shows the colour itself.
     ParticleType type;
     type.size = {0.6, 0.6};
     type.blend = Blend::none;

@@ -1,4 +1,4 @@
-// What sliders change while a run goes on: within their limits nothing goes wrong, and nothing is lost for
+// Sliders are moved while a run goes on: within their limits nothing goes wrong, and nothing is lost for
 // ever.
 #include <algorithm>
 #include <cmath>
@@ -100,7 +100,7 @@ TEST_CASE("within the sliders' limits nothing runs away and nothing is lost for 
                 CHECK(counts.live <= counts.capacity);
             }
         }
-        // back, and all that is about is gone: what lives then was born of the first numbers
+        // back, and all that is about is gone: what lives then was emitted under the first numbers
         for (size_t g = 0; g < scene.groups.size(); ++g)
             REQUIRE(simulation.changeLife(g, *scene.groups[g].life));
         run(simulation, 30);

@@ -1,6 +1,6 @@
-// What emitters bear is distributed as they say: Kolmogorov and Smirnov's test of each quantity against its
-// distribution. One test rejects a right distribution with a probability of at most 1e-6 over the seeds
-// (Massart's bound), all of this file together with less than 1e-4; the seeds are fixed.
+// The newborns of emitters are distributed as they say: Kolmogorov and Smirnov's test of each quantity
+// against its distribution. One test rejects a right distribution with a probability of at most 1e-6 over the
+// seeds (Massart's bound), all of this file together with less than 1e-4; the seeds are fixed.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -20,7 +20,7 @@ namespace {
 constexpr int many = 20000;
 constexpr double pi = std::numbers::pi;
 
-// Of `many` newborns of an emitter without speed and gravity, at the end of their frame of birth.
+// Emits `many` newborns in one burst, and returns them at the end of their frame of birth.
 std::vector<Living> newborns(Emitter emitter, const Scene* with = nullptr, glm::dvec2 life = {1, 1}) {
     emitter.bursts = {{0, many, 0}};
     Scene scene = bearing(emitter, many, life);

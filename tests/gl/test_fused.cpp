@@ -14,7 +14,7 @@ namespace {
 
 constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
 
-// Contact, pins that let go, directional drag, muscles and fields at once.
+// Contact, pins that are released, directional drag, muscles and fields at once.
 Scene fullScene(Molecule molecule, int count, FieldSampling sampling, SolverKind solver) {
     molecule.vertices[0].pinned = molecule.vertices.size() > 1;
     test::addMuscles(molecule, 0.1);

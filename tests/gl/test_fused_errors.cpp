@@ -1,4 +1,4 @@
-// What the fused path cannot do is said clearly, and `auto` goes on where there is a way.
+// The fused path says clearly what it cannot do, and `auto` goes on where there is a way.
 #include <filesystem>
 #include <fstream>
 #include <map>

@@ -82,14 +82,14 @@ std::vector<reference::Sphere> spheresOf(const Plan& plan) {
 
 using Pairs = std::vector<std::pair<int, int>>;
 
-// Those of `some` that `all` lacks.
+// Returns the pairs of `some` that `all` lacks.
 Pairs missing(const Pairs& all, const Pairs& some) {
     Pairs out;
     std::set_difference(some.begin(), some.end(), all.begin(), all.end(), std::back_inserter(out));
     return out;
 }
 
-// Those that overlap by less than rounding may tell otherwise.
+// Whether the two overlap, or miss one another, by so little that rounding may tell otherwise.
 bool isClose(const std::vector<reference::Sphere>& spheres, const std::pair<int, int>& pair) {
     const reference::Sphere &a = spheres[size_t(pair.first)], &b = spheres[size_t(pair.second)];
     return std::abs(glm::distance(a.position, b.position) - a.radius - b.radius) <

@@ -1,4 +1,5 @@
-// Many leaves in the wind against the double reference: orders, repeatability, drag, and pins that let go.
+// Many leaves in the wind against the double reference: orders, repeatability, drag, and pins that are
+// released.
 #include <algorithm>
 #include <cmath>
 

@@ -55,7 +55,7 @@ Image draw(const Scene& scene, int frames = 0) {
     return show(scene, frames, small).image;
 }
 
-// Of radiances: what the picture shows, to its 8 bits and its dither.
+// Checks that the picture shows a radiance, to its 8 bits and its dither.
 void checkShows(const Image& image, const glm::dvec3& radiance) {
     INFO("found " << middleOf(image).x << " " << middleOf(image).y << " " << middleOf(image).z
                   << ", expected " << shownOf(radiance).x << " " << shownOf(radiance).y << " "

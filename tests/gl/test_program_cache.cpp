@@ -78,7 +78,7 @@ std::vector<float> draw(const Program& program) {
     return color;
 }
 
-// What one start of a program with this folder does.
+// The hits, misses and warnings of the cache in one start of a program with this folder.
 struct Start {
     int hits = 0, misses = 0;
     std::vector<std::string> warnings;

@@ -10,7 +10,7 @@ using namespace shoal::test;
 
 namespace {
 
-// The same scene with the molecules out of sight.
+// Shows the scene with its molecules out of sight.
 Image withoutMolecules(Scene scene) {
     for (Group& group : scene.groups)
         for (Placement::Item& item : group.place.items)

@@ -1,4 +1,4 @@
-// What undefined texture contents and a run that blew up must not do.
+// A restart recovers from a run that blew up, and undefined texture contents do no harm.
 #include <cmath>
 #include <limits>
 

@@ -189,7 +189,8 @@ TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and al
     Run run(scene);
     run.frames(60);
     const SchoolReference reference(scene, run.simulation.plan());
-    // What runs into the rock is knocked over for a moment, and turns faster than it would by itself.
+    // A molecule that runs into the rock is knocked over for a moment, and turns faster than it would by
+    // itself.
     int all = 0, tilted = 0, knocked = 0;
     std::vector<std::vector<bool>> wereOver(2);
     for (int frame = 0; frame < 120; frame += 10) {

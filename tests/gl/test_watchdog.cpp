@@ -163,7 +163,7 @@ TEST_CASE("healthy runs raise nothing, whatever their number", "[watchdog]") {
             INFO(way.name << ", " << count);
             Scene scene = swarm(shippedMolecule("leaf"), count, SolverKind::euler, {0, 1.5, 0});
             scene.colliders = {everyCollider()[0], everyCollider()[1]};
-            // what lanes past the last molecule would meet at the origin, where none of them is
+            // what lanes past the last molecule would find at the origin, where none of them is
             Field trap = test::field(UniformField{{1e7, 0, 0}});
             trap.box = Box{glm::dvec3(-0.5), glm::dvec3(0.5)};
             scene.fields = {trap};
@@ -199,7 +199,7 @@ TEST_CASE("without a watchdog a run goes on, bit for bit the same", "[watchdog]"
 
 TEST_CASE("the state before the last frame is exactly what it was", "[watchdog]") {
     if (!canFuse()) return;
-    // anchors that move, pins that let go at random and by force
+    // anchors that move, pins that are released at random and by force
     for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
         Molecule molecule = shippedMolecule("leaf");
         molecule.vertices[0].pinned = molecule.vertices[2].pinned = true;

@@ -1,4 +1,4 @@
-// What each solver does with each hard case. In the order of solvers():
+// The expected verdict on each solver in each hard case. In the order of solvers():
 // euler, verlet, leapfrog, rk4, xpbd, bdf2-xpbd, bdf2-corotated.
 // On the ping-pong path the explicit ones do the same, and the implicit ones are refused.
 #include <map>

@@ -76,7 +76,7 @@ void Judge::finite(const Snapshot& snapshot) {
     finite_ = finite_ && test::finite(snapshot);
 }
 
-// What fails comes alone, so that the table shows it.
+// If any figure fails, only those that do are named, so that the table shows them.
 Outcome Judge::outcome() const {
     bool good = true;
     for (const Figure& figure : figures_)

@@ -258,7 +258,7 @@ TEST_CASE("hard: colliders that touch or overlap", "[hard][contact][thin]") {
     });
 }
 
-// What starts inside comes out within the time that the depth takes at 1 m/s, and is not shot out.
+// A molecule that starts inside comes out within the time that the depth takes at 1 m/s, and is not shot out.
 TEST_CASE("hard: starting inside a collider", "[hard][contact]") {
     const auto leave = [](const Solver& solver, Judge& judge, const Molecule& molecule, ColliderShape shape,
                           double limit) {

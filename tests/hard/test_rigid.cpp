@@ -1,4 +1,4 @@
-// What moves rigidly: nothing may be lost, and nothing may depend on where, which way or how fast.
+// Tests rigid motion: nothing may be lost, and nothing may depend on where, which way or how fast.
 #include <cmath>
 
 #include "hard/outcome.h"
@@ -93,8 +93,8 @@ TEST_CASE("hard: the rest shape moved rigidly", "[hard][rigid]") {
     });
 }
 
-// The same in a frame that moves with V: x' = x + V t. |V| of 10 m/s, where a rounding is 5e-7 m/s: 480 of
-// them, at random over 1 s, are 6e-6 m; relative to V t of 10 m they may be 1e-5.
+// The motion is the same in a frame that moves with V: x' = x + V t. |V| of 10 m/s, where a rounding is 5e-7
+// m/s: 480 of them, at random over 1 s, are 6e-6 m; relative to V t of 10 m they may be 1e-5.
 TEST_CASE("hard: Galilean shift", "[hard][rigid]") {
     test::holds("Galilean shift", [](const Solver& solver, Judge& judge) {
         const glm::dvec3 shift{8, -5, 3.5};
@@ -112,7 +112,7 @@ TEST_CASE("hard: Galilean shift", "[hard][rigid]") {
     });
 }
 
-// The same in a world turned by R: x' = R x. What turns as well: start, spin, gravity, wind.
+// The motion is the same in a world turned by R: x' = R x. Start, spin, gravity and wind turn as well.
 TEST_CASE("hard: rotated world", "[hard][rigid]") {
     test::holds("rotated world", [](const Solver& solver, Judge& judge) {
         const glm::dquat turn = glm::angleAxis(1.1, glm::normalize(glm::dvec3(2, -1, 0.5)));

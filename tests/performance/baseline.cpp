@@ -1,4 +1,4 @@
-// What an expert's CPU code of the euler method costs: scalar, AVX2 and AVX-512, and a plain copy of the same
+// Measures an expert's CPU code of the euler method: scalar, AVX2 and AVX-512, and a plain copy of the same
 // state. Reports only, in ns per molecule and frame. Every case runs the same 10 frames once a round, round
 // after round, so that a machine whose speed drifts drifts for all alike. Minima take each frame at its
 // fastest round, and the mean of those; the median is of all frames. `cpu` is the processor time of the

@@ -8,7 +8,7 @@
 
 namespace shoal::test {
 
-// Of 2 sides (rows - 1) triangles, smooth, with a belly, a narrow neck and a knob; 1.2 m along z.
+// A closed, smooth mesh of 2 sides (rows - 1) triangles: a belly, a narrow neck and a knob; 1.2 m along z.
 inline Mesh club(int sides, int rows) {
     Mesh mesh;
     const auto point = [&](double t, double angle) {
@@ -51,7 +51,7 @@ inline glm::dvec3 twisted(const glm::dvec3& p, double angle, double length) {
     return {c * p.x - s * p.y, s * p.x + c * p.y, p.z};
 }
 
-// What a skin looks like beside the shape that it should have.
+// How far a skin is from the shape that it should have.
 struct SkinFigures {
     int flipped = 0;         // triangles that face away from where they should
     double volumeError = 0;  // relative

@@ -1,5 +1,5 @@
-// What nearly every test includes, parsed once for all test programs. Catch2 alone is most of it. A test
-// still includes what it uses.
+// Headers that nearly every test includes, parsed once for all test programs. Catch2 alone is most of it. A
+// test still includes what it uses.
 #pragma once
 
 #include <algorithm>

@@ -13,7 +13,7 @@ namespace shoal::measure {
 
 namespace {
 
-// Of the processor, whatever else it does.
+// Returns the processor time since `start` in s, whatever else the machine does.
 double secondsSince(std::clock_t start) {
     return double(std::clock() - start) / CLOCKS_PER_SEC;
 }

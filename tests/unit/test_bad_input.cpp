@@ -1,4 +1,4 @@
-// What users get wrong: each mistake is one Error that says where it is and what was expected.
+// Mistakes of users: each is one Error that says where it is and what was expected.
 #include <functional>
 
 #include "core/image.h"

@@ -51,7 +51,7 @@ ConfinedLimits small() {
     return limits;
 }
 
-// What the parent hears of a child that does this.
+// Returns the message of the Error that the parent throws about a child that does this.
 std::string told(const std::function<void(ToParent&)>& work, const ConfinedLimits& limits = small()) {
     return messageOf([&] { Confined(Location{"m", 0, 0, {}}, limits, work).get<int>(); });
 }
@@ -140,7 +140,7 @@ TEST_CASE("limits are in proportion to the files, with a least and a most", "[co
     CHECK(limits.secondsFor(1e7) == 32);
     CHECK(limits.secondsFor(1e15) == limits.mostSeconds);
     CHECK(limits.clockFor(0) > 10 * limits.secondsFor(0));
-    // What a file allows, the child is told of as it opens it.
+    // The child is told what a file allows as it opens it.
     ConfinedLimits least = small();
     least.memory = 0;
     const auto hundredThousand = [](ToParent& parent) {

@@ -16,7 +16,7 @@ struct End {
     int signal = 0;
 };
 
-// What a process of its own says on standard error, and the signal that ends it.
+// Does the work in a process of its own. Returns what it says on standard error, and the signal that ends it.
 template <typename Work>
 End endOf(const Work& work) {
     std::array<int, 2> pipe{};

@@ -33,7 +33,7 @@ FieldRequest resolution(int cells) {
     return out;
 }
 
-// Of the field's samples: the largest difference from `exact`, in cells.
+// Returns the largest difference of the field's samples from `exact`, in cells.
 template <typename Exact>
 double worstSample(const DistanceField& field, Exact&& exact) {
     double worst = 0;

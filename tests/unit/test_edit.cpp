@@ -1,4 +1,4 @@
-// What an editor does to a molecule, its mirror image, undo, and what is kept of what is not saved.
+// An editor's changes of a molecule, its mirror image, undo, and what is kept of what is not saved.
 #include "author/edit.h"
 
 #include <cstdlib>

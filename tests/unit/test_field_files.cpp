@@ -22,7 +22,7 @@ namespace {
 
 constexpr glm::ivec3 size{3, 2, 4};
 
-// Of each cell a velocity of its own, exact as float and as text.
+// Returns a velocity for each cell, different from all others, exact as float and as text.
 std::vector<glm::dvec3> numbered(glm::ivec3 cells = size) {
     std::vector<glm::dvec3> out;
     for (int z = 0; z < cells.z; ++z)

@@ -33,7 +33,7 @@ TEST_CASE("the highest of several surfaces counts", "[heightField]") {
     const HeightFieldCollider field = heightFieldFromMesh(mesh, 33, 33, &missed);
     CHECK(field.heights[16 * 33 + 16] == Approx(3));  // the upper cap, not the lower one
     CHECK(field.heights[0] == Approx(1));             // beside the tube: the lowest height
-    // Those outside the circle: about a share of 1 - pi / 4.
+    // The samples outside the circle miss: about a share of 1 - pi / 4.
     CHECK(missed / (33.0 * 33.0) == Approx(1 - 3.14159 / 4).margin(0.06));
 }
 

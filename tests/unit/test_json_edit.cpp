@@ -29,7 +29,7 @@ JsonValue anyValue(Random& random, int depth) {
     return out;
 }
 
-// The same, changed here and there.
+// Returns the value, changed here and there.
 JsonValue mutated(const JsonValue& value, Random& random, int depth) {
     if (random.uniform() < 0.1) return anyValue(random, depth);
     JsonValue out = value;

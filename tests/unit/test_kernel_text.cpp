@@ -1,4 +1,5 @@
-// What the fused path generates: a molecule's springs, constants and packing, and the kernel around them.
+// The text that the fused path generates: a molecule's springs, constants and packing, and the kernel around
+// them.
 #include <bit>
 #include <charconv>
 #include <regex>

@@ -1,4 +1,4 @@
-// What is written of birth and death reads back as it was, and saving changes what was edited and no more.
+// Birth and death read back as they were written, and saving changes what was edited and no more.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>

@@ -93,7 +93,8 @@ TEST_CASE("rotations and axes of particles: unit, and every way alike", "[partic
         fronts += glm::dvec3(front);
         squares += glm::dvec3(front * front);
     }
-    // Of each component: mean 0, square 1/3. Five standard deviations: one seed family in 300,000 fails.
+    // Each component has a mean of 0 and a mean square of 1/3. Five standard deviations: one seed family in
+    // 300,000 fails.
     const double five = 5 / std::sqrt(3.0 * count);
     for (int i = 0; i < 3; ++i) {
         CHECK(std::abs(axes[i] / count) < five);

@@ -22,7 +22,7 @@ ParticleStep stepOf(double h) {
     return out;
 }
 
-// Of constant force and drag, after t.
+// The velocity and the way after t, under constant force and drag.
 dvec3 velocityAt(const dvec3& v, double t) {
     const dvec3 last = wind + gravity / gamma_;
     return last + (v - last) * std::exp(-gamma_ * t);

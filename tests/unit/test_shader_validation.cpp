@@ -47,7 +47,7 @@ Output validate(const std::string& files) {
     return out;
 }
 
-// What the validator says about a file, with its lines led back to the files that they came from.
+// Returns the validator's complaint about a file, with its lines led back to the files that they came from.
 std::string complaint(const std::string& file, const gpu::ShaderSource& source) {
     const Output output = validate(file);
     return output.ok ? std::string() : source.rewriteLog(output.log);

@@ -1,4 +1,4 @@
-// Skins: their key in a molecule file, how they move, and what they hang on.
+// Skins: their key in a molecule file, how they move, and which vertices they depend on.
 #include "core/random.h"
 #include "molecule/bind_skin.h"
 #include "molecule/molecule_file.h"

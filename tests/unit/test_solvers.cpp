@@ -39,7 +39,7 @@ glm::dmat3 block(const std::vector<glm::vec4>& factors, int number) {
 
 using Vectors = std::vector<glm::dvec3>;
 
-// What generated/sweeps.glsl does with the blocks.
+// Solves with the blocks as generated/sweeps.glsl does.
 Vectors solve(const CorotatedPattern& pattern, const std::vector<glm::vec4>& factors, Vectors x) {
     const auto at = [&](size_t place) -> glm::dvec3& { return x[size_t(pattern.order[place])]; };
     for (size_t p = 0; p < pattern.order.size(); ++p)

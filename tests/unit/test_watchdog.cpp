@@ -1,4 +1,4 @@
-// What counts as a state that ran away, in the shaders' words and in the CPU's.
+// Which states count as having run away, in the shaders and on the CPU.
 #include <cmath>
 #include <limits>
 
