@@ -1,5 +1,5 @@
-// When emitters bear: the births of a frame as a few runs, each of one emitter at equal distances in time, so
-// that the moment of a birth does not hang on the frames.
+// Schedules births: those of a frame are a few runs, each of one emitter, evenly spaced or at random within
+// an interval, so that the moment of a birth does not depend on the frames.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace shoal {
 
-// What an emitter carries from frame to frame.
+// Holds an emitter's state between frames.
 struct BirthClock {
     double due = 0;     // in [0, 1): share of the next birth that has passed
     uint64_t born = 0;  // so far, with those that found no place

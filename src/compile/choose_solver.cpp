@@ -102,7 +102,7 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::v
 
     const bool safe =
         step <= analysis.stableStepLeapfrog && std::hypot(analysis.frequencyBound, turning) * step < 2;
-    // What springs and forces ask for together; what the forces ask for alone, no solver mends.
+    // `safe` covers springs and forces together; no solver mends a step too long for the forces alone.
     const bool mends = turning * step <= solver(SolverKind::bdf2Xpbd).mostForced;
     if (scene.solver.kind) {
         out.solver = *scene.solver.kind;

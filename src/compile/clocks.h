@@ -1,6 +1,6 @@
-// What the time does to the numbers of a plan: phases, kept in double and handed to the shaders at the start
-// of every frame, where they count on in seconds of the frame alone. A float of 1e5 s is a multiple of 1/128
-// s.
+// Computes the parameters of a plan that depend on time: phases, kept in double and handed to the shaders at
+// the start of every frame, where they count on in seconds of the frame alone. A float of 1e5 s is a multiple
+// of 1/128 s.
 #pragma once
 
 #include <vector>

@@ -1,4 +1,4 @@
-// What the text of colliders hangs on, beside their numbers.
+// Computes the properties of colliders on which their generated GLSL depends, beside its parameters.
 #pragma once
 
 #include <cstddef>

@@ -18,7 +18,7 @@ namespace shoal {
 
 class ColliderTable {
   public:
-    // Of those of the colliders that it can hold.
+    // Chooses the table's origin from those of the colliders that it can hold; add() fills it.
     explicit ColliderTable(const std::vector<Collider>& colliders);
     // Whether a collider can lie in the table.
     static bool holds(const Collider& collider);

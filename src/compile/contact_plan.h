@@ -49,7 +49,7 @@ struct ContactPlan {
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
 
-    // Of each group with contact, where it lies on colliders: the least that the scene's have for it.
+    // Holds, for each group with contact, the least friction of the colliders that act on it; 0 without any.
     std::vector<double> wallFriction;
 
     bool any() const { return !groups.empty(); }
@@ -66,7 +66,7 @@ struct ContactPlan {
     double safeSpeed(double frameTime) const;
 };
 
-// What spheres of this radius leave open of the molecule's triangles.
+// Describes the largest gap that the spheres of contact leave open in a molecule's triangles.
 struct ContactGap {
     double radius = 0;  // m, of the largest sphere that passes through a triangle between the spheres
     int triangle = -1;  // in which; -1: none is open

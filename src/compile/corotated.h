@@ -40,10 +40,11 @@ CorotatedPattern corotatedPattern(const Molecule& molecule, bool held);
 std::vector<glm::vec4> corotatedFactors(const Molecule& molecule, const CorotatedPattern& pattern,
                                         const CorotatedStage& stage);
 
-// Of generated/sweeps.glsl: the rest shape for the fit, and applyInverse() from a `vec4 factors[]`.
+// Returns the part of generated/sweeps.glsl with the rest shape for the fit, and applyInverse() from a
+// `vec4 factors[]`.
 std::string corotatedText(const Molecule& molecule, const CorotatedPattern& pattern, bool held);
-// That array, as a uniform block; or as constants: for CPU rasterisers, to which every read of a uniform is a
-// call.
+// These declare that array as a uniform block, or as constants for CPU rasterisers, to which every read of a
+// uniform is a call.
 std::string corotatedBlock(const CorotatedPattern& pattern);
 std::string corotatedConstants(const std::vector<glm::vec4>& factors);
 

@@ -31,7 +31,7 @@ static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
     }
 }
 
-// What the fused kernel of a group holds.
+// Lists the parts of a group's fused kernel.
 static std::string kernelParts(const GroupPlan& group) {
     const Needs& needs = group.needs;
     std::string parts = "motion";
@@ -57,7 +57,7 @@ static std::string kernelParts(const GroupPlan& group) {
     return parts;
 }
 
-// Who is born, and where.
+// Lists a group's life, its places and its emitters.
 static void listBirths(std::ostringstream& out, const GroupPlan& group) {
     if (!group.life) return;
     const Lifecycle& life = group.life->cycle;
@@ -97,7 +97,7 @@ static std::string leftOut(const GroupPlan& group, bool fused) {
     return absent;
 }
 
-// Of those that act on a group: kind, and name where there is one.
+// Returns the kind, and the name where there is one, of each force that acts on a group.
 static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& group) {
     std::vector<std::string> out;
     for (const auto* kind : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})

@@ -28,14 +28,14 @@ struct GeneratedFields : Generated {
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor; time: since the
 // frame's start.
 GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
-// What each grid among them takes of the samples, a line each, for people.
+// Describes each grid among the fields in a line for people, with the memory that its samples take.
 std::vector<std::string> describeGrids(const std::vector<Field>& fields);
 // 4-vectors of uniforms that fields, and colliders, may each take: within what OpenGL 3.3 promises a fragment
 // shader (1024 components), with room for the passes' own.
 constexpr size_t maxParameters = 200;
 
 struct GeneratedColliders : Generated {
-    // Of each collider: the parameter whose x is its restitution, y its friction.
+    // Holds, for each collider, the index of the parameter whose x is its restitution, y its friction.
     std::vector<size_t> materials;
     std::vector<MovingCollider> moving;
     std::optional<size_t> fastestSlot;  // setPoses

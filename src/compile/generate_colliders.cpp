@@ -18,7 +18,7 @@ namespace shoal {
 
 namespace {
 
-// Of colliders as text: what each needs before, its surface, and what to do with that.
+// Holds the GLSL of a collider: statements before, its surface, its material and its velocity.
 struct Text {
     std::string comment, before, surface, material, velocity;
     bool swept = false;

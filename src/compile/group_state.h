@@ -13,17 +13,18 @@ namespace shoal {
 
 constexpr float noHistory = 1e30f;
 
-// What changes. Vertices: index = molecule * vertexCount + vertex. The others: one entry a molecule.
+// Holds the state that changes. Vertices: index = molecule * vertexCount + vertex. The others: one entry a
+// molecule.
 struct GroupState {
     std::vector<glm::vec3> positions;   // m, relative to the molecule's anchor
     std::vector<glm::vec3> velocities;  // m/s
     std::vector<glm::vec3> anchors;     // m, on the lattice of 1/16 m
-    std::vector<uint8_t> released;      // 1: the pins have let go
-    // Of the last substep, for solvers with history (scene/solver.h); empty for the others. A molecule whose
-    // first displacement is (noHistory, ...) starts anew.
+    std::vector<uint8_t> released;      // 1: the pins are released
+    // Solvers with history (scene/solver.h) keep the last substep's changes here; empty for the others. A
+    // molecule whose first displacement is (noHistory, ...) starts anew.
     std::vector<glm::vec3> displacements;    // m
     std::vector<glm::vec3> velocityChanges;  // m/s
-    // Of groups of which some are born or die (compile/life_plan.h); empty for the others. One entry a place,
+    // Groups with birth or death (compile/life_plan.h) keep these; empty for the others. One entry a place,
     // but for clocks and totals.
     std::vector<glm::vec2> lives;    // x age, y length of life, s; y = 0: free
     std::vector<uint32_t> seeds;     // below 2^24
@@ -34,13 +35,13 @@ struct GroupState {
     // as many zeros as there are places that are taken.
     std::vector<double> ends;
     std::vector<uint32_t> freed;
-    // Of schools, three a molecule (shaders/fused/steering.glsl); empty for the others.
+    // Schools keep three a molecule (shaders/fused/steering.glsl); empty for the others.
     std::vector<glm::vec4> steering;
 
     bool operator==(const GroupState&) const = default;
 };
 
-// What does not, one entry a molecule.
+// Holds the state that does not change, one entry a molecule.
 struct GroupConstants {
     std::vector<uint32_t> seeds;  // below 2^24, so that a float holds them
     std::vector<float> scales;    // of the rest lengths

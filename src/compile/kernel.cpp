@@ -64,7 +64,7 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     return out;
 }
 
-// What a spring's line of the text says of its numbers: constants, or what springNumbers() holds.
+// Holds the GLSL of a spring's numbers: constants, or reads of what springNumbers() returns.
 struct SpringText {
     std::string load;  // a line before; may be empty
     std::string stiffness, damping, restLength;

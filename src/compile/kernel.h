@@ -23,7 +23,7 @@ struct KernelText {
 
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
 
-// What the kernel reads of each spring where its numbers are live, two a spring:
+// Returns the numbers that the kernel reads where springs are live, two 4-vectors a spring:
 //   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's
 //   start
 // That angle is 0 here, and renewed every frame from the springs' frequencies, Hz.
@@ -43,15 +43,15 @@ struct BufferLayout {
     bool history = false;  // the changes of the last substep lie behind positions and velocities
     bool life = false;     // age and length of life, s
 
-    // Of a workgroup, a molecule each. Points have so little to do that workgroups count: on a CPU rasteriser
-    // these take 6 % less.
+    // Returns the lanes of a workgroup, a molecule each. Points have so little to do that workgroups count:
+    // on a CPU rasteriser these take 6 % less.
     int lanes() const { return vertexCount == 1 ? 256 : 64; }
     int positionElements() const { return (3 * vertexCount + 3) / 4; }  // 4-vectors; as many of normals
     int stateElements() const { return (history ? 4 : 2) * positionElements() + (lifeApart() ? 1 : 0); }
     // Age and life take what the last 4-vectors of positions and of velocities leave free (their w), else the
     // x and y of one more at the end.
     bool lifeApart() const { return life && vertexCount % 4 == 0; }
-    // Of the 4-vector e of molecule m, with `elements` a molecule.
+    // Returns the index of the 4-vector e of molecule m, with `elements` a molecule.
     static size_t index(size_t m, int e, int elements) {
         return m / block * block * size_t(elements) + size_t(e) * block + m % block;
     }

@@ -26,8 +26,8 @@ struct LifePlan {
     Lifecycle cycle;
     int atStart = 0;              // taken places at the start
     uint32_t seed = 0;            // of all that is born
-    std::vector<size_t> sources;  // of each emitter: the plan's group from whose deaths it bears, or noSource
-    bool feeds = false;           // some group is born from the deaths of this one
+    std::vector<size_t> sources;  // of each emitter: the plan's group from whose deaths it emits, or noSource
+    bool feeds = false;           // some group emits from the deaths of this one
     std::string source;           // generated/emitters.glsl
     std::vector<glm::dvec3> middles;  // m, of the emitters, without their paths
 

@@ -1,5 +1,5 @@
-// What muscles can do: a spring that is asked to move faster than it, or the step, can follow, or to shrink
-// to nothing.
+// Finds muscles that cannot do what is asked: to move faster than the spring, or the step, can follow, or to
+// shrink to nothing.
 #pragma once
 
 #include <vector>

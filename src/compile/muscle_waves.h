@@ -17,7 +17,7 @@ class MuscleWaves {
     MuscleWaves(const Molecule& molecule, const Needs& needs);
     // Statements at the head of a function of `time`; may be empty.
     std::string text() const;
-    // Of a spring that is `length` long at rest.
+    // Returns the rest length that the muscles give to a spring of rest length `length`; both are GLSL.
     std::string lengthOf(const std::string& length, const Spring& spring) const;
 
   private:

@@ -2,7 +2,7 @@
 
 namespace shoal {
 
-// What of the physics a group needs. Every pass, buffer and shader branch hangs on one of these.
+// Tells which physics a group needs. Every pass, buffer and shader branch depends on one of these.
 struct Needs {
     bool fields = false;  // there is a field and the group has drag
     bool drag = false;
@@ -15,7 +15,7 @@ struct Needs {
     bool springDamping = false;
     bool actuation = false;
     bool pins = false;     // some vertex is held at the start
-    bool release = false;  // and may be let go
+    bool release = false;  // and may be released
     bool records = false;  // anchors move or pins are released
     bool scale = false;    // instances differ from the molecule's own size
     bool phase = false;    // and in the phase of their muscles

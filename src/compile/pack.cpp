@@ -34,7 +34,7 @@ bool isFar(const Force& force) {
     return far;
 }
 
-// What the allocators on the CPU begin with: the first places first.
+// Sets the start state of the allocators on the CPU, which give the first places first.
 static void packBooks(const Lifecycle& life, GroupState& start) {
     const bool stack = life.allocator == Allocator::stack;
     if (life.emitters.empty() || (!stack && life.allocator != Allocator::heap)) return;
@@ -45,8 +45,8 @@ static void packBooks(const Lifecycle& life, GroupState& start) {
     if (stack) start.freed.resize(start.lives.size());
 }
 
-// Those at the start have their length of life from their seeds, as newborns do, and are fully grown; the
-// other places are free.
+// Gives the molecules at the start their length of life from their seeds, as newborns have it, and full size;
+// the other places are free.
 static void packLives(const Group& source, GroupPlan& group) {
     GroupState& start = group.start;
     const size_t places = size_t(group.count);

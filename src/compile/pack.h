@@ -23,7 +23,7 @@ bool isFar(const Force& force);
 constexpr uint32_t bornLife = 0xe0000006u, bornTime = 0xe000000fu;
 double lifeOf(const glm::dvec2& life, uint32_t seed);
 
-// What steers molecules that have not steered yet (shaders/fused/steering.glsl).
+// Returns the steering of molecules that have not steered yet (shaders/fused/steering.glsl).
 std::vector<glm::vec4> unsteered(size_t molecules);
 
 // Fills the group's start state and constants: every molecule where it is placed.

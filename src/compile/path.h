@@ -29,7 +29,7 @@ enum class Lanes {
 const char* name(Lanes lanes);  // "auto", "molecule", "vertex"
 Lanes lanes(const std::string& word);
 
-// What a context can hold.
+// Holds the limits of a context by which a path is chosen.
 struct PathLimits {
     std::string version = "4.3";  // for messages
     bool compute = true;          // OpenGL 4.3 or newer

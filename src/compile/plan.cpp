@@ -59,7 +59,7 @@ int placesOf(const Group& group) {
     return group.life ? group.life->capacity : group.count;
 }
 
-// Of slabs in the textures; and what the group needs.
+// Plans a group: its needs and numbers, and its rows in the textures.
 GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options, Plan& plan) {
     const Group& group = scene.groups[index];
     GroupPlan out;
@@ -137,7 +137,7 @@ void warnOfBooks(Plan& plan) {
     }
 }
 
-// Who is born from whose deaths is known once all groups are.
+// Resolves emitters from deaths, whose source groups are known once all groups are.
 void planLives(const Scene& scene, Plan& plan) {
     for (GroupPlan& group : plan.groups) {
         if (!group.life) continue;
@@ -215,7 +215,7 @@ void checkTurn(const Scene& scene, const Collider& collider) {
                        std::ceil(collider.path->fastestTurn() / mostTurn), " frames a second would do"));
 }
 
-// What the spheres of a molecule leave open of its surface, where a like sphere passes.
+// Warns where the spheres of a molecule leave a gap in its surface through which a like sphere passes.
 void warnOfGaps(const Scene& scene, Plan& plan) {
     for (const ContactGroup& contact : plan.contact.groups) {
         const GroupPlan& group = plan.groups[contact.group];

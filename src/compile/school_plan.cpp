@@ -12,7 +12,8 @@ namespace {
 
 constexpr int64_t mostEntries = int64_t(1) << 26;
 
-// Of the rest shape: share of the mass, and moments by mass along z and y about the middle.
+// Holds, for each vertex of the rest shape, its share of the mass, and that share times its z and y from the
+// centre of mass.
 struct Moments {
     std::vector<double> share, along, upward;
     double length = 0, height = 0;  // m

@@ -63,8 +63,8 @@ struct SchoolPlan {
 // Error (located at the school): more molecules than can be counted.
 SchoolPlan planSchools(const Scene& scene, const std::vector<GroupPlan>& groups);
 
-// What a muscle does when the body bends: its rest length changes by this times the curvature (1/m, about +Y,
-// to the left where positive). 0 of springs that are no muscles.
+// Returns how a muscle follows the body's bend: its rest length changes by the share of this (m) times the
+// curvature (1/m, about +Y, to the left where positive). 0 of springs that are no muscles.
 double bendOf(const Molecule& molecule, const Spring& spring);
 
 }  // namespace shoal

@@ -1,4 +1,4 @@
-// What may be kept between runs: where, and under which names.
+// Finds the folder that is kept between runs, and names and checks the files in it.
 #pragma once
 
 #include <cstdint>

@@ -61,7 +61,8 @@ void forgetSignals() {
     sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-// What a dying library prints is no message of ours, and no file of the parent's is any of its business.
+// Drops the standard streams, because what a dying library prints is no message of ours, and closes the
+// parent's files except the pipe.
 void keepOnly(int pipe) {
     const int nothing = open("/dev/null", O_RDWR);
     for (int stream = 0; stream < 3 && nothing >= 0; ++stream)

@@ -18,8 +18,8 @@
 
 namespace shoal {
 
-// What the child may take: so much at any rate, more with every byte of the files that it opens, never more
-// than the most. Under AddressSanitizer, which reserves terabytes, memory has no limit.
+// Limits what the child takes: a base, more with every byte of the files that it opens, never more than the
+// most. Under AddressSanitizer, which reserves terabytes, memory has no limit.
 struct ConfinedLimits {
     double memory = 512e6, memoryPerByte = 100, mostMemory = 16e9;  // bytes, beyond what the parent has
     double seconds = 2, secondsPerByte = 3e-6, mostSeconds = 900;   // of processor time

@@ -1,4 +1,4 @@
-// What a file may say of a struct, written once. A description lists the keys of an object: for each its
+// Describes once what a file may say of a struct. A description lists the keys of an object: for each its
 // name, the member that it fills, its unit and limits, and a sentence. The default is the struct's own.
 // Reading, checking what was made in code, writing, the parts of the JSON Schema and the tables in
 // docs/scene-format.md all go by the description.
@@ -59,7 +59,7 @@ struct Slider {
     bool steep = false;          // logarithmic: small numbers have more room
 };
 
-// What is said of a key.
+// Describes a key: its unit, meaning, limits and slider.
 struct Says {
     std::string unit;      // "m/s"; empty: a number without one; of a text: what it names
     std::string sentence;  // in plain English
@@ -262,7 +262,7 @@ class Describe {
         };
         return *this;
     }
-    // The same, where the first word stands for nothing.
+    // Describes an optional enumeration, whose first word stands for nothing.
     template <typename Enum>
     Describe& word(const char* name, std::optional<Enum> S::*member, std::vector<std::string> words,
                    Says says) {
@@ -359,7 +359,8 @@ class Describe {
         return *this;
     }
 
-    // Of the key before: a file must have it; 0 stands for a file that has it not.
+    // These concern the key before: a file must have it; 0 stands for a file that has it not; a text has at
+    // least one character.
     Describe& needed() {
         last().needed = true;
         return *this;
@@ -372,18 +373,18 @@ class Describe {
         last().notEmpty = true;
         return *this;
     }
-    // Of the key before: it means something only where `key`, which stands before it, says one of the words.
+    // The key before means something only where `key`, which stands before it, says one of the words.
     Describe& only(const char* key, std::vector<std::string> words, std::string because) {
         EXPECTS(it_.find(key));
         last().only.push_back({key, std::move(words), std::move(because)});
         return *this;
     }
-    // Of the key before: its default in words.
+    // Sets the default, in words, of the key before.
     Describe& usually(std::string words) {
         last().usual = std::move(words);
         return *this;
     }
-    // Of the key before: how it is read instead.
+    // Sets how the key before is read instead.
     template <typename Context>
     Describe& reads(void (*read)(JsonReader&, S&, Context&)) {
         last().read = [read](JsonReader& reader, void* object, void* context) {
@@ -391,7 +392,7 @@ class Describe {
         };
         return *this;
     }
-    // Of the key before: what is written instead of its member; null: the key is left out.
+    // Sets what is written for the key before instead of its member; null: the key is left out.
     Describe& writes(std::function<JsonValue(const S&, const void* context)> write) {
         last().write = [write](const void* object, const void* context) {
             return write(*static_cast<const S*>(object), context);
@@ -405,8 +406,8 @@ class Describe {
             reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
         return *this;
     }
-    // What follows from the keys that a file gives, such as a default that depends on another key; before the
-    // rule.
+    // Sets what follows from the keys that a file gives, such as a default that depends on another key; it
+    // runs before the rule.
     Describe& derive(void (*follow)(S&, const Where&)) {
         it_.derive_ = [follow](void* object, const Where& where) { follow(*static_cast<S*>(object), where); };
         return *this;

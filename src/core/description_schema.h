@@ -1,4 +1,4 @@
-// What descriptions say, for people and for editors of text.
+// Writes descriptions as tables for people and as JSON Schema for text editors.
 #pragma once
 
 #include "core/description.h"

@@ -1,6 +1,7 @@
 // Errors that a user can cause: one exception type that knows where in which file the mistake is.
 //
-// What the user can get wrong throws `Error`; what only we can get wrong breaks a contract (core/contract.h).
+// A mistake that a user can make throws `Error`; one that only we can make breaks a contract
+// (core/contract.h).
 // Errors are exceptions rather than return values so that a handle's constructor can fail like everything
 // else. Nothing half-built survives: every writer finishes under a temporary name first (core/file.h).
 #pragma once

@@ -39,7 +39,7 @@ struct CloseFile {
 };
 using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 
-// The same piece by piece, for files that need not lie in memory as a whole.
+// Reads a file piece by piece, where it need not lie in memory as a whole.
 class FileReader {
   public:
     // Error: no such file, unreadable, or no regular file: a FIFO would be waited for, and a device has no

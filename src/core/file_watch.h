@@ -18,7 +18,7 @@ class FileWatch {
     static constexpr double interval = 0.2;   // s, between two looks
     static constexpr double goneAfter = 2.0;  // s, that a missing file may be on its way
 
-    // Those from now on. As they are now is no change, but for those that were watched before.
+    // Watches these files from now on. Their present state is no change, except of those watched before.
     void watch(const std::vector<std::string>& files);
 
     // Looks, unless the last look is too near; `now` (s) grows. Each change is told once.

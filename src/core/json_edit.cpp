@@ -17,7 +17,7 @@ bool holdsContainers(const JsonValue& array) {
     return array.kind == Kind::array && std::any_of(array.items.begin(), array.items.end(), isContainer);
 }
 
-// What stands before a position on its line, if that is only white space.
+// Returns the white space at the start of a position's line, up to that position.
 std::string indentAt(const std::string& text, size_t position) {
     const size_t newline = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
     const size_t line = newline == std::string::npos ? 0 : newline + 1;

@@ -22,7 +22,7 @@ struct TextChange {
 void addChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
                 const JsonValue& after, std::vector<TextChange>& changes);
 
-// The same for an array whose elements are known by where they came from: `origins[i]` is the index in
+// Does so for an array whose elements are known by where they came from: `origins[i]` is the index in
 // `before` of element i of `after`, ascending, or -1 where it is new.
 void addArrayChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
                      const JsonValue& after, const std::vector<int>& origins,
@@ -31,7 +31,8 @@ void addArrayChanges(const std::string& text, const JsonValue& original, const J
 // The changes must not overlap; those at one place keep their order.
 std::string withChanges(const std::string& text, std::vector<TextChange> changes);
 
-// The same words in the same order, wherever they stand. Of numbers, the value counts.
+// Whether two values are equal, with members in the same order. Numbers compare by value; positions in the
+// text do not count.
 bool sameJson(const JsonValue& a, const JsonValue& b);
 
 }  // namespace shoal

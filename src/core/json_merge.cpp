@@ -10,7 +10,7 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-// Of members: null where there is none.
+// Compares members; null stands for one that is missing.
 bool same(const JsonValue* a, const JsonValue* b) {
     return a && b ? sameJson(*a, *b) : a == b;
 }

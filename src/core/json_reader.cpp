@@ -41,7 +41,7 @@ static std::string describe(Range range, const std::string& noun) {
     return out;
 }
 
-// What was found, as it was written.
+// Describes a value that was found: a number as it was written, else its kind.
 static std::string written(const JsonValue& value) {
     if (value.kind == Kind::number && !value.text.empty()) return value.text;
     if (value.kind == Kind::number) return concat(value.number);
@@ -241,7 +241,7 @@ bool JsonReader::choose(const std::string& key, const std::vector<std::string>& 
 
 void JsonReader::require(const std::string& key) const {
     if (has(key)) return;
-    // What is misspelt is missing as well: the place of the mistake says more. Short keys are all near one
+    // A misspelt key is missing as well: the place of the mistake says more. Short keys are all near one
     // another.
     for (const auto& [other, value] : object_->members)
         if (key.size() > 3 && std::find(known_.begin(), known_.end(), other) == known_.end() &&

@@ -26,7 +26,7 @@ namespace {
 
 constexpr std::string_view mark = ".shoal-";
 
-// Of a part file's name; nothing: it is no part file.
+// Holds what a part file's name says.
 struct PartName {
     pid_t process = 0;
     std::string name;
@@ -92,7 +92,7 @@ fs::path behindLinks(fs::path path) {
     return path;
 }
 
-// What a signal's handler can walk through: no memory of others, nothing that moves.
+// Holds a part file's path where a signal's handler can read it: no memory elsewhere, nothing that moves.
 struct Slot {
     enum State { free, filling, taken };
     std::atomic<int> state = free;

@@ -7,7 +7,7 @@ namespace shoal {
 
 namespace {
 
-// Of a character that begins so; 0: none does.
+// Returns the bytes of a UTF-8 character that begins with this one; 0: none does.
 size_t bytesOf(unsigned char first) {
     return first < 0x80 ? 1 : first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : first < 0xf5 ? 4 : 0;
 }

@@ -1,9 +1,9 @@
 // Text that others wrote (names in files, names of files, what drivers and commands say) as it may be shown:
 // nothing in it commands a terminal, hides, or turns the order of what stands around it.
 //
-// What is not shown as it is becomes an escape as in JSON, such as \u001b, and a byte that is no UTF-8 \xff:
-// control characters (C0, DEL and C1), those that set a direction of writing, separators of lines. So JSON
-// that passes through stays the JSON that it was.
+// Control characters (C0, DEL and C1), those that set a direction of writing, and separators of lines become
+// an escape as in JSON, such as \u001b; a byte that is no UTF-8 becomes \xff. So JSON that passes through
+// stays the JSON that it was.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,7 @@ std::string escape(uint32_t code);
 std::string printable(std::string_view text);
 // Line breaks stay where the next line is indented, as we write them and no name begins a line.
 std::string printableLines(std::string_view text);
-// What another program says, as lines below our own.
+// Indents all lines but the first of what another program says, and drops white space at its end.
 std::string indented(std::string_view text);
 
 // Stands before a stream's buffer while it lives: what is written to the stream, whoever writes it, reaches

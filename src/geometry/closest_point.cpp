@@ -13,7 +13,7 @@ namespace shoal {
 
 namespace {
 
-// What floats in [-1, 1] may be off by, with room: the traversal looks this much further.
+// Bounds the rounding of floats in [-1, 1], with room: the traversal looks this much further.
 constexpr double looseness = 1e-6;
 // Triangles are as near as one another within this.
 constexpr double alike = 1e-12;

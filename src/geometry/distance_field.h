@@ -12,7 +12,7 @@
 
 namespace shoal {
 
-// What is asked for. `resolution` and `error` exclude each other; with neither, defaultResolution.
+// Asks for a field. `resolution` and `error` exclude each other; with neither, defaultResolution holds.
 struct FieldRequest {
     std::optional<int> resolution;  // cells along the model's longest side
     std::optional<double> error;    // m: refined until no probe near the surface is off by more
@@ -60,9 +60,9 @@ using FieldProgress = std::function<void(double)>;
 DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request,
                                 const FieldProgress& progress = {}, int threads = 0);
 
-// What the field holds at a point: trilinear between samples inside the grid, a lower bound beyond it; and
-// its gradient (1 where the field is a distance), never 0. The same definition as distanceSurface of
-// shaders/step/surfaces.glsl.
+// Holds the field's value at a point: trilinear between samples inside the grid, a lower bound beyond it; and
+// its gradient (1 where the field is a distance), never 0. distanceSurface of shaders/step/surfaces.glsl has
+// the same definition.
 struct FieldValue {
     double distance;
     glm::dvec3 gradient;
@@ -72,7 +72,7 @@ FieldValue valueAt(const DistanceField& field, const glm::dvec3& x);
 // The finest resolution of a grid around this mesh within mostSamples; 0: none.
 int finestResolution(const Mesh& mesh, const FieldRequest& request, bool closed);
 
-// What there is to warn of: not closed, and where; thickened, and where.
+// Warns of a model that is not closed, and why; of a shell too thin or needless; of thickened parts.
 std::vector<std::string> fieldWarnings(const DistanceField& field, const FieldRequest& request);
 
 }  // namespace shoal

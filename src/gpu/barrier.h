@@ -1,5 +1,5 @@
-// What later commands must see of what shaders wrote into storage buffers. OpenGL orders nothing by itself
-// there. Needs OpenGL 4.3, like the shaders that write.
+// Makes what shaders wrote into storage buffers visible to later commands, which OpenGL does not do by
+// itself. Needs OpenGL 4.3, like the shaders that write.
 #pragma once
 
 #include <initializer_list>

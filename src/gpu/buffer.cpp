@@ -10,7 +10,7 @@ namespace shoal::gpu {
 // Into the buffer that is bound. False: no memory for it. Some drivers count bytes in 32 bits, so what they
 // say they have is compared with what was asked.
 static bool allocate(Buffer::Use use, const void* data, size_t bytes) {
-    // What is no GLsizeiptr becomes negative, which OpenGL refuses.
+    // A size that is no GLsizeiptr becomes negative, which OpenGL refuses.
     glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(bytes), data,
                  use == Buffer::Use::storage ? GL_DYNAMIC_COPY : GL_STATIC_DRAW);
     if (glGetError() != GL_NO_ERROR) return false;

@@ -30,7 +30,7 @@ class Buffer {
     Buffer(Context& context, Use use, std::span<const T> data, const char* label)
         : Buffer(context, use, data.data(), data.size_bytes(), label) {}
 
-    // What shaders wrote before is seen; no barrier is needed for these three.
+    // These three see what shaders wrote before; the caller needs no barrier.
     void update(Traffic::Kind kind, size_t offset, const void* data, size_t bytes);
     void download(Traffic::Kind kind, size_t offset, void* data, size_t bytes) const;
     void copyTo(Buffer& other, size_t bytes) const;  // the first `bytes`; nothing crosses the bus

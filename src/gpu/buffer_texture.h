@@ -11,7 +11,7 @@
 
 namespace shoal::gpu {
 
-// What a texel is: samplerBuffer reads the first, usamplerBuffer the others.
+// Names the format of a texel: samplerBuffer reads the first, usamplerBuffer the others.
 enum class Texel { float4, uint4, uint2, uint1 };
 
 class BufferTexture {
@@ -24,7 +24,7 @@ class BufferTexture {
                   size_t bytes = 0, Texel texel = Texel::float4);
     BufferTexture(Context& context, const Buffer& buffer, Texel texel, const char* label)
         : BufferTexture(context, buffer, label, 0, 0, texel) {}
-    // The same error, before there is a buffer.
+    // Throws the Error of too many texels before there is a buffer.
     static void checkTexels(const ContextInfo& info, size_t texels, const char* label);
 
     void bind(int unit) const;

@@ -48,7 +48,7 @@ static void initGlew(Loader loader) {
     }
     glewLoader = loader;
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
-        // What GLEW asked is not our mistake.
+        // Errors of GLEW's queries are not ours.
     }
 }
 

@@ -44,7 +44,7 @@ struct ContextInfo {
     float maxPointSize = 1;  // pixels, of GL_POINTS
     int64_t maxBufferTexels = 0;
     bool computeShaders = false;  // 4.3+: by version, never by extension
-    // Of compute shaders and what they read; all 0 below 4.3.
+    // These limit compute shaders and what they read; all 0 below 4.3.
     int64_t maxStorageBlockBytes = 0;
     int maxWorkGroupsX = 0, maxSharedBytes = 0, maxComputeUniformComponents = 0;
     int maxUniformBlockBytes = 0;
@@ -82,7 +82,7 @@ class Context {
     void checkErrors(const char* where);
 
     struct State;
-    // Of the context that is current in this process, or null.
+    // Returns the state of the context that is current in this process, or null.
     static State* current();
     static void restore(State* state);
 

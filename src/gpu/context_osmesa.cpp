@@ -1,7 +1,7 @@
 // A context of OSMesa: Mesa's CPU rasteriser as a plain library, opened when asked for.
 //
 // Mesa removed OSMesa in 25.1, so that it is optional at run time, and its header at compile time. The header
-// brings its own GL/gl.h, which GLEW does not bear: this file includes nothing else of OpenGL.
+// brings its own GL/gl.h, which GLEW does not tolerate: this file includes nothing else of OpenGL.
 #include <dlfcn.h>
 
 #include <array>

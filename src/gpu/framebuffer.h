@@ -1,4 +1,5 @@
-// What passes draw into. Borrows its textures, which must outlive it; owns its renderbuffers.
+// Wraps a framebuffer that passes draw into. Borrows its textures, which must outlive it; owns its
+// renderbuffers.
 #pragma once
 
 #include <string>

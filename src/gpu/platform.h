@@ -1,4 +1,4 @@
-// What the three ways to a context have in common; inside `gpu` only.
+// Declares the common interface of the three ways to a context; used inside `gpu` only.
 #pragma once
 
 #include <memory>

@@ -41,7 +41,7 @@ bool parse(std::string_view bytes, const std::string& key, uint32_t& format, std
            header.length == binary.size() && header.checksum == checksum(key, format, binary);
 }
 
-// What the driver has against a binary is no mistake of ours.
+// Clears OpenGL's errors: a binary that the driver refuses is no mistake of ours.
 void forgetErrors() {
     for (int i = 0; i < 16 && glGetError() != GL_NO_ERROR; ++i) {
     }

@@ -46,7 +46,7 @@ const char* header300es();  // #version 300 es, and the precisions that it deman
 // Names that the text declares as uniforms, whether or not the compiler will keep them. Blocks count with
 // their own name and those of their members.
 std::set<std::string, std::less<>> declaredUniforms(std::string_view text);
-// The same for storage buffers.
+// Returns the names of storage buffers likewise.
 std::set<std::string, std::less<>> declaredBuffers(std::string_view text);
 
 }  // namespace shoal::gpu

@@ -32,7 +32,7 @@ struct Traffic {
     void reset() { *this = Traffic{}; }
 };
 
-// What crossed between two readings of the counters: after - before.
+// Returns the bytes that crossed between two readings of the counters.
 inline Traffic operator-(const Traffic& after, const Traffic& before) {
     Traffic difference;
     for (int i = 0; i < Traffic::kinds; ++i) {

@@ -29,7 +29,7 @@ glm::dvec3 unit(const glm::dvec3& v) {
     return length > 0 ? v / length : glm::dvec3(0);
 }
 
-// What a skin vertex can hang on, and how near it is.
+// Holds the vertices that a skin vertex can be bound to, and the kernel at each.
 struct Neighbours {
     std::vector<int> vertices;
     std::vector<double> kernel;  // above 0
@@ -97,9 +97,9 @@ Neighbours spanning(const Molecule& molecule, Ranking all) {
     return out;
 }
 
-// Of the linear functional value(f) = f0 + slope . gradient at `point`, on functions that are linear: weights
-// with sum `constant` and sum of weight x (from the point) `slope`. Directions that the vertices span less
-// than `least` of the widest are left out.
+// Returns the weights with which linear functions f add up to constant f + slope . gradient f at `point`:
+// their sum is `constant`, the sum of weight x (from the point) is `slope`. Directions that the vertices span
+// less than `least` of the widest are left out.
 VectorXd weightsFor(const Molecule& molecule, const Neighbours& near, const Vector3d& point, double constant,
                     const Vector3d& slope, double least) {
     const auto count = Eigen::Index(near.vertices.size());
@@ -136,7 +136,7 @@ glm::dvec3 sum(const Neighbours& near, const VectorXd& weights, const std::vecto
     return out;
 }
 
-// What a molecule's vertices are at rest.
+// Holds the positions and normals of a molecule's vertices at rest, and its size.
 struct Rest {
     std::vector<glm::dvec3> positions, normals;
     double size;
@@ -166,7 +166,7 @@ void store(const Neighbours& near, const VectorXd& weights, SkinVertex& out) {
     out.weights[largest].weight = rounded(out.weights[largest].weight + rest, digits);
 }
 
-// One way to hang a point on vertices.
+// Binds a point to vertices in one way.
 struct Hanging {
     Neighbours near;
     VectorXd weights;

@@ -1,4 +1,4 @@
-// Hanging a mesh on a molecule's few vertices, as its skin.
+// Binds a mesh to a molecule's few vertices, as its skin.
 //
 // Moving least squares [Lancaster 1981] over the nearest vertices, at most Skin::mostWeights:
 // of all weights that add up to 1 and reproduce the point, those with the least sum of weight^2 / kernel. The
@@ -19,7 +19,7 @@ struct SkinMesh {
 // plane does not reach is an offset along the molecule's normal.
 Skin bindSkin(const Molecule& molecule, const SkinMesh& mesh);
 
-// Hangs a molecule's skin anew, at the places that it has: after vertices were added, removed or renumbered.
+// Binds a molecule's skin anew, at the places that it has: after vertices were added, removed or renumbered.
 void rebindSkin(Molecule& molecule);
 
 // How a skin vertex turns with the molecule: the tangents t and b of the skin in the rest shape, with t x b
@@ -30,8 +30,8 @@ struct SkinFrame {
     double alongOffset = 0, acrossOffset = 0;
 };
 
-// Of every vertex of the molecule's skin. Normals are smooth; vertices in one place share theirs unless they
-// differ by more than 40 degrees, as at the edge of a box.
+// Returns the frame of every vertex of the molecule's skin. Normals are smooth; vertices in one place share
+// theirs unless they differ by more than 40 degrees, as at the edge of a box.
 std::vector<SkinFrame> skinFrames(const Molecule& molecule);
 std::vector<glm::dvec3> skinNormals(const Skin& skin);  // the same normals, in the rest shape
 

@@ -58,7 +58,7 @@ class Checker {
   private:
     using Places = std::vector<Location>;
 
-    // Of an element when it came from a file, else of the file.
+    // Returns the location of an element that came from a file, else that of the file.
     Location place(const Places& places, size_t index) const {
         return index < places.size() ? places[index] : Location{m_.file, 0, 0, {}};
     }

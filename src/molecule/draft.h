@@ -12,7 +12,7 @@ namespace shoal {
 
 struct Draft {
     Molecule molecule;
-    // Of each element: its index in the file, ascending; -1: new.
+    // Holds, for each element, its index in the file, ascending; -1: new.
     struct Origins {
         std::vector<int> vertices, springs, triangles;
         bool operator==(const Origins&) const = default;
@@ -22,20 +22,20 @@ struct Draft {
     explicit Draft(Molecule read);  // as it stands in its file
 };
 
-// What an edit may leave is checked by problemOf(), not by these.
+// These edits may leave a molecule that is not valid, which problemOf() tells.
 int addVertex(Draft& draft, const glm::dvec3& position);  // with the mass that most have
 // The spring between two vertices, added where there is none, as stiff as most. -1: they are one vertex.
 int addSpring(Draft& draft, int a, int b);
 // -1: two corners are one, or the triangle is there in any order.
 int addTriangle(Draft& draft, int a, int b, int c);
-void removeVertices(Draft& draft, const std::set<int>& vertices);  // with all that hangs on them
+void removeVertices(Draft& draft, const std::set<int>& vertices);  // with all that depends on them
 void removeSprings(Draft& draft, const std::set<int>& springs);
 void removeTriangles(Draft& draft, const std::set<int>& triangles);
 
 int springBetween(const Molecule& molecule, int a, int b);  // -1: none
 
-// Of each vertex, the one in its mirror image across the plane through the origin with this axis (0 x, 1 y,
-// 2 z) as normal; itself on the plane; -1: none within a thousandth of the size.
+// Returns, for each vertex, the one in its mirror image across the plane through the origin with this axis
+// (0 x, 1 y, 2 z) as normal; itself on the plane; -1: none within a thousandth of the size.
 std::vector<int> mirrored(const Molecule& molecule, int axis);
 
 // Why the molecule cannot be written or run as it is, in the words of the reader; empty: it can.

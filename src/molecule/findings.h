@@ -1,4 +1,4 @@
-// What check() warns of, with what it is about and what would mend it: for an editor.
+// Finds what check() warns of, with the elements that it is about and what would mend it: for an editor.
 #pragma once
 
 #include <functional>

@@ -1,4 +1,4 @@
-// What a molecule file says: its keys, their limits, and the rules between them. What is refused here would
+// Defines molecule files: their keys, their limits, and the rules between them. What is refused here would
 // have no meaning or break a solver; what is merely unlikely to be meant is a warning of check().
 #include <algorithm>
 #include <filesystem>

@@ -1,4 +1,5 @@
-// What makes a molecule valid. Its reader holds files to it, and compile() what was made in code.
+// Defines when a molecule is valid. Its reader holds files to these rules, and compile() molecules made in
+// code.
 #pragma once
 
 #include "core/where.h"

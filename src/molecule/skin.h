@@ -10,7 +10,7 @@ namespace shoal {
 
 struct Molecule;
 
-// One simulated vertex that a skin vertex hangs on.
+// Binds a skin vertex to one simulated vertex.
 struct SkinWeight {
     int vertex = 0;
     double weight = 0;  // may be negative

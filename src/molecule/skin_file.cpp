@@ -36,7 +36,7 @@ Error notIndex(const Location& where, double found, size_t count, const char* of
                                ", found ", found));
 }
 
-// Of the numbers as a file has them: pairs of a vertex and its weight.
+// Checks the count of a file's numbers for a skin vertex: pairs of a vertex and its weight.
 void checkWeightCount(size_t numbers, const Location& where) {
     if (numbers == 0 || numbers % 2 != 0 || numbers > 2 * Skin::mostWeights)
         throw Error(where, concat("expected 1 to ", Skin::mostWeights,

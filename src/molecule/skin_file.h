@@ -20,7 +20,7 @@ extern const char* const skinSchema;  // the JSON Schema of its value
 
 // After the molecule's vertices and triangles. Error: located.
 void readSkin(JsonReader& root, Molecule& molecule);
-// The same rules for one that was made in code.
+// Applies the reader's rules to a skin that was made in code.
 void checkSkin(const Molecule& molecule, const Where& where);
 JsonValue skinJson(const Skin& skin);
 

@@ -1,5 +1,5 @@
-// What molecules collide with: solids, standing still or moving, and how surfaces answer one another. SI
-// units; every default is the file's.
+// Describes the solids that molecules collide with, standing still or moving, and how surfaces answer one
+// another. SI units; every default is the file's.
 #pragma once
 
 #include <optional>

@@ -27,7 +27,7 @@ bool isCarried(const Emitter& emitter) {
     return emitter.path || emitter.from == From::death;
 }
 
-// What depends on which keys a file gives.
+// Sets and checks what depends on which keys a file gives.
 void follow(Emitter& emitter, const Where& where) {
     if (!where.given("along") && outwardByNature(emitter) && !where.given("direction"))
         emitter.along = Emitter::Along::outward;
@@ -48,7 +48,7 @@ void checkEmitter(const Emitter& emitter, const Where& where) {
         throw Error(where.at("along"), "nothing is outward of a line or a box: expected a \"direction\"");
 }
 
-// What the reader takes where neither key is given is left out.
+// Leaves "along" out where the reader would take the same without it.
 JsonValue writeAlong(const Emitter& emitter, const void*) {
     const bool outward = emitter.along == Emitter::Along::outward,
                up = emitter.direction == glm::dvec3(0, 1, 0);

@@ -16,8 +16,8 @@ namespace shoal {
 
 class Description;
 
-// How a newborn finds a free place in its group. All but `ring` bear nothing while the group is full, and
-// count what was not born.
+// How a newborn finds a free place in its group. All but `ring` emit nothing while the group is full, and
+// count what was not emitted.
 enum class Allocator {
     gpu,    // the smallest free places, found on the GPU: no byte crosses the bus
     ring,   // one after another, over the oldest (UberFlow's time stamp modulo the capacity)
@@ -61,8 +61,8 @@ struct Emitter {
     std::vector<Burst> bursts;
     int perDeath = 1;  // death: newborn for each
 
-    // Velocity at birth: in a cone about the direction, each solid angle alike, plus shares of what it is
-    // born from.
+    // Velocity at birth: in a cone about the direction, each solid angle alike, plus a share of the emitter's
+    // or of what died.
     enum class Along {
         direction,
         outward,  // from the middle of a disc or sphere; a surface's normal; any way from a point or death
@@ -79,7 +79,7 @@ struct Emitter {
 
 const char* name(Emitter::From from);
 
-// Of a group of which some are born or die.
+// Describes birth and death in a group.
 struct Lifecycle {
     int capacity = 0;  // places, at least the group's count
     Allocator allocator = Allocator::gpu;

@@ -20,7 +20,7 @@ struct UniformField {
     glm::dvec3 velocity{0};  // m/s
 };
 
-// The same everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
+// Flows alike everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
 struct OscillatingField {
     glm::dvec3 velocity{0};  // m/s, at the peak
     double frequency = 1;    // Hz, at least 0

@@ -75,7 +75,8 @@ struct Force {
     Location location;
 };
 
-// What a path adds to the position and multiplies the strength by, at a time (s); nothing without a path.
+// Holds what a path adds to the position and multiplies the strength by, at a time (s). Without a path both
+// stay as they are.
 struct ForceMoment {
     glm::dvec3 offset{0};  // m
     double factor = 1;

@@ -1,4 +1,4 @@
-// What all paths along keyframes keep to. Errors are thrown at `where`.
+// Checks rules that all paths along keyframes keep to. Errors are thrown at `where`.
 #pragma once
 
 #include "core/error.h"

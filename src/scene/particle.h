@@ -87,7 +87,7 @@ double ageBetween(const std::vector<ColorKey>& keys, size_t key, double age);
 // are mostColorKeys, or no gap.
 void addColorKey(std::vector<ColorKey>& keys);
 
-// What of a type changes with age, and so never shows in a group that lives for ever.
+// Warns of what changes with age in a type, and so never shows in a group that lives for ever.
 std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where);
 
 // The molecule of one vertex that stands for the type.

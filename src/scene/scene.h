@@ -53,7 +53,7 @@ struct Drag {
     bool any() const { return normal != 0 || tangent != 0; }
 };
 
-// Pins let go when the springs pull on one by more than `force`, or at random at `rate`.
+// Pins are released when the springs pull on one by more than `force`, or at random at `rate`.
 struct Release {
     std::optional<double> force;  // N
     std::optional<double> rate;   // 1/s, per molecule

@@ -66,8 +66,8 @@ const Description& describe(const SchoolTarget*);
 const Description& describe(const SchoolHome*);
 const Description& describe(const School*);
 
-// Of all groups. Error, located at the target: a group that there is not, its own, more than
-// mostSchoolTargets.
+// Checks the schools of all groups. Error, located at the target: a group that there is not, its own, one
+// both fled and hunted; located at the school: more than mostSchoolTargets.
 void checkSchools(const std::vector<Group>& groups);
 
 }  // namespace shoal

@@ -1,4 +1,4 @@
-// What a scene looks like under water. Only the picture knows of it.
+// Describes how a scene looks under water. Only the picture depends on it.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -112,7 +112,8 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
         living.bear->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
 }
 
-// What is born from a group's deaths reads them where they lie, so it comes before that group bears anew.
+// Orders the groups that emit: emitters from a group's deaths read the dead in their places, so they come
+// before that group emits into these.
 void Births::order() {
     std::vector<bool> done(groups_.size());
     const auto visit = [&](const auto& self, size_t g) -> void {
@@ -148,7 +149,8 @@ void Births::dispatchStep(const Program& program, size_t group, int own) const {
     program.dispatch((reachOf(living) + own - 1) / own);
 }
 
-// What died one step ago lies alive on the other side still: a step reaches as far as the one before needed.
+// Returns how many places a step covers: as many as the one before needed, because what died one step ago is
+// still alive on the other side of the state.
 int Births::reachOf(const Living& living) const {
     if (!living.bear || living.onGpu()) return living.plan->count;
     return std::max(markOf(living), living.markBefore);

@@ -1,9 +1,9 @@
-// Birth and death on the fused path (compile/life_plan.h). The step lets die (shaders/particles/age.glsl):
+// Birth and death on the fused path (compile/life_plan.h). The step ends lives (shaders/particles/age.glsl):
 // what dies sets the bit of its place. After it:
 //
-//   deaths   where others are born from them: the bits that were set in this step, as a list
+//   deaths   where others emit from them: the bits that were set in this step, as a list
 //   places   allocator gpu: the first free places, as many as are asked for
-//   births   a lane each; groups that are born from the deaths of others before those bear anew
+//   births   a lane each; groups that emit from the deaths of others before those emit anew
 //
 // The lists come from sums over the bits (count, scan, list), in ascending order: the same for the same bits.
 // With the allocator gpu, how many are born, where, and how far the next step and birth have to reach is
@@ -49,7 +49,7 @@ class Births {
     // After the step of all groups: who is born in it.
     void step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
-    // What of a group's state lies here; `time`: of the state, s.
+    // These write and read the part of a group's state that lies here; `time`: of the state, s.
     void write(size_t group, const GroupState& state, double time);
     void read(size_t group, GroupState& state) const;
 
@@ -85,7 +85,7 @@ class Births {
     void make(size_t group, const std::string& shaderRoot, gpu::ProgramCache* cache);
     void order();
     void countPlaces(const Living& living, int scheduled, bool allocates);
-    // Of the allocators on the CPU: how many have a place; uploads the list.
+    // Takes places from an allocator on the CPU and uploads their list; returns how many births have one.
     int takePlaces(Living& living, const std::vector<BirthRun>& runs, double end);
     void bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state);
     void setRuns(const Living& living, const std::vector<BirthRun>& runs, double begin) const;
@@ -101,7 +101,7 @@ class Births {
     const Tables* tables_;
     std::vector<std::unique_ptr<Living>> groups_;  // of the plan; null: without life
     gpu::Programs programs_;
-    std::vector<size_t> order_;  // groups that bear, the born from deaths first
+    std::vector<size_t> order_;  // groups that emit, each after those that emit from its deaths
     PlaceLists lists_;
     gpu::Buffer died_;  // lists of deaths
 };

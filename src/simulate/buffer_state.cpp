@@ -138,7 +138,7 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
     parts_.back().count = group.count - parts_.back().first;
 }
 
-// Of a buffer with so many 4-vectors a molecule.
+// Returns a part's range of a buffer with `elements` 4-vectors a molecule.
 static GroupBuffers::Range rangeOf(const BufferLayout& layout, const GroupBuffers::Part& part,
                                    const Buffer& buffer, int elements) {
     const size_t bytes = size_t(elements) * sizeof(glm::vec4);

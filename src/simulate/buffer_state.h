@@ -1,10 +1,11 @@
 // The fused path's state: buffers of 4-vectors, a set for each group, packed as shaders/fused/state.glsl
 // says.
 //
-//   state     positions, then velocities (then the last changes of both), 3 floats a vertex    (two sides in
-//   turn; in place: one) record    xyz anchor, m; w: 1 + seed, negative once pins have let go    (a lane
-//   writes only its own) constant  x scale, y phase, rad; only where instances differ normal    3 floats a
-//   vertex, unit; only where something is drawn
+//   state     positions, then velocities (then the last changes of both), 3 floats a vertex
+//             (two sides in turn; in place: one)
+//   record    xyz anchor, m; w: 1 + seed, negative once pins are released    (a lane writes only its own)
+//   constant  x scale, y phase, rad; only where instances differ
+//   normal    3 floats a vertex, unit; only where something is drawn
 //
 // A group that is larger than the device's blocks is split into parts, each a range of whole workgroups of
 // molecules.
@@ -28,7 +29,7 @@ class GroupBuffers {
 
     void write(const GroupPlan& group, const GroupState& state);
     GroupState read(const GroupPlan& group) const;
-    // Of one molecule; a block of them crosses the bus. Its scale and phase are in `looks`.
+    // Reads one molecule; a block of them crosses the bus. Its scale and phase are in `looks`.
     GroupState readOne(size_t molecule) const;
     // The side before the last frame, with two of them; anchors and released pins are those of now.
     GroupState readBefore(const GroupPlan& group) const;
@@ -42,7 +43,7 @@ class GroupBuffers {
     };
     const std::vector<Part>& parts() const { return parts_; }
     const gpu::BufferTexture& oldState(const Part& part) const { return part.state[size_t(current_)]; }
-    // What a dispatch over the part writes.
+    // Locates what a dispatch over the part writes.
     struct Range {
         const gpu::Buffer* buffer;
         size_t offset, bytes;

@@ -19,7 +19,7 @@ void overwrite(std::vector<T>& values, const std::vector<T>& with) {
     std::copy_n(with.begin(), std::min(values.size(), with.size()), values.begin());
 }
 
-// Of an allocator on the CPU, which has `ends`: as the old one had them, else as long as each lives.
+// Carries over an allocator on the CPU, which has `ends`: those of the old one, else the end of each life.
 void carryBook(const GroupState& saved, double time, GroupState& out) {
     for (size_t m = 0; m < out.ends.size(); ++m) {
         const glm::vec2& life = out.lives[m];
@@ -34,8 +34,8 @@ void carryBook(const GroupState& saved, double time, GroupState& out) {
         out.freed.clear();
 }
 
-// What every molecule has, whatever the solvers of the two; a solver with history begins it anew after
-// another.
+// Carries over what every molecule has, whatever the solver. A solver's history goes along only to the same
+// solver and count; else it begins anew.
 GroupState moved(const GroupState& saved, const GroupPlan& from, const GroupPlan& to) {
     GroupState out = to.start;
     overwrite(out.positions, saved.positions);

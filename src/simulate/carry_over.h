@@ -14,9 +14,9 @@ namespace shoal {
 // are new are free. Nothing where the groups are not the same molecules, or as many that live for ever.
 std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to);
 
-// The same group by group, of files that changed: each group of `to` goes on where `from` has it (by name,
-// else by number) with as many vertices a molecule and a life of the same kind. As many molecules as both
-// have go on; the others, and other groups, are as at the start.
+// Carries over group by group, for files that changed: each group of `to` goes on where `from` has it (by
+// name, else by number) with as many vertices a molecule, and both or neither with life. As many molecules as
+// both have go on; further places are free in a group with life, else as at the start, as other groups are.
 struct GoneOn {
     SavedState state;
     std::vector<std::string> restarted;  // names of the groups that begin anew

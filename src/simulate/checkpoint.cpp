@@ -181,7 +181,7 @@ void checkState(const GroupState& state, const GroupPlan& group, const Location&
         refuse(" has pins that neither hold nor let go");
 }
 
-// What a slider had been moved to, unless the scene has changed its mind since.
+// Returns where a slider had been moved to, unless the scene says otherwise now than it did then.
 template <typename T>
 T follow(const T& stood, const T& was, const T& is) {
     return stood != was && was == is ? stood : is;

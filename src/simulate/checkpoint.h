@@ -8,16 +8,17 @@
 //   body   a group: positions, velocities (3 f32 a vertex), anchors (3 f32 a molecule), released (u8)
 //          with a history: displacements, changes of velocity of the last substep (3 f32 a vertex)
 //          with life: age and length of life (2 f32), seeds (u32), scale and phase (2 f32) a place;
-//          emitters' clocks (f64, u64); born, lost (u64); allocators on the CPU: their books
+//          emitters' clocks (f64, u64); born, lost (u64)
+//          with an allocator on the CPU: when each place is free (f64); stack: its free places (u32)
 //          of a school: what steers (12 f32 a molecule)
 //          u64 checksum of the body
 //
 // Numbers are in the byte order of the machine that wrote them. The head is checked before anything of the
 // body is read, and the plan says how large the body is: a file that claims a huge size takes no memory.
 //
-// What must be the same in the scene that goes on: number, names and order of the groups; of each group the
-// number of molecules, their vertices, which vertices the springs join at which rest lengths, and every
-// instance's seed, scale and phase. All else may change between the two runs, to look closer at one: solver,
+// The scene that goes on must have the same number, names and order of groups; in each group the same number
+// of molecules, vertices, springs between the same vertices with the same rest lengths, and every instance's
+// seed, scale and phase. All else may change between the two runs, to look closer at one: solver,
 // substeps, frame rate, fields, colliders, gravity, stiffness, damping, masses, pins, drag, triangles and
 // looks.
 #pragma once

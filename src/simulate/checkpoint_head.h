@@ -1,5 +1,5 @@
-// What a checkpoint says before its state: when, with which parameters, and of which scene. The layout is in
-// simulate/checkpoint.h.
+// Defines the head of a checkpoint: when, with which parameters, and of which scene it was saved. The layout
+// is in simulate/checkpoint.h.
 #pragma once
 
 #include <algorithm>

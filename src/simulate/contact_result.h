@@ -1,4 +1,4 @@
-// What tests, benchmarks and reports ask of contact between molecules, on either path.
+// Gives tests, benchmarks and reports the results of contact between molecules, on either path.
 #pragma once
 
 #include <cstddef>

@@ -25,7 +25,7 @@ void store(const Program& program, const char* block, int at, const GroupBuffers
     program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
 
-// What the program of a group is given only once.
+// Returns, as a key, the parameters that a program is given only once: groups share it where they are equal.
 std::string bytesOf(const std::vector<glm::vec4>& parameters) {
     return {reinterpret_cast<const char*>(parameters.data()), parameters.size() * sizeof(glm::vec4)};
 }

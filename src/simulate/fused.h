@@ -82,7 +82,7 @@ class Fused {
     double steeringEnd_ = 0;  // s, of the frame
 };
 
-// Of a context, for compile/path.h.
+// Returns a context's limits, for compile/path.h.
 PathLimits limitsOf(const gpu::ContextInfo& info);
 
 }  // namespace shoal

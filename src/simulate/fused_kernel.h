@@ -31,7 +31,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOp
 void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
                      const Frame& frame);
 
-// What the driver gets, to be read by people. Error: a shader file is missing.
+// Returns the text that the driver gets, to be read by people. Error: a shader file is missing.
 std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,
                          const KernelOptions& options);
 

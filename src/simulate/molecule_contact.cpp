@@ -312,7 +312,7 @@ void MoleculeContact::search() {
     if (findStaggered_) find(findStaggered_);
 }
 
-// What all stages of the response read.
+// Binds what all stages of the response read.
 MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, double stepTime,
                                                         double restSpeed) const {
     Textures textures(program);

@@ -11,7 +11,7 @@
 //
 // Only gathers: a repeat gives the same bits. Nothing is kept from one contact step to the next.
 //
-// What is known of a sphere: shaders/contact/records.glsl.
+// shaders/contact/records.glsl lists what is known of a sphere.
 #pragma once
 
 #include <array>

@@ -1,4 +1,5 @@
-// What can be changed while a simulation runs. Nothing here compiles a shader or moves state.
+// Holds the numbers that can be changed while a simulation runs. Nothing here compiles a shader or moves
+// state.
 #pragma once
 
 #include <optional>
@@ -10,7 +11,7 @@ namespace shoal {
 
 struct Plan;
 
-// Of a force of the scene.
+// Controls one force of the scene.
 struct ForceControl {
     bool on = true;                      // those of the mouse act only while told to
     double factor = 1;                   // on its strength, on top of its path's

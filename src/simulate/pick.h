@@ -36,7 +36,7 @@ struct MoleculeNumbers {
     int strained = -1;                // the spring that has it; -1: there are none
     bool alive = true;
     std::optional<glm::dvec2> life;  // s: age, and length of life; nothing: it lives for ever
-    bool released = false;           // its pins have let go
+    bool released = false;           // its pins are released
 };
 // `state`: Simulation::readMolecule. `stiffness`: the factor on all springs.
 MoleculeNumbers numbersOf(const GroupState& state, const Molecule& shape, double stiffness);

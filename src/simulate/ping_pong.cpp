@@ -48,7 +48,8 @@ void drawPlainly() {
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
-// What a program is given only once, or once a frame, and so must be equal where groups share it.
+// Returns, as a key, what a program is given only once, or once a frame, and so must be equal where groups
+// share it.
 std::string setOnceFor(const GroupPlan& group) {
     std::string out = name(group.solver);
     for (const auto* list : {&group.forces.pulls, &group.forces.thrusts, &group.forces.winds})

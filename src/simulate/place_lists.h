@@ -1,7 +1,7 @@
 // Sets of places as bits on the GPU, and lists of them in ascending order: the same for the same bits. Three
 // dispatches over the words: sums, their scan by one workgroup, the list (shaders/particles/bits_*.comp).
 //
-// What the scan finds out, and what births need of it, stays on the GPU in words of control, so many a group
+// The scan's results, and what births need of them, stay on the GPU in words of control, so many a group
 // (shaders/particles/control.glsl).
 #pragma once
 

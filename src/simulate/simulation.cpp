@@ -37,7 +37,7 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
     FusedOptions fused{options.drawn, options.inPlace, options.lanes, options.cache, options.watchdog};
     if (options.path != Path::automatic)
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
-    // What works: two sides, else one, else the other path.
+    // Takes what works: two sides, else one, else the other path.
     try {
         return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
     } catch (const gpu::OutOfMemory& error) {
@@ -71,7 +71,7 @@ void Simulation::restart() {
     computeNormals();
 }
 
-// What is drawn before the first frame needs normals, too.
+// Computes the normals of a new or loaded state, which may be drawn before a frame.
 void Simulation::computeNormals() {
     if (!drawn_) return;
     if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->computeNormals(timers_);

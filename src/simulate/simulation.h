@@ -27,7 +27,7 @@ struct Snapshot {
     int count = 0, vertexCount = 0;
     std::vector<glm::dvec3> positions, velocities;  // m, m/s
     std::vector<glm::vec3> normals;                 // unit; zero where the shape has no triangles
-    std::vector<bool> released;                     // per molecule: pins let go
+    std::vector<bool> released;                     // per molecule: pins are released
     std::vector<bool> alive;                        // per molecule; empty: all, for ever
 };
 
@@ -78,9 +78,9 @@ class Simulation {
     int frames() const { return frames_; }
     gpu::PassTimers& timers() { return timers_; }
     gpu::Context& context() const { return *context_; }
-    // Of molecules with one another; null: there is none.
+    // Returns the contact of molecules with one another; null: there is none.
     const ContactResult* contact() const;
-    // Of a group with life. Waits; reads 128 bytes of control.
+    // Counts a group with life. Waits; reads 128 bytes of control.
     LifeCounts lifeCounts(size_t group) const;
     // Other numbers for birth and death, from the next frame on. False, and nothing changes: what differs
     // needs another plan.
@@ -92,12 +92,13 @@ class Simulation {
     // Other numbers for how a group's molecules steer, from the next frame on. False, and nothing changes: it
     // has no school, or what differs needs another plan.
     bool changeSchool(size_t group, const School& school);
-    // What was done otherwise than asked, such as one side instead of two for want of memory.
+    // Tells what was done otherwise than asked, such as one side instead of two for want of memory.
     const std::vector<Warning>& warnings() const { return warnings_; }
 
     // State bytes are counted as they cross the bus.
     Snapshot snapshot(size_t group) const;
-    // Of one molecule, with its scale and phase in `looks`; a few hundred bytes cross the bus. Waits.
+    // Reads one molecule, with its scale and phase in `looks`. Waits. On the fused path its whole block of
+    // molecules crosses the bus.
     GroupState readMolecule(size_t group, size_t molecule) const;
     SavedState save() const;
     // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the

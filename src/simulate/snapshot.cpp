@@ -53,7 +53,7 @@ std::optional<SavedState> Simulation::saveBefore() const {
     return out;
 }
 
-// What the state of a scene with other pins becomes: a pinned vertex is at rest, and pins that cannot let go
+// Adapts the state of a scene with other pins: a pinned vertex is at rest, and pins that cannot be released
 // hold.
 static GroupState asHeld(const GroupPlan& group, GroupState state) {
     if (!group.needs.release) std::fill(state.released.begin(), state.released.end(), uint8_t(0));

@@ -36,17 +36,17 @@ struct DragCoefficients {
 };
 DragCoefficients dragCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
 
-// The same inside a stage of BDF2 (shaders/fused/bdf2.glsl), eta = 2h/3: decay = gamma eta / (1 + gamma eta),
-// phi = eta / (1 + gamma eta).
+// Holds the drag inside a stage of BDF2 (shaders/fused/bdf2.glsl), eta = 2h/3: decay = gamma eta / (1 + gamma
+// eta), phi = eta / (1 + gamma eta).
 struct StageCoefficients {
     float eta = 0;  // s
     DragCoefficients drag;
 };
 StageCoefficients stageCoefficients(const GroupPlan& group, const Parameters& parameters, double h);
 
-// When pins let go in a frame.
+// Tells when pins are released in a frame.
 struct ReleaseLimits {
-    float force = 0;   // N, above which they do
+    float force = 0;   // N, above which they are
     float chance = 0;  // in this frame
 };
 ReleaseLimits releaseLimits(const GroupPlan& group, const Frame& frame);

@@ -1,5 +1,5 @@
-// What every group of a plan shares and no frame changes: the topology of the molecules, and the samples of
-// grids, height fields and distance fields. Layout: compile/plan.h.
+// Holds what every group of a plan shares and no frame changes: the topology of the molecules, and the
+// samples of grids, height fields and distance fields. Layout: compile/plan.h.
 #pragma once
 
 #include "compile/plan.h"

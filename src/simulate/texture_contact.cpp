@@ -132,7 +132,7 @@ void TextureContact::drawAll(TextureState& state, const Into& into) const {
     draw(state, into, 0, rowsOf(contact_->spheres));
 }
 
-// What shaders/state/textures.glsl reads.
+// Binds what shaders/state/textures.glsl reads.
 void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
     const GroupPlan& plan = plan_->groups[group.group];
     program.use();
@@ -224,7 +224,7 @@ void TextureContact::find(TextureState& state) {
     drawAll(state, {&counts_[countsSide_], &lists_});
 }
 
-// What all stages of the response read.
+// Binds what all stages of the response read; returns the next free texture unit.
 int TextureContact::bindResponse(const Program& program, const Times& times) const {
     program.use();
     program.texture("places", 0, places_);

@@ -12,7 +12,7 @@
 //   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`)
 //                      apply     into the state
 //
-// What has a number, sphere, slot or key, lies in rows of 2^rowBits texels (ContactPlan::rowBits); lists and
+// Data by number (of a sphere, slot or key) lie in rows of 2^rowBits texels (ContactPlan::rowBits); lists and
 // pushes in layers of four entries.
 #pragma once
 

@@ -72,7 +72,7 @@ static std::vector<glm::vec4> downloadRows(const Texture& texture, int firstRow,
     return texels;
 }
 
-// Of vertex v of molecule m, within the group's rows.
+// Returns the texel of vertex v of molecule m, within the group's rows.
 static size_t texelOf(const GroupPlan& group, size_t m, size_t v) {
     return (v * size_t(group.texture.slabRows) + m / stateWidth) * stateWidth + m % stateWidth;
 }

@@ -44,7 +44,7 @@ class TextureState {
     // Into and from the current sides; counted as state that crosses the bus.
     void write(const GroupPlan& group, size_t index, const GroupState& state);
     GroupState read(const GroupPlan& group, size_t index) const;
-    // Of one molecule. Its scale and phase are in `looks`.
+    // Reads one molecule. Its scale and phase are in `looks`.
     GroupState readOne(const GroupPlan& group, size_t index, size_t molecule) const;
     std::vector<glm::vec3> readNormals(
         const GroupPlan& group) const;  // index = molecule * vertexCount + vertex

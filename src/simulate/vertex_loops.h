@@ -8,7 +8,7 @@
 //
 // For a lane a molecule, the body is repeated with 0, 1, … in place of the variable, so that every index is a
 // constant and the arrays are registers; drivers unroll only what they think worth it. For a workgroup a
-// molecule, the lanes meet and each takes the vertices that are its own.
+// molecule, the lanes pass a barrier and each takes the vertices that are its own.
 #pragma once
 
 #include "gpu/shader_source.h"

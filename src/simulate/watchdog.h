@@ -49,7 +49,7 @@ class Runaway : public Error {
 
 // The fused path has two sides of positions and velocities but one of anchors and released pins, which a lane
 // changes in place. This takes those of `state`, the side before the last frame, back to what they were then:
-// an anchor moved by a shift that follows from vertex 0, and pins that had not let go were where they
+// an anchor moved by a shift that follows from vertex 0, and pins that had not been released were where they
 // started, at rest.
 void undoRecords(const Plan& plan, const GroupPlan& group, GroupState& state);
 

@@ -1,4 +1,4 @@
-// What is sorted.
+// Defines the pair that is sorted by its key.
 #pragma once
 
 #include <cstdint>

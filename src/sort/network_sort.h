@@ -29,7 +29,7 @@ class NetworkSort {
                 int rowLength = 0, gpu::ProgramCache* cache = nullptr);
     static size_t most(const gpu::ContextInfo& info, Kind kind);
 
-    // What is sorted from now on: the first `count` pairs (at most the capacity). Ends a spread sort.
+    // Sets what is sorted from now on: the first `count` pairs (at most the capacity). Ends a spread sort.
     void setCount(size_t count);
     size_t count() const { return count_; }
 

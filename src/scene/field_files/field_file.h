@@ -35,7 +35,7 @@ struct FieldOptions {
     std::string array = {};  // .vti: the name of the data array; empty: the one that there is
 };
 
-// What a file holds, in its own axes and units.
+// Holds the contents of a file, in its own axes and units.
 struct FileGrid {
     glm::ivec3 resolution{0};
     glm::dvec3 low{0}, high{0};     // outer faces of the outer cells; both 0 where the file has none

@@ -50,7 +50,7 @@ std::optional<Pattern> patternOf(const fs::path& path) {
     return Pattern{path.parent_path(), name.substr(0, first), name.substr(last + 1), last - first + 1};
 }
 
-// Of the files that are there, ascending.
+// Returns the numbers of the files that are there, ascending.
 std::vector<int> numbersIn(const Pattern& pattern) {
     std::vector<int> out;
     std::error_code code;

@@ -18,7 +18,7 @@ class NumberScanner {
     // Error, located: not a number, not finite, beyond the range of doubles.
     bool next(double& out);
 
-    // Of the number taken last, or of the end.
+    // Returns the location of the number taken last, or of the end.
     Location here() const { return {*file_, beginLine_, static_cast<int>(begin_ - beginLineStart_) + 1, {}}; }
 
   private:

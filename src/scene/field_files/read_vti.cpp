@@ -15,7 +15,7 @@ namespace shoal {
 
 namespace {
 
-// What follows the tag is not XML where it is raw.
+// Splits a file's XML from the appended data, which are not XML where they are raw.
 struct Parts {
     std::string head;        // all up to the appended data, closed
     size_t appended = 0;     // of its first byte in the text; 0: none
@@ -113,8 +113,8 @@ class Reader {
         return out;
     }
 
-    // Of the points' or the cells' data: the one of this name, or else the active vectors, or else the only
-    // one of three components.
+    // Finds the array of the points' or the cells' data: that of this name, or else the active vectors, or
+    // else the only one of three components.
     pugi::xml_node find(const pugi::xml_node& piece, const std::string& name, bool& ofPoints) const {
         std::vector<std::pair<pugi::xml_node, bool>> vectors;
         std::string names;

@@ -51,7 +51,7 @@ class ByteSource {
     // The most that can follow.
     size_t left() const { return base64_ ? (end_ - position_) / 4 * 3 + 3 : end_ - position_; }
 
-    // What is left of a group of four belongs to the padding of the stream that ended.
+    // Whether all bytes were taken and only white space follows. Padding holds no bytes.
     bool isAtEnd() {
         while (position_ < end_ && isSpace((*text_)[position_]))
             ++position_;

@@ -35,7 +35,7 @@ void load(Model& model, const Where& where) {
     placeMesh(model.mesh, model);
 }
 
-// What a mesh made in code could get wrong; a reader of models sees to it.
+// Checks a mesh made in code; the readers of models see to theirs.
 void checkMesh(const Mesh& mesh, const Where& where) {
     const size_t count = mesh.positions.size();
     if (mesh.triangles.empty() || mesh.normals.size() != count || mesh.weld.size() != count)

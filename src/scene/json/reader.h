@@ -1,4 +1,4 @@
-// What the readers of the parts of a scene share.
+// Declares what the readers of the parts of a scene share.
 #pragma once
 
 #include <optional>
@@ -25,14 +25,14 @@ struct SceneReading {
     std::vector<Warning>& warnings;
 };
 
-// What follows from the keys of a group's life and emitters: its capacity.
+// Derives a group's capacity from the keys of its life and emitters, unless a file gives it.
 void deriveLife(Group& group, const Where& where);
 
 // Rules between the parts of a scene, of a file or made in code.
 void checkGroups(const Scene& scene, const Where& where);
 void checkSurfaces(const Scene& scene, const Where& where);
 
-// What is fine, but hardly meant.
+// Warns of what is valid, but hardly meant.
 std::vector<Warning> warningsOf(const Group& group, const Where& where);
 
 // A key that names a file: its path, relative to the folder of the file that names it.

@@ -21,7 +21,7 @@ bool differ(const Scene& before, const Scene& after);
 // In the file before.file. Error: withEdits'; the file cannot be read or written, and is as it was then.
 void saveEdits(const Scene& before, const Scene& after);
 
-// Of a file that changed while edits of what was read from it are not saved.
+// Holds the outcome of merging unsaved edits into a file that changed since it was read.
 struct MergedEdits {
     std::vector<Group> groups;           // of `theirs`, with the edits
     std::vector<std::string> conflicts;  // paths of what both changed, each its own way, or what is gone
