@@ -31,7 +31,8 @@ def statements(text):
             continue
         elif c == "{":
             found = scope.search(text[start:at])
-            scopes.append((found.group(1), found.group(2)) if found else ("body", ""))
+            template = re.search(r"\btemplate\s*<", text[start:at])  # its members are instantiated where they are used
+            scopes.append((found.group(1), found.group(2)) if found and not template else ("body", ""))
             start = at + 1
         elif c == "}":
             scopes.pop()

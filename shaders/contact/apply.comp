@@ -7,16 +7,8 @@ uniform usamplerBuffer counts;
 uniform samplerBuffer impulses;  // kg m/s
 uniform samplerBuffer shifts;    // kg m
 uniform samplerBuffer oldRecords;
-uniform int firstSphere;         // of the part
-uniform int partSpheres;
 
 layout(std430, binding = 0) buffer State { float state[]; };
-
-// Component c of a molecule's floats, by its first element.
-int floatIndex(int first, int number)
-{
-    return (first + (number / 4) * BLOCK) * 4 + number % 4;
-}
 
 void change(int molecule, int vertex, vec3 impulse, vec3 shift)
 {

@@ -1,4 +1,4 @@
-// keys: what is sorted, two spheres a texel. STAGGERED: of a second grid.
+// keys: what is sorted, two spheres a texel.
 #include "contact/reading.glsl"
 #include "physics/cells.glsl"
 #include "contact/staggered.glsl"
@@ -8,6 +8,7 @@ uniform UINTS spherePlaces;
 uniform int count;
 uniform int keyMask;
 uniform float cell;
+uniform bool staggered;  // of a second grid
 
 layout(location = 0) out uvec4 pairs;
 
@@ -15,11 +16,8 @@ uvec2 pairOf(int sphere)
 {
     int known = min(sphere, count - 1);  // the sort leaves those behind the last alone
     ivec3 own = ivec3(fetch(sphereCells, known).xyz);
-#ifdef STAGGERED
-    uint key = staggeredKey(own, uintBitsToFloat(fetch(spherePlaces, known).xyz), cell, keyMask);
-#else
     uint key = cellKey(own, uint(keyMask));
-#endif
+    if (staggered) key = staggeredKey(own, uintBitsToFloat(fetch(spherePlaces, known).xyz), cell, keyMask);
     return uvec2(key, uint(sphere));
 }
 

@@ -1,14 +1,7 @@
 // UberFlow's response (section 4.5). Of all that touch only the nearest counts; both are backed up in time to
 // their first contact, exchange the impulse there, and move on. The nearest of one need not have it for its
 // nearest: where three touch, momentum is lost or gained.
-#include "contact/records.glsl"
-#include "contact/lists.glsl"
-#include "physics/pair.glsl"
-
-uniform FLOATS materials;
-uniform int groupCount;
-uniform float stepTime;
-uniform float restSpeed;
+#include "contact/response.glsl"
 
 struct Nearest {
     vec3 impulse;  // kg m/s
@@ -17,25 +10,21 @@ struct Nearest {
 
 Nearest respondToNearest(int slot, int listed)
 {
-    uvec4 own = fetch(places, slot);
+    Sphere own = sphereAt(slot);
     int nearest = slot;
-    vec3 d = vec3(0.0);
     float least = 1e30;
     for (int e = 0; e < listed; ++e) {
         int other = entryOf(slot, e);
-        vec3 apart = localDifference(uintBitsToFloat(own.xyz), uintBitsToFloat(fetch(places, other).xyz), cell);
+        vec3 apart = localDifference(own.place, uintBitsToFloat(fetch(places, other).xyz), cell);
         bool nearer = dot(apart, apart) < least;
         nearest = nearer ? other : nearest;
-        d = nearer ? apart : d;
         least = min(least, dot(apart, apart));
     }
-    uvec4 ownMotion = fetch(motions, motionOf(slot));
-    uvec4 motion = fetch(motions, motionOf(nearest));
-    vec3 u = uintBitsToFloat(ownMotion.xyz) - uintBitsToFloat(motion.xyz);
-    float w = uintBitsToFloat(ownMotion.w) + uintBitsToFloat(motion.w);
-    float reach = uintBitsToFloat(fetch(cells, slot).w) + uintBitsToFloat(fetch(cells, nearest).w);
-    PairContact contact = pairContact(d, u, reach, stepTime, restSpeed, slot < nearest ? 1.0 : -1.0);
-    vec2 material = fetch(materials, int(own.w >> 26u) * groupCount + int(fetch(places, nearest).w >> 26u)).xy;
+    Sphere other = sphereAt(nearest);
+    vec3 u = own.velocity - other.velocity;
+    float w = own.weight + other.weight;
+    PairContact contact = contactOf(own, other, slot < nearest ? 1.0 : -1.0);
+    vec2 material = materialOf(own, other);
     float target = contact.impact ? -material.x * contact.speed : max(contact.speed, 0.0);
     float total = w > 0.0 ? pairImpulse(contact.speed, target, 0.0, w, 1.0) : 0.0;
     vec3 impulse = contact.normal * total;

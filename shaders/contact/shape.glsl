@@ -8,6 +8,8 @@
 layout(local_size_x = 64) in;
 
 uniform samplerBuffer shapes;
+uniform int firstSphere;  // of the part
+uniform int partSpheres;
 
 vec4 shapeOf(int sphere)
 {

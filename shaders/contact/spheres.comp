@@ -7,21 +7,17 @@ uniform samplerBuffer oldRecords;
 #ifdef CONSTANTS
 uniform samplerBuffer constants;
 #endif
-uniform int firstSphere;     // of the part
-uniform int firstMolecule;
-uniform int partSpheres;
 uniform int label;           // of the group's first molecule
 uniform int keyMask;
 uniform float cell;
 uniform float givenRadius;
 uniform vec3 cellShift;      // m, of a staggered grid
+uniform bool onlyKeys;       // the records have been written
 
 layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
-#ifndef ONLY_KEYS
 layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
-#endif
 
 #ifdef WALLS
 #include "generated/colliders.glsl"
@@ -34,40 +30,20 @@ uniform float wallNudge;  // m
 // none is near.
 layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
 
-float wallDistance(vec3 anchor, vec3 position)
-{
-#ifdef JOINT_CONTACT
-    return clearances(anchor, position, wallTime).x;
-#else
-    return clearance(anchor, position);
-#endif
-}
-
 void findWall(int sphere, vec3 anchor, vec3 position, vec3 velocity, float radius)
 {
-    float distance = wallDistance(anchor, position);
+    float distance = clearance(anchor, position, wallTime);
     vec4 wall = vec4(0.0, 1.0, 0.0, 1e30);
     bool near = distance < 0.25 * radius + length(velocity) * wallStep;
     while (near) {
-        vec3 slope = vec3(wallDistance(anchor, position + vec3(wallNudge, 0.0, 0.0)),
-                          wallDistance(anchor, position + vec3(0.0, wallNudge, 0.0)),
-                          wallDistance(anchor, position + vec3(0.0, 0.0, wallNudge))) - distance;
+        vec3 slope = vec3(clearance(anchor, position + vec3(wallNudge, 0.0, 0.0), wallTime),
+                          clearance(anchor, position + vec3(0.0, wallNudge, 0.0), wallTime),
+                          clearance(anchor, position + vec3(0.0, 0.0, wallNudge), wallTime)) - distance;
         float steep = length(slope);
         if (steep > 0.1 * wallNudge && steep < 1e20) wall = vec4(slope / steep, max(distance, 0.0));
         near = false;
     }
     newWalls[sphere] = wall;
-}
-#endif
-
-#ifdef LIFE
-bool livesAt(int first)
-{
-#ifdef LIFE_APART
-    return texelFetch(oldState, first + (STATE_ELEMENTS - 1) * BLOCK).y > 0.0;
-#else
-    return texelFetch(oldState, first + (2 * POSITION_ELEMENTS - 1) * BLOCK).w > 0.0;
-#endif
 }
 #endif
 
@@ -108,18 +84,17 @@ void main()
     int sphere = firstSphere + lane;
 #ifdef LIFE
     // what is not there has a cell of its own, far from all others
-    if (!livesAt(first)) {
+    if (!(packedLife(oldState, first).y > 0.0)) {
         place.cell = ivec3(0x40000000, sphere, 0);
         radius = 0.0;
     }
 #endif
     pairs[sphere] = uvec2(cellKey(place.cell, uint(keyMask)), uint(sphere));
-#ifndef ONLY_KEYS
+    if (onlyKeys) return;
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(velocity), floatBitsToUint(weight));
     newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(radius * scale));
 #ifdef WALLS
     findWall(sphere, record.xyz, position, velocity, radius * scale);
-#endif
 #endif
 }

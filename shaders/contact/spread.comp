@@ -4,12 +4,10 @@
 uniform usamplerBuffer slots;  // of a sphere
 uniform usamplerBuffer counts;
 uniform usamplerBuffer motions;
-uniform samplerBuffer impulses;  // as in contact/velocity.glsl
+uniform samplerBuffer impulses;  // as in contact/respond.glsl
 uniform samplerBuffer earlier;
 uniform float momentum;
 uniform samplerBuffer oldRecords;
-uniform int firstSphere;
-uniform int partSpheres;
 
 layout(std430, binding = 0) writeonly buffer Velocities { vec4 newVelocities[]; };
 

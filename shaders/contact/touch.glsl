@@ -9,6 +9,7 @@ layout(std430, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
 
 uniform int listStride;
+uniform bool last;  // of the searches: what is listed now stays
 #endif
 #ifdef SELF
 uniform usamplerBuffer apart;    // ContactGroup::apart
@@ -97,11 +98,7 @@ void meet(int slot)
 void finish(int slot)
 {
     counts[slot] = uint(found);
-#ifdef LAST
-    bool touches = found > 0;
-#else
-    bool touches = false;
-#endif
+    bool touches = last && found > 0;
     while (touches) {
         uint at = atomicAdd(actives, 1u);
         atomicMax(groupsX, at / 64u + 1u);

@@ -1,37 +1,30 @@
 // Contact of the molecule's vertices with the colliders, after a substep's drift. Needs fused/step.glsl and
 // generated/colliders.glsl.
 //
-// A solver with COMING_KICK still owes the velocity half a kick of the springs: contact acts on the velocity that
-// will have it, or friction would cancel only half of what the springs do in a step.
+// Leapfrog still owes the velocity half a kick of the springs: contact acts on the velocity that will have it, or friction
+// would cancel only half of what the springs do in a step.
 
 // The loops work on copies, so that x and v stay in registers where these loops are kept (a long text for many
 // colliders).
 vec3 touchPosition[VERTICES];
 vec3 touchVelocity[VERTICES];
+#if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
+vec3 driftedBy[VERTICES];  // m/s
+#endif
 #ifdef RIGID_IMPACT
 vec3 startPlace[VERTICES];     // m, before contact
-vec3 driftedBy[VERTICES];      // m/s
 vec4 struck[VERTICES];         // the last surface's normal and friction; w negative: none
 vec3 struckSurface[VERTICES];  // m/s, its velocity
 #include "fused/body.glsl"
 #endif
 #ifdef JOINT_CONTACT
-#ifndef RIGID_IMPACT
-vec3 driftedBy[VERTICES];  // m/s
-#endif
 vec3 askedPosition[VERTICES];  // apart from the above, whose loop is always kept: these stay in registers
 vec3 askedVelocity[VERTICES];
-float contactTime = 0.0;   // s, of the substep's end since the frame's start; where colliders move
 
-// Negative where a vertex is inside a collider, or so near that it may have crossed one.
-float margin(vec3 position, vec3 velocity)
+// s, since the frame's start, when so many substeps are done; 0 where no collider moves.
+float contactTime(int done)
 {
-    vec2 free = clearances(anchor, position, contactTime);
-#ifdef SWEPT
-    return min(free.x, beyondReach(free.y, velocity, substep));
-#else
-    return free.x;
-#endif
+    return collidersMove ? float(done) * substep : 0.0;
 }
 #endif
 
@@ -40,8 +33,8 @@ float margin(vec3 position, vec3 velocity)
 vec4 seen[VERTICES];
 #endif
 
-// Whether a vertex that is not held lies inside a collider.
-bool findContacts()
+// Whether a vertex that is not held lies inside a collider, after so many substeps.
+bool findContacts(int done)
 {
     float least = 1e30;
 #ifdef JOINT_CONTACT
@@ -50,7 +43,7 @@ bool findContacts()
         askedVelocity[i] = v[i];
     }
     for (int k = 0; k < VERTICES; ++k) {
-        if (!isHeld(pinned[k])) least = min(least, margin(askedPosition[k], askedVelocity[k]));
+        if (!isHeld(pinned[k])) least = min(least, margin(anchor, askedPosition[k], askedVelocity[k], substep, contactTime(done)));
     }
 #else
     for (int i = 0; i < VERTICES; ++i) {
@@ -61,7 +54,7 @@ bool findContacts()
         seen[k] = surfaceAt(anchor, touchPosition[k]);
         if (!isHeld(pinned[k])) least = min(least, seen[k].w);
 #else
-        if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k]));
+        if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k], 0.0));
 #endif
     }
 #endif
@@ -73,29 +66,29 @@ bool findContacts()
 
 // Resolves the contacts of all vertices. One that does not touch changes only where the molecule answers as a
 // rigid body (RIGID_IMPACT).
-void resolveContacts()
+void resolveContacts(int done)
 {
     for (int i = 0; i < VERTICES; ++i) {
         touchPosition[i] = x[i];
         touchVelocity[i] = v[i];
-#ifdef COMING_KICK
-        touchVelocity[i] += comingKick[i];
+#if defined(LEAPFROG) && defined(SPRINGS)
+        touchVelocity[i] += acceleration[i] * (0.5 * substep);
+#endif
+#if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
+        driftedBy[i] = v[i];
 #endif
 #ifdef RIGID_IMPACT
         startPlace[i] = x[i];
-        driftedBy[i] = v[i];
         struck[i] = vec4(0.0, 0.0, 0.0, -1.0);
-#endif
-#ifdef JOINT_CONTACT
-        driftedBy[i] = v[i];
 #endif
     }
 #ifdef JOINT_CONTACT
     bool changed = false;
     for (int n = 0; n < VERTICES; ++n) {
-        if (!isHeld(pinned[n]) && margin(touchPosition[n], driftedBy[n]) < 0.0) {
+        if (!isHeld(pinned[n]) &&
+            margin(anchor, touchPosition[n], driftedBy[n], substep, contactTime(done)) < 0.0) {
             Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(touchPosition[n]),
-                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime);
+                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime(done));
             changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
             touchPosition[n] = c.position;
             touchVelocity[n] = c.velocity;
@@ -129,9 +122,10 @@ void resolveContacts()
 #endif
     for (int i = 0; i < VERTICES; ++i) {
         vec3 whole = v[i];
-#ifdef COMING_KICK
-        whole += comingKick[i];
-        v[i] = touchVelocity[i] != whole ? touchVelocity[i] - comingKick[i] : v[i];
+#if defined(LEAPFROG) && defined(SPRINGS)
+        vec3 kick = acceleration[i] * (0.5 * substep);
+        whole += kick;
+        v[i] = touchVelocity[i] != whole ? touchVelocity[i] - kick : v[i];
 #else
         v[i] = touchVelocity[i];
 #endif

@@ -1,15 +1,8 @@
-// Springs and triangles around a vertex from the topology table (src/compile/plan.h), for a workgroup a molecule:
+// Springs and triangles around a vertex from the topology table, for a workgroup a molecule:
 // what generated/molecule.glsl writes out for a lane.
 #include "physics/normal.glsl"
 #include "physics/spring.glsl"
-
-uniform sampler2D topology;
-uniform int topologyBase;
-
-vec4 table(int index)
-{
-    return texelFetch(topology, ivec2(index & 1023, index >> 10), 0);
-}
+#include "state/topology.glsl"
 
 void springForces(float time)
 {
@@ -21,7 +14,7 @@ void springForces(float time)
             vec4 spring = table(int(spans.x) + 2 * s);
             int other = int(spring.x);
             float restLength = spring.w * scale;
-#ifdef ACTUATION
+#ifdef MUSCLES
             vec4 muscle = table(int(spans.x) + 2 * s + 1);
 #ifdef STEERED
             restLength =

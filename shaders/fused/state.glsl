@@ -42,7 +42,7 @@ uniform int givenRestarts;
 uniform int givenSlips;
 uniform vec2 givenFlightBend;
 
-// Copies of the uniforms, for the step to read. With UNIFORMS_IN_REGISTERS, for Mesa's rasteriser, each copy
+// Copies of the uniforms, for the step to read. With SOFTWARE, for Mesa's rasteriser, each copy
 // goes through an operation that changes nothing: a plain copy counts as a uniform, which is fetched lane by
 // lane, and again in every turn of a loop.
 int frame;  // number of this frame, from 0
@@ -66,7 +66,7 @@ vec2 flightBend;  // (h - phi) / gamma, s^2, across and along the surface
 int slips;  // not 0: drag is so heavy that positions drift by the new velocity alone
 int restarts;  // not 0: what is known of the last substep does not count
 
-#ifdef UNIFORMS_IN_REGISTERS
+#ifdef SOFTWARE
 int inRegister(int value) { return min(value, 2147483647); }
 float inRegister(float value) { return min(value, 3.4e38); }
 vec2 inRegister(vec2 value) { return min(value, vec2(3.4e38)); }
@@ -105,9 +105,11 @@ void loadUniforms()
 }
 
 #ifdef SHARED_MOLECULE
+#include "sort/wait.glsl"
 #define PER_VERTEX shared vec3
 #else
 #define PER_VERTEX vec3
+void waitForGroup() {}
 #endif
 
 PER_VERTEX x[VERTICES];       // m, relative to the anchor
@@ -119,9 +121,6 @@ PER_VERTEX fluid[VERTICES];   // m/s, the fields' velocity there
 PER_VERTEX normal[VERTICES];  // unit, of the surface there
 #if defined(FORCES) || defined(STEERED)
 PER_VERTEX pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
-#endif
-#ifdef COMING_KICK
-PER_VERTEX comingKick[VERTICES];  // m/s, what the springs still owe the velocity when contact looks at it
 #endif
 
 vec3 anchor;            // m
@@ -142,17 +141,9 @@ bool taken()
 
 // Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so
 // that every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own
-// vertices, after a barrier. Loops over j (fields) and k (contacts) are the same for bodies that may be too
-// long to write out (src/simulate/vertex_loops.h).
-
-// Barrier before a vertex is read by a lane that did not write it.
-void meet()
-{
-#ifdef SHARED_MOLECULE
-    memoryBarrierShared();
-    barrier();
-#endif
-}
+// vertices, after waitForGroup(), which also goes before a vertex is read by a lane that did not write it. Loops
+// over j (fields) and k (contacts) are the same for bodies that may be too long to write out
+// (src/simulate/vertex_loops.h).
 
 void loadRecord(int molecule)
 {

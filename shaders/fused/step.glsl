@@ -1,6 +1,6 @@
 // The parts of a substep that a solver calls beside the springs: fields, drag and gravity, the release of
-// pins. Needs fused/state.glsl, generated/molecule.glsl and, with FIELDS, generated/fields.glsl, with FORCES,
-// THRUST or WIND generated/scene_forces.glsl. Times are in s since the frame's start.
+// pins. Needs fused/state.glsl, generated/molecule.glsl, generated/scene_forces.glsl and, with FIELDS,
+// generated/fields.glsl. Times are in s since the frame's start.
 #include "physics/drag.glsl"
 #include "physics/random.glsl"
 
@@ -36,7 +36,7 @@ void letGo(int step)
 {
 #ifdef RELEASE
     if (step > 0 || released) return;
-    meet();
+    waitForGroup();
     released = pullOnPins() > releaseForce || uniformFrom(hashSeed(seed, uint(frame))) < releaseChance;
 #endif
 }
@@ -60,7 +60,7 @@ void sampleFrame()
         probe[i] = x[i] + v[i] * middle;
     }
 #ifdef SAMPLE_MOLECULE
-    meet();
+    waitForGroup();
     vec3 u = fieldAt(meanProbe(), middle);
     for (int i = 0; i < VERTICES; ++i) {
         fluid[i] = u;
@@ -83,7 +83,7 @@ void sampleSubstep(float time)
     }
 #endif
 #ifdef STEERED
-    meet();
+    waitForGroup();
     vec3 middle = steeredMiddle();
     for (int i = 0; i < VERTICES; ++i) {
 #ifdef FORCES
@@ -141,7 +141,7 @@ void gain(vec3 gained)
 // Adds to v what a thrust changes the mean of the velocities w by over a substep, or over half of one.
 void thrustBy(bool whole)
 {
-    meet();
+    waitForGroup();
     vec3 mean = meanVelocity();
     gain(thrustedVelocity(mean, whole) - mean);
 }
@@ -165,10 +165,7 @@ vec3 fluidOf(vec3 u)
 #ifndef FIELDS
     u = vec3(0.0);
 #endif
-#ifdef WIND
-    u += forceWind();
-#endif
-    return u;
+    return withWind(u);
 }
 
 // Drag towards u and the acceleration a, gravity and forces, by factors of which `decays` and `phis` are across and along

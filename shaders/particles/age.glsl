@@ -1,8 +1,8 @@
 // Ages a molecule by a frame. It dies of age, outside a box (CONFINED), or some time after it has touched a
-// collider (TOUCH_COUNTS): its place becomes free, and with DEATHS_LISTED its death is recorded. One bit a
+// collider (TOUCH_COUNTS): its place becomes free, and with DEATHS its death is recorded. One bit a
 // place, so that neighbours that die together leave the same bits in whatever order. Needs fused/state.glsl.
 layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
-#ifdef DEATHS_LISTED
+#ifdef DEATHS
 layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };
 #endif
 #ifdef CONFINED
@@ -29,7 +29,7 @@ void growOlder(int molecule)
         span = 0.0;
         uint bit = 1u << (uint(molecule) & 31u);
         atomicOr(freeBits[molecule >> 5], bit);
-#ifdef DEATHS_LISTED
+#ifdef DEATHS
         atomicOr(diedBits[molecule >> 5], bit);
 #endif
     }

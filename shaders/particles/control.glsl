@@ -1,5 +1,5 @@
 // Offsets of the words that births write for the passes after them, so many words a group
-// (src/simulate/place_lists.h).
+// (src/simulate/places.h).
 const int controlDeaths = 0;       // in the last step, where they are listed
 const int controlRequested = 1;    // births of the last step: asked for,
 const int controlBorn = 2;         // and had

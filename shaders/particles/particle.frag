@@ -1,6 +1,8 @@
-// A particle's pixels. Variants: POINTS, SPRITES, FACING_FREE as in particle.vert; IMAGE and FADES; LIT; SOFT; HAZE;
-// BLENDED with one of ADDS and FILTERS or neither (alpha), else cut out; DEPTH_ONLY.
+// A particle's pixels. Variants: POINTS, SPRITES, IMAGE, LIT as in particle.vert; SOFT; DEPTH_ONLY. What is not blended is cut
+// out.
 
+#include "particles/kinds.glsl"
+#include "render/blend.glsl"
 #ifndef DEPTH_ONLY
 #include "render/light.glsl"
 #endif
@@ -35,9 +37,7 @@ uniform sampler2D sceneDepth;  // 1 - nearest / depth
 uniform float nearest;         // m
 uniform float perSoftness;     // 1/m
 #endif
-#ifndef BLENDED
-uniform float leastCover;  // below this a pixel is left out
-#endif
+uniform float leastCover;  // below this a pixel of what is not blended is left out
 #ifndef DEPTH_ONLY
 out vec4 fragment;
 #endif
@@ -64,29 +64,23 @@ void main()
 #ifdef IMAGE
     vec2 uv = at * 0.5 + 0.5;
     vec4 texel = texture(image, vec3(uv, tiles.x));
-#ifdef FADES
-    // Mixed by what each covers, so that the colour of what is clear does not count.
-    vec4 next = texture(image, vec3(uv, tiles.y));
-    vec2 weights = vec2(texel.a * (1.0 - tiles.z), next.a * tiles.z);
-    float weight = weights.x + weights.y;
-    texel = vec4((texel.rgb * weights.x + next.rgb * weights.y) / max(weight, 1e-6), weight);
-#endif
+    if (FADES) {
+        // Mixed by what each covers, so that the colour of what is clear does not count.
+        vec4 next = texture(image, vec3(uv, tiles.y));
+        vec2 weights = vec2(texel.a * (1.0 - tiles.z), next.a * tiles.z);
+        float weight = weights.x + weights.y;
+        texel = vec4((texel.rgb * weights.x + next.rgb * weights.y) / max(weight, 1e-6), weight);
+    }
     shown *= texel;
-#ifndef BLENDED
-    shown.a = clamp((texel.a - 0.5) / max(fwidth(texel.a), 1e-4) + 0.5, 0.0, 1.0);
-#endif
+    if (BLEND == noneBlend) shown.a = clamp((texel.a - 0.5) / max(fwidth(texel.a), 1e-4) + 0.5, 0.0, 1.0);
 #ifdef SPRITES
     shown.a *= insideOf(max(abs(at.x), abs(at.y)));
 #endif
 #else
     // A dot: a bell without a kink at its rim, or where it hides what is behind a disc.
     float r2 = dot(at, at);
-#ifdef BLENDED
     float bell = max(1.0 - r2, 0.0);
-    shown.a = bell * bell;
-#else
-    shown.a = insideOf(sqrt(r2));
-#endif
+    shown.a = BLEND == noneBlend ? insideOf(sqrt(r2)) : bell * bell;
 #endif
 #endif
     shown.a *= color.a;
@@ -96,55 +90,31 @@ void main()
     float behind = nearest / max(1.0 - texelFetch(sceneDepth, ivec2(gl_FragCoord.xy), 0).r, 1e-9);
     shown.a *= clamp((behind - 1.0 / gl_FragCoord.w) * perSoftness, 0.0, 1.0);
 #endif
-#ifdef BLENDED
-    if (shown.a <= 0.0) discard;
-#else
-    if (shown.a < leastCover) discard;
-#endif
+    if (BLEND == noneBlend ? shown.a < leastCover : shown.a <= 0.0) discard;
 
 #ifndef DEPTH_ONLY
     vec3 light = shown.rgb;
 #ifdef LIT
-    Surface surface;
-    surface.place = place;
-#ifdef FACING_FREE
-    vec3 n = frame[2];
-    if (dot(n, place) > 0.0) n = -n;
-#else
     vec3 ball = vec3(at, sqrt(max(1.0 - dot(at, at), 0.0)));
-#if defined(POINTS) || defined(SPRITES)
 #ifdef SPRITES
     ball.xy = off * length(toSquare.xy);  // not turned with the picture
 #endif
+#if defined(POINTS) || defined(SPRITES)
     vec3 n = normalize(viewToScene * ball);
 #else
     vec3 n = normalize(frame * ball);
+    if (FACING == freeFacing) n = dot(frame[2], place) > 0.0 ? -frame[2] : frame[2];
 #endif
-#endif
-    surface.normal = n;
-    surface.face = n;
-    surface.albedo = shown.rgb;
-    surface.roughness = 0.9;
-    surface.translucency = 0.0;
-    surface.throughColor = vec3(0.0);
-    surface.openness = crownOpenness(place, n);
-    light = shade(surface);
+    light = shade(surfaceOf(place, n, shown.rgb, 0.9));
 #endif
 
     // Haze covers what is behind it; it adds nothing to light that is added, and leaves filters less to filter.
-#ifdef HAZE
-#ifdef FILTERS
-    shown.a *= hazeThrough(place).g;
-#elif defined(ADDS)
-    light *= hazeThrough(place);
-#else
-    light = withHaze(light, place);
-#endif
-#endif
-#ifdef FILTERS
-    fragment = vec4(mix(vec3(1.0), light, shown.a), 1.0);
-#else
-    fragment = vec4(squeeze(light), shown.a);
-#endif
+    const bool filters = BLEND == multiplicativeBlend;
+    if (isHazy()) {
+        if (filters) shown.a *= hazeThrough(place).g;
+        else if (BLEND == additiveBlend) light *= hazeThrough(place);
+        else light = withHaze(light, place);
+    }
+    fragment = filters ? vec4(mix(vec3(1.0), light, shown.a), 1.0) : vec4(squeeze(light), shown.a);
 #endif
 }

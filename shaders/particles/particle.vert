@@ -3,15 +3,17 @@
 //
 //   POINTS   a dot of `pixels`
 //   SPRITES  a point as wide as the turned square, which the fragment stage cuts out of it [Latta 2004, section 3.4.6]
-//   else     gl_VertexID: 4 corners of a quad, that of many [Kapoulkine 2008]; FACING_VELOCITY, FACING_FREE, else camera
+//   else     gl_VertexID: 4 corners of a quad, that of many [Kapoulkine 2008]
 //
 // Variants, each only where the type needs it: SIZES (random), GROWS, TURNS (about the line of sight, or free quads
-// about their axis), COLORS (keyframes), IMAGE with TILES (random), FLIP_ONCE or FLIP_AGAIN, FADES (between
-// frames); LIT; and those of state/molecule.glsl and render/drawn.glsl.
+// about their axis), COLORS (keyframes), IMAGE, LIT; and those of state/molecule.glsl and render/drawn.glsl. An instance is a
+// BATCH of particles of CORNERS vertices each. The values of FACING, TILES and FADES are in particles/kinds.glsl.
 
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
+#include "render/blend.glsl"
 #include "particles/attributes.glsl"
+#include "particles/kinds.glsl"
 #ifdef COLOR_BY
 #include "render/color_scale.glsl"
 #endif
@@ -23,6 +25,7 @@ uniform vec2 pictureSize;      // pixels
 uniform float pixelsPerMeter;  // at a distance of one metre, or everywhere in the shadow map
 uniform uint timeBlocks;       // of 64 s
 uniform float time;            // s, since the last of them
+uniform int drawnCount;        // particles; the last instance may be left with fewer
 
 #ifdef POINTS
 uniform float pixels;
@@ -35,9 +38,7 @@ uniform vec2 growth;
 #ifdef TURNS
 uniform vec2 turnSpan, spinSpan;  // rad, rad/s
 #endif
-#ifdef FACING_VELOCITY
-uniform float stretch;  // s
-#endif
+uniform float stretch;    // s, of what faces along its velocity
 uniform vec4 firstColor;  // linear RGB and opacity
 #ifdef COLORS
 uniform vec4 colorChanges[3];
@@ -80,7 +81,7 @@ vec3 unitOr(vec3 v, vec3 otherwise)
 void main()
 {
     int molecule;
-    bool drawn = findDrawn(molecule);
+    bool drawn = findDrawn(gl_InstanceID * BATCH + gl_VertexID / CORNERS, drawnCount, molecule);
     vec3 middle = vertexPlace(molecule, 0);
     uint seed = moleculeSeed(molecule);
     vec2 life = moleculeLife(molecule);
@@ -97,23 +98,13 @@ void main()
 
 #ifdef IMAGE
     tiles = vec3(0.0);
-#ifdef TILES
-    tiles.x = randomTile(seed, tileCount);
-#endif
-#ifdef FADES
-    const bool fades = true;
-#else
-    const bool fades = false;
-#endif
-#ifdef FLIP_ONCE
-    tiles = framesOnce(age, tileCount, fades);
-#endif
-#ifdef FLIP_AGAIN
+    if (TILES == tileOfSeed) tiles.x = randomTile(seed, tileCount);
+    if (TILES == tilesOnce) tiles = framesOnce(age, tileCount, FADES);
 #ifdef LIFE
-    tiles = framesAgain(life.x, frameRate, 0.0, tileCount, fades);
+    if (TILES == tilesAgain) tiles = framesAgain(life.x, frameRate, 0.0, tileCount, FADES);
 #else
-    tiles = framesAgain(flipTime, frameRate, uniformFrom(hashSeed(seed, tileCounter)), tileCount, fades);
-#endif
+    float start = uniformFrom(hashSeed(seed, tileCounter));
+    if (TILES == tilesAgain) tiles = framesAgain(flipTime, frameRate, start, tileCount, FADES);
 #endif
 #endif
 
@@ -148,9 +139,7 @@ void main()
     float shown = size * pixelsPerMeter / max(clip.w, 1e-6);
     float wider = max(leastPixels / max(shown, 1e-6), 1.0);
     size *= wider;
-#ifdef BLENDED
-    color.a /= wider * wider;
-#endif
+    if (BLEND != noneBlend) color.a /= wider * wider;
 
 #ifdef SPRITES
     gl_Position = clip;
@@ -163,28 +152,28 @@ void main()
     at = vec2((number & 1) != 0 ? 1.0 : -1.0, (number & 2) != 0 ? 1.0 : -1.0);
     vec3 right = viewToScene[0], up = viewToScene[1], front = viewToScene[2];
     vec2 reach = vec2(0.5 * size);
-#ifdef FACING_VELOCITY
-    // Along the velocity as the eye sees it: seen along its way a particle is round, not gone.
-    front = unitOr(eyeAt.xyz - eyeAt.w * middle, viewToScene[2]);
-    vec3 velocity = vertexVelocity(molecule, 0);
-    velocity -= front * dot(front, velocity);
-    vec3 upright = unitOr(up - front * dot(front, up), cross(front, right));
-    up = unitOr(velocity, upright);
-    right = cross(up, front);
-    reach.y += 0.5 * stretch * length(velocity);
-#elif defined(FACING_FREE)
-    vec4 rotation = randomRotation(seed);
+    if (FACING == velocityFacing) {
+        // Along the velocity as the eye sees it: seen along its way a particle is round, not gone.
+        front = unitOr(eyeAt.xyz - eyeAt.w * middle, viewToScene[2]);
+        vec3 velocity = vertexVelocity(molecule, 0);
+        velocity -= front * dot(front, velocity);
+        vec3 upright = unitOr(up - front * dot(front, up), cross(front, right));
+        up = unitOr(velocity, upright);
+        right = cross(up, front);
+        reach.y += 0.5 * stretch * length(velocity);
+    } else if (FACING == freeFacing) {
+        vec4 rotation = randomRotation(seed);
 #ifdef TURNS
-    rotation = composed(aboutAxis(randomAxis(seed), angle), rotation);
+        rotation = composed(aboutAxis(randomAxis(seed), angle), rotation);
 #endif
-    right = turned(rotation, vec3(1.0, 0.0, 0.0));
-    up = turned(rotation, vec3(0.0, 1.0, 0.0));
-    front = cross(right, up);
-#else
-    vec3 level = right;
-    right = c * level + s * up;
-    up = c * up - s * level;
-#endif
+        right = turned(rotation, vec3(1.0, 0.0, 0.0));
+        up = turned(rotation, vec3(0.0, 1.0, 0.0));
+        front = cross(right, up);
+    } else {
+        vec3 level = right;
+        right = c * level + s * up;
+        up = c * up - s * level;
+    }
 #ifdef LIT
     frame = mat3(right, up, front);
 #endif

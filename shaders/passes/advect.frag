@@ -7,18 +7,12 @@
 #include "state/textures.glsl"
 #include "physics/anchor.glsl"
 #include "physics/drag.glsl"
-#ifdef FIELDS
-#include "generated/fields.glsl"
-#endif
-#if defined(FORCES) || defined(WIND)
-#include "generated/scene_forces.glsl"
-#endif
+#include "passes/fall.glsl"
+#include "passes/fluid.glsl"
 
 uniform sampler2D vertexNormals;
 uniform float time;       // s, at the start of the substep, since the frame's
 uniform float substep;    // h, s
-uniform vec3 gravity;     // m/s^2
-uniform float wind;       // factor on the fields
 uniform vec2 decay;       // 1 - exp(-gamma h) across and along the surface
 uniform vec2 phi;         // decay / gamma, h where gamma = 0
 uniform int slips;        // 1: drag is so heavy that positions drift by the new velocity alone
@@ -29,17 +23,8 @@ layout(location = 1) out vec4 newVelocity;
 
 vec3 accelerate(vec3 v, vec3 anchor, vec3 x, float t, ivec2 texel)
 {
-    vec3 u = vec3(0.0);
-#ifdef FIELDS
-    u = wind * fluidVelocity(anchor, x, t);
-#endif
-#ifdef WIND
-    u += forceWind();
-#endif
-    vec3 a = gravity;
-#ifdef FORCES
-    a += forceAcceleration(anchor, x);
-#endif
+    vec3 u = fluidAt(anchor, x, t);
+    vec3 a = fallAt(anchor, x);
 #ifdef DIRECTIONAL_DRAG
     return directionalDragAndGravity(v, u, a, texelFetch(vertexNormals, texel, 0).xyz, decay, phi);
 #else
@@ -66,10 +51,7 @@ void main()
         newVelocity = vec4(0.0);
         return;
     }
-    vec3 anchor = vec3(0.0);
-#if defined(FIELDS) || defined(FORCES)
-    anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-#endif
+    vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
 #ifdef LEAPFROG
     float halfStep = 0.5 * substep;
 #ifdef SPRINGS

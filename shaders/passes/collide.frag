@@ -3,17 +3,10 @@
 // it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
 #include "state/textures.glsl"
 #include "generated/colliders.glsl"
-#ifdef FORCES
-#include "generated/scene_forces.glsl"
-#endif
+#include "passes/fall.glsl"
 
-uniform vec3 gravity;
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
-#ifdef MOVING_COLLIDERS
-uniform float contactTime;  // s, of the substep's end since the frame's start
-#else
-const float contactTime = 0.0;
-#endif
+uniform float contactTime;  // s, of the substep's end since the frame's start; 0 where no collider moves
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -26,10 +19,7 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-        vec3 fall = gravity;
-#ifdef FORCES
-        fall += forceAcceleration(anchor, x);
-#endif
+        vec3 fall = fallAt(anchor, x);
         vec3 kick = vec3(0.0);
 #if defined(LEAPFROG) && defined(SPRINGS)
         kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);
@@ -37,12 +27,9 @@ void main()
         vec3 whole = v + kick;
         Drift drifted = Drift(drift.x, drift.y, drift.z);
 #ifdef JOINT_CONTACT
-        vec2 free = clearances(anchor, x, contactTime);
-#ifdef SWEPT
-        free.x = min(free.x, beyondReach(free.y, v, drift.x));
-#endif
         Contact contact = Contact(x, whole);
-        if (free.x < 0.0) contact = collideAll(anchor, x, whole, v, fall, drifted, contactTime);
+        if (margin(anchor, x, v, drift.x, contactTime) < 0.0)
+            contact = collideAll(anchor, x, whole, v, fall, drifted, contactTime);
 #else
         Contact contact = collideAll(anchor, x, whole, fall, drifted);
 #endif

@@ -11,7 +11,7 @@ vec3 positionAhead(int vertex, int molecule)
 {
     ivec2 texel = stateTexel(vertex, molecule);
     vec3 x = texelFetch(positions, texel, 0).xyz;
-#ifdef AHEAD
+#if defined(LEAPFROG) && defined(DIRECTIONAL_DRAG)
     if (aheadTime > 0.0) {
         vec3 v = texelFetch(velocities, texel, 0).xyz;
 #ifdef SPRINGS

@@ -17,7 +17,7 @@ uniform float stepsSquared;  // 1/h^2, 1/s^2: a spring is a distance constraint,
 vec3 predictedVelocity(ivec2 texel)
 {
     vec3 v = texelFetch(velocities, texel, 0).xyz;
-#ifdef PREDICT
+#if defined(LEAPFROG) && defined(SPRINGS)
     // at a frame's start there is no acceleration yet, and what the texture holds may not be a number
     if (predictTime > 0.0) v += texelFetch(accelerations, texel, 0).xyz * predictTime;
 #endif

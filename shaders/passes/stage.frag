@@ -2,12 +2,8 @@
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "physics/anchor.glsl"
-#ifdef FIELDS
-#include "generated/fields.glsl"
-#endif
-#if defined(FORCES) || defined(WIND)
-#include "generated/scene_forces.glsl"
-#endif
+#include "passes/fall.glsl"
+#include "passes/fluid.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
@@ -19,8 +15,6 @@ uniform float substep;    // h, s
 uniform float share;      // of this stage in the step
 uniform float ahead;      // s, from the start to the next stage
 uniform int stage;        // 0 to 3
-uniform vec3 gravity;     // m/s^2
-uniform float wind;       // factor on the fields
 uniform vec2 dragRate;    // 1/s, across and along the surface
 uniform int moveAnchors;  // 1 in the first substep
 
@@ -31,18 +25,8 @@ layout(location = 3) out vec4 newSumAcceleration;
 
 vec3 dragAcceleration(vec3 v, vec3 anchor, vec3 x, ivec2 texel)
 {
-    vec3 u = vec3(0.0);
-#ifdef FIELDS
-    u = wind * fluidVelocity(anchor, x, time);
-#endif
-#ifdef WIND
-    u += forceWind();
-#endif
-    vec3 a = gravity;
-#ifdef FORCES
-    a += forceAcceleration(anchor, x);
-#endif
-    vec3 slip = u - v;
+    vec3 a = fallAt(anchor, x);
+    vec3 slip = fluidAt(anchor, x, time) - v;
     a += slip * dragRate.y;
 #ifdef DIRECTIONAL_DRAG
     vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
@@ -74,10 +58,7 @@ void main()
     vec3 x = texelFetch(positions, texel, 0).xyz;
     if (stage == 0) x -= shift;
     vec3 v = texelFetch(velocities, texel, 0).xyz;
-    vec3 anchor = vec3(0.0);
-#if defined(FIELDS) || defined(FORCES)
-    anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-#endif
+    vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
     vec3 a = dragAcceleration(v, anchor, x, texel);
 #ifdef SPRINGS
     a += springForces(own.x, own.y) * vertexInertia.x;

@@ -3,6 +3,11 @@
 
 uniform float fogDensity;  // 1/m
 
+bool isHazy()
+{
+    return fogDensity > 0.0;
+}
+
 // Sunlight that arrives, of a surface's radiance.
 vec3 sunlightAt(vec3 place)
 {
@@ -18,8 +23,7 @@ vec3 ambientAt(vec3 place, vec3 normal)
 // Returns the radiance that a mirror reflects to the eye from a direction.
 vec3 mirroredFrom(vec3 place, vec3 direction, float roughness)
 {
-    return mix(ambientLight(vec3(0.0, -1.0, 0.0)), skyGradient(direction) + sunGlow(direction),
-               smoothstep(-0.05 - roughness, 0.05 + roughness, direction.y));
+    return mirroredInAir(direction, roughness);
 }
 
 // Share of the light from a place that reaches the eye.

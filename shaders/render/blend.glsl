@@ -1,17 +1,11 @@
-// The colour and alpha that a surface hands to the blending of the framebuffer. Variants: BLENDED, FILTERS
-// (multiplicative).
-#ifdef BLENDED
+// The colour and alpha that a surface hands to the blending of the framebuffer. Set by C++: BLEND, one of these.
+const int noneBlend = 0, alphaBlend = 1, additiveBlend = 2, multiplicativeBlend = 3;
+
 uniform float opacity;
-#endif
 
 // `covered`: share of the pixel.
 vec4 blended(vec3 light, vec3 albedo, float covered)
 {
-#ifdef FILTERS
-    return vec4(mix(vec3(1.0), albedo, opacity * covered), 1.0);
-#elif defined(BLENDED)
-    return vec4(light, opacity * covered);
-#else
-    return vec4(light, covered);
-#endif
+    if (BLEND == multiplicativeBlend) return vec4(mix(vec3(1.0), albedo, opacity * covered), 1.0);
+    return vec4(light, BLEND == noneBlend ? covered : opacity * covered);
 }

@@ -1,6 +1,6 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
 // Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them; with WATER all below its
-// surface is under water; with METALLIC surfaces are in part mirrors.
+// surface is under water.
 
 #include "render/sky.glsl"
 #include "render/tone.glsl"
@@ -18,9 +18,7 @@ struct Surface {
     float translucency;  // share of the light on the other side that comes through
     vec3 throughColor;   // colour of that light
     float openness;      // share of the sky that reaches it, in [0, 1]
-#ifdef METALLIC
     float metallic;      // share of a mirror, in [0, 1]
-#endif
 };
 
 #ifdef WATER
@@ -87,7 +85,6 @@ float sheen(vec3 normal, vec3 toEye, float roughness)
     return fresnel * a2 / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
 
-#ifdef METALLIC
 // As sheen(), for a mirror that reflects all.
 float lobe(vec3 normal, vec3 toEye, float roughness)
 {
@@ -98,7 +95,13 @@ float lobe(vec3 normal, vec3 toEye, float roughness)
     float d = nh * nh * (a * a - 1.0) + 1.0;
     return a * a / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
-#endif
+
+// Neither translucent nor a mirror.
+Surface surfaceOf(vec3 place, vec3 normal, vec3 albedo, float roughness)
+{
+    float openness = crownOpenness(place, normal);
+    return Surface(place, normal, normal, albedo, roughness, 0.0, vec3(0.0), openness, 0.0);
+}
 
 vec3 shade(Surface s)
 {
@@ -118,11 +121,11 @@ vec3 shade(Surface s)
         radiance += visible * s.translucency * s.throughColor * sunlight * behind * glow;
         radiance += s.translucency * s.throughColor * ambientAt(s.place, -s.normal) * s.openness * 0.5;
     }
-#ifdef METALLIC
-    // A mirror's picture of what is around it, and the sun's in it.
-    vec3 mirrored = mirroredFrom(s.place, reflect(-toEye, s.normal), s.roughness) * s.openness;
-    mirrored += visible * sunlight * front * lobe(s.normal, toEye, s.roughness);
-    radiance = mix(radiance, s.albedo * mirrored, s.metallic);
-#endif
+    if (s.metallic > 0.0) {
+        // A mirror's picture of what is around it, and the sun's in it.
+        vec3 mirrored = mirroredFrom(s.place, reflect(-toEye, s.normal), s.roughness) * s.openness;
+        mirrored += visible * sunlight * front * lobe(s.normal, toEye, s.roughness);
+        radiance = mix(radiance, s.albedo * mirrored, s.metallic);
+    }
     return radiance;
 }

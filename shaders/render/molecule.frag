@@ -1,4 +1,4 @@
-// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS, WATER, METALLIC, and those of render/blend.glsl.
+// Variants: TEXTURED (cut out of an image by its alpha), SHADOWS, WATER.
 
 #include "render/blend.glsl"
 #include "render/light.glsl"
@@ -13,9 +13,7 @@ flat in vec3 color;
 
 uniform float roughness;
 uniform float translucency;
-#ifdef METALLIC
 uniform float metallic;
-#endif
 
 out vec4 fragment;
 
@@ -40,18 +38,10 @@ void main()
     if (dot(n, place) > 0.0) n = -n;
 #endif
 
-    Surface s;
-    s.place = place;
-    s.normal = n;
-    s.face = s.normal;
-    s.albedo = albedo;
-    s.roughness = roughness;
+    Surface s = surfaceOf(place, n, albedo, roughness);
     s.translucency = translucency;
     // Green tissue lets yellow pass.
     s.throughColor = albedo * vec3(1.7, 1.45, 0.5);
-    s.openness = crownOpenness(place, n);
-#ifdef METALLIC
     s.metallic = metallic;
-#endif
     fragment = blended(squeeze(withHaze(shade(s), place)), albedo, covered);
 }

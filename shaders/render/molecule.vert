@@ -4,11 +4,7 @@
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #include "render/grown.glsl"
-#ifdef COLOR_BY
-#include "render/color_scale.glsl"
-#else
 #include "render/instance_color.glsl"
-#endif
 
 layout(location = 0) in vec2 cornerUv;
 
@@ -24,17 +20,13 @@ flat out vec3 color;
 void main()
 {
     int molecule;
-    bool drawn = findDrawn(molecule);
+    bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
     vec3 at = drawnPlace(molecule, gl_VertexID);
     uv = cornerUv;
 #ifndef DEPTH_ONLY
     place = at;
     normal = vertexNormal(molecule, gl_VertexID);
-#ifdef COLOR_BY
-    color = scaleColor(molecule);
-#else
-    color = instanceColor(moleculeSeed(molecule));
-#endif
+    color = instanceColor(molecule);
 #endif
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside

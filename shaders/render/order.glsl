@@ -22,3 +22,15 @@ uvec2 orderAt(int i)
 #endif
 }
 #endif
+
+// The first place of `count` whose key is not below.
+int placeOf(uint key, int count)
+{
+    int low = 0, high = count;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (orderAt(middle).x < key) low = middle + 1;
+        else high = middle;
+    }
+    return low;
+}

@@ -1,5 +1,5 @@
-// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing else), and
-// those of render/blend.glsl.
+// A sprite shaded as the sphere that it stands for. Variants: SHADOWS, DEPTH_ONLY (round, nothing
+// else).
 
 #ifdef DEPTH_ONLY
 void main()
@@ -17,9 +17,7 @@ flat in vec3 color;
 uniform mat3 viewToScene;  // columns: right, up, towards the eye
 uniform float pointSize;
 uniform float roughness;
-#ifdef METALLIC
 uniform float metallic;
-#endif
 
 out vec4 fragment;
 
@@ -32,18 +30,8 @@ void main()
     if (covered <= 0.0) discard;
     vec3 n = viewToScene * vec3(at, sqrt(max(1.0 - r2, 0.0)));
 
-    Surface s;
-    s.place = middle + n * (0.5 * pointSize);
-    s.normal = normalize(n);
-    s.face = s.normal;
-    s.albedo = color;
-    s.roughness = roughness;
-    s.translucency = 0.0;
-    s.throughColor = vec3(0.0);
-    s.openness = crownOpenness(s.place, s.normal);
-#ifdef METALLIC
+    Surface s = surfaceOf(middle + n * (0.5 * pointSize), normalize(n), color, roughness);
     s.metallic = metallic;
-#endif
     fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }
 #endif

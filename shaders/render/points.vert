@@ -3,11 +3,7 @@
 
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
-#ifdef COLOR_BY
-#include "render/color_scale.glsl"
-#else
 #include "render/instance_color.glsl"
-#endif
 
 uniform mat4 toClip;
 uniform float pointSize;      // m, diameter
@@ -21,17 +17,13 @@ flat out vec3 color;
 void main()
 {
     int molecule;
-    bool drawn = findDrawn(molecule);
+    bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
     vec3 at = vertexPlace(molecule, gl_VertexID);
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
     gl_PointSize = max(pointSize * pixelsPerMeter / gl_Position.w, 1.0);
 #ifndef DEPTH_ONLY
     middle = at;
-#ifdef COLOR_BY
-    color = scaleColor(molecule);
-#else
-    color = instanceColor(moleculeSeed(molecule));
-#endif
+    color = instanceColor(molecule);
 #endif
 }

@@ -6,23 +6,12 @@
 #include "state/molecule.glsl"
 #include "render/drawn.glsl"
 #include "render/grown.glsl"
-#ifdef COLOR_BY
-#include "render/color_scale.glsl"
-#else
 #include "render/instance_color.glsl"
-#endif
 
 layout(location = 0) in vec2 cornerUv;
 layout(location = 1) in vec3 offsets;  // along the molecule's normal: of the place, m; of the tangents
 // The vertex, its weight for the place, and its weights for the two tangents.
-layout(location = 2) in vec4 influence0;
-layout(location = 3) in vec4 influence1;
-layout(location = 4) in vec4 influence2;
-layout(location = 5) in vec4 influence3;
-layout(location = 6) in vec4 influence4;
-layout(location = 7) in vec4 influence5;
-layout(location = 8) in vec4 influence6;
-layout(location = 9) in vec4 influence7;
+layout(location = 2) in vec4 influences[SKIN_WEIGHTS];
 
 uniform mat4 toClip;
 
@@ -39,7 +28,7 @@ struct Sums
     vec3 place, along, across, normal;
 };
 
-void hang(inout Sums sums, int molecule, vec3 first, vec4 influence)
+void addInfluence(inout Sums sums, int molecule, vec3 first, vec4 influence)
 {
     int vertex = int(influence.x);
     vec3 from = drawnPlace(molecule, vertex) - first;
@@ -56,31 +45,10 @@ void hang(inout Sums sums, int molecule, vec3 first, vec4 influence)
 void main()
 {
     int molecule;
-    bool drawn = findDrawn(molecule);
-    vec3 first = drawnPlace(molecule, int(influence0.x));
+    bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
+    vec3 first = drawnPlace(molecule, int(influences[0].x));
     Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    hang(sums, molecule, first, influence0);
-#if SKIN_WEIGHTS > 1
-    hang(sums, molecule, first, influence1);
-#endif
-#if SKIN_WEIGHTS > 2
-    hang(sums, molecule, first, influence2);
-#endif
-#if SKIN_WEIGHTS > 3
-    hang(sums, molecule, first, influence3);
-#endif
-#if SKIN_WEIGHTS > 4
-    hang(sums, molecule, first, influence4);
-#endif
-#if SKIN_WEIGHTS > 5
-    hang(sums, molecule, first, influence5);
-#endif
-#if SKIN_WEIGHTS > 6
-    hang(sums, molecule, first, influence6);
-#endif
-#if SKIN_WEIGHTS > 7
-    hang(sums, molecule, first, influence7);
-#endif
+    for (int k = 0; k < SKIN_WEIGHTS; ++k) addInfluence(sums, molecule, first, influences[k]);
 #ifdef SKIN_OFFSETS
     float size = length(sums.normal);
     vec3 outward = size > 0.0 ? sums.normal / size : vec3(0.0);
@@ -95,11 +63,7 @@ void main()
     vec3 turned = cross(sums.along, sums.across);
     float area = length(turned);
     normal = area > 1e-6 ? turned / area : vec3(0.0);  // zero: the triangle's own is taken
-#ifdef COLOR_BY
-    color = scaleColor(molecule);
-#else
-    color = instanceColor(moleculeSeed(molecule));
-#endif
+    color = instanceColor(molecule);
 #endif
     gl_Position = toClip * vec4(at, 1.0);
     if (!drawn) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside

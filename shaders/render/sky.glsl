@@ -43,3 +43,10 @@ vec3 ambientLight(vec3 normal)
     vec3 below = skyGround * (0.35 + 0.3 * max(sunDirection.y, 0.0) * sunColor);
     return mix(below, above, 0.5 + 0.5 * normal.y);
 }
+
+// Returns the radiance that a mirror reflects from a direction.
+vec3 mirroredInAir(vec3 direction, float roughness)
+{
+    return mix(ambientLight(vec3(0.0, -1.0, 0.0)), skyGradient(direction) + sunGlow(direction),
+               smoothstep(-0.05 - roughness, 0.05 + roughness, direction.y));
+}

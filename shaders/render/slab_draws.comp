@@ -10,24 +10,12 @@ uniform int slabCount, moleculeCount, corners, batch;
 
 layout(std430, binding = 0) writeonly buffer Draws { uint draws[]; };
 
-// The first place whose key is not below.
-int placeOf(uint key)
-{
-    int low = 0, high = moleculeCount;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (orderAt(middle).x < key) low = middle + 1;
-        else high = middle;
-    }
-    return low;
-}
-
 void main()
 {
     int s = int(gl_GlobalInvocationID.x);
     if (s >= slabCount) return;
     uvec2 bounds = texelFetch(slabs, ivec2(s, 0), 0).xy;
-    int first = placeOf(bounds.x), end = placeOf(bounds.y);
+    int first = placeOf(bounds.x, moleculeCount), end = placeOf(bounds.y, moleculeCount);
     draws[8 * s] = uint(corners);
     draws[8 * s + 1] = uint((end - first + batch - 1) / batch);
     for (int word = 2; word < 8; ++word) draws[8 * s + word] = word == 5 ? uint(first) : word == 6 ? uint(end) : 0u;

@@ -7,18 +7,6 @@ uniform int moleculeCount, slabCount;
 
 layout(location = 0) out uvec2 bounds;
 
-// How many are alive: the dead come last.
-int livingCount()
-{
-    int low = 0, high = moleculeCount;
-    while (low < high) {
-        int middle = (low + high) / 2;
-        if (orderAt(middle).x == 0xffffffffu) high = middle;
-        else low = middle + 1;
-    }
-    return max(low, 1);
-}
-
 uint firstKey(int slab, int count)
 {
     if (slab == 0) return 0u;
@@ -37,6 +25,6 @@ uint firstKey(int slab, int count)
 void main()
 {
     int s = int(gl_FragCoord.x);
-    int count = livingCount();
+    int count = max(placeOf(0xffffffffu, moleculeCount), 1);  // of the living: the dead come last
     bounds = uvec2(firstKey(s, count), firstKey(s + 1, count));
 }

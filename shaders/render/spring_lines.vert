@@ -1,5 +1,5 @@
-// A molecule's springs as lines, straight from the state, coloured by their strain. Variants: SCALED (instances differ
-// in size).
+// A molecule's springs as lines, straight from the state, coloured by their strain. Variant: CONSTANTS (instances
+// differ in size).
 
 #include "state/molecule.glsl"
 
@@ -10,25 +10,20 @@ uniform int firstMolecule;
 uniform float strainShown;  // at which a colour is full
 uniform vec2 halfWidth;     // of a line, in clip space
 
-#ifdef STATE_BUFFERS
-#ifdef SCALED
+#if !defined(TEXTURES) && defined(CONSTANTS)
 uniform samplerBuffer constants;  // x scale
 #endif
 
 float moleculeScale(int molecule)
 {
-#ifdef SCALED
+#ifdef TEXTURES
+    return texelFetch(constants, recordTexel(molecule), 0).y;
+#elif defined(CONSTANTS)
     return texelFetch(constants, molecule).x;
 #else
     return 1.0;
 #endif
 }
-#else
-float moleculeScale(int molecule)
-{
-    return texelFetch(constants, recordTexel(molecule), 0).y;
-}
-#endif
 
 out vec3 color;
 

@@ -1,5 +1,5 @@
 // Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
-// haze instead; GRID, a plane with lines every metre.
+// haze instead.
 
 #include "physics/noise.glsl"
 #include "render/light.glsl"
@@ -17,6 +17,7 @@ uniform float planeRadius;  // m, where the plane has faded away
 uniform vec3 planeAlong;    // two unit directions within the plane
 uniform vec3 planeAcross;
 uniform vec2 planeOffset;   // of the foot of the eye on the grid, m
+uniform bool grid;          // lines every metre
 #endif
 
 out vec4 fragment;
@@ -69,29 +70,23 @@ void main()
         hollow = clamp(1.0 + detail * 0.7 * mix(furrows, tufts * 0.5 + blades, level), 0.3, 1.0);
     }
     float faded = 0.0;
-#ifdef GRID
-    // Stronger every ten metres; one pixel soft at every distance.
-    vec2 grid = vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset;
-    vec2 width = max(fwidth(grid), vec2(1e-5));
-    vec2 toLine = abs(fract(grid - 0.5) - 0.5);
-    vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
-    vec2 toTenth = abs(fract(grid / 10.0 - 0.5) - 0.5) * 10.0;
-    vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
-    albedo *= 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
-#endif
 #ifdef PLANE
+    if (grid) {
+        // Stronger every ten metres; one pixel soft at every distance.
+        vec2 at = vec2(dot(place, planeAlong), dot(place, planeAcross)) + planeOffset;
+        vec2 width = max(fwidth(at), vec2(1e-5));
+        vec2 toLine = abs(fract(at - 0.5) - 0.5);
+        vec2 lines = clamp(1.0 - (toLine - 0.008) / width, 0.0, 1.0) * min(0.03 / width, vec2(1.0));
+        vec2 toTenth = abs(fract(at / 10.0 - 0.5) - 0.5) * 10.0;
+        vec2 tenths = clamp(1.0 - (toTenth - 0.02) / width, 0.0, 1.0) * min(0.08 / width, vec2(1.0));
+        albedo *= 1.0 - 0.18 * max(lines.x, lines.y) - 0.22 * max(tenths.x, tenths.y);
+    }
     faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
 #endif
 
-    Surface s;
-    s.place = place;
+    Surface s = surfaceOf(place, n, albedo, roughness);
     s.normal = along;
-    s.face = n;
-    s.albedo = albedo;
-    s.roughness = roughness;
-    s.translucency = 0.0;
-    s.throughColor = vec3(0.0);
-    s.openness = crownOpenness(place, n) * hollow;
+    s.openness *= hollow;
     vec3 radiance = withHaze(shade(s), place);
     fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), 1.0);
 }

@@ -19,18 +19,6 @@ layout(std430, binding = 0) writeonly buffer Bodies { vec4 bodies[]; };
 #include "generated/body.glsl"
 #include "physics/random.glsl"
 
-#ifdef LIFE
-bool livesAt(int first)
-{
-#ifdef LIFE_APART
-    vec4 life = texelFetch(oldState, first + (STATE_ELEMENTS - 1) * BLOCK);
-    return life.y > 0.0;
-#else
-    return texelFetch(oldState, first + (2 * POSITION_ELEMENTS - 1) * BLOCK).w > 0.0;
-#endif
-}
-#endif
-
 vec3 unit(vec3 v, vec3 otherwise)
 {
     float size = length(v);
@@ -60,7 +48,7 @@ void main()
     if (length(along) > 1e-9) spin = cross(forward, turning) / length(along);
     if (length(upward) > 1e-9) spin += forward * (dot(cross(upper, rolling), forward) / length(upward));
 #ifdef LIFE
-    label = livesAt(first) ? label : 0.0;
+    label = packedLife(oldState, first).y > 0.0 ? label : 0.0;
 #endif
     int at = 5 * (firstBody + molecule);
     bodies[at] = vec4((record.xyz - origin) + middle, label);

@@ -20,6 +20,7 @@ uniform vec4 others;     // separation radius, separation, alignment, cohesion
 uniform vec4 speeds;     // slowest, cruise, fastest, m/s; most acceleration, m/s^2
 uniform vec4 habits;     // tangent of the steepest course; most turn, rad/s; reaction, s; wander, m/s^2
 uniform vec4 muscles;    // most curvature, 1/m; speed at which they run at their own frequency; fins; keel, 1/s
+uniform bool hasBody;    // which bends; else a point
 uniform float blindCosine;
 uniform float drag;      // 1/s, along the body
 uniform vec4 depth;      // lowest and highest y from the origin, m; strength, 1/s^2
@@ -39,11 +40,7 @@ uniform vec2 walls;  // m, in which they are turned from; s, how far ahead
 
 float wallDistance(vec3 place)
 {
-#ifdef JOINT_CONTACT
-    return clearances(wallAnchor, place, 0.5 * duration).x;
-#else
-    return clearance(wallAnchor, place);
-#endif
+    return clearance(wallAnchor, place, 0.5 * duration);
 }
 
 // Away from the nearest surface, the more the nearer to it what is ahead is.
@@ -119,7 +116,6 @@ Others lookAround(vec3 place, vec3 forward, int slot)
     return sum;
 }
 
-#if TARGETS > 0
 // At most so many members of a row are looked at, evenly spread over it: each for as many as it stands for.
 const int mostOfRun = 48;
 
@@ -152,7 +148,6 @@ vec3 meetTargets(vec3 place)
     }
     return a;
 }
-#endif
 
 void main()
 {
@@ -169,10 +164,7 @@ void main()
     vec4 earlier = steering[at + 2];
     float speed = dot(velocity, forward);
 
-    vec3 urgent = vec3(0.0);
-#if TARGETS > 0
-    urgent += meetTargets(place.xyz);
-#endif
+    vec3 urgent = meetTargets(place.xyz);
     urgent += homeLow.w * (homeHigh.w > 0.0 ? backIntoBall(place.xyz, homeLow.xyz, homeHigh.w)
                                             : backInto(place.xyz, homeLow.xyz, homeHigh.xyz));
 #ifdef WALLS
@@ -213,17 +205,17 @@ void main()
 
     float curvature = 0.0;
     vec3 answer = vec3(0.0);
-#ifdef BODY
-    curvature = clamp(dot(turning, upper) / max(speed, 0.5 * speeds.y), -muscles.x, muscles.x);
-    // upright, and leaning into its turns
-    vec3 above = vec3(0.0, 1.0, 0.0) + (steered - forward * dot(steered, forward)) * 0.1;
-    above -= forward * dot(above, forward);
-    turning += forward * clamp(6.0 * atan(dot(cross(upper, above), forward), dot(upper, above)), -8.0, 8.0);
-    answer = (turning - spin) * min(20.0, 0.5 / duration);
-#else
-    // a point turns by being pushed aside
-    pushed += cross(turning, velocity);
-#endif
+    if (hasBody) {
+        curvature = clamp(dot(turning, upper) / max(speed, 0.5 * speeds.y), -muscles.x, muscles.x);
+        // upright, and leaning into its turns
+        vec3 above = vec3(0.0, 1.0, 0.0) + (steered - forward * dot(steered, forward)) * 0.1;
+        above -= forward * dot(above, forward);
+        turning += forward * clamp(6.0 * atan(dot(cross(upper, above), forward), dot(upper, above)), -8.0, 8.0);
+        answer = (turning - spin) * min(20.0, 0.5 / duration);
+    } else {
+        // a point turns by being pushed aside
+        pushed += cross(turning, velocity);
+    }
     float rate = muscles.y > 0.0 ? max(wantedSpeed, 0.3 * speeds.y) / muscles.y : 1.0;
     steering[at] = vec4(pushed, curvature);
     steering[at + 1] = vec4(answer, rate);

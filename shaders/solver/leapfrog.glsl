@@ -59,9 +59,6 @@ void advance(int step)
             // added at once: one rounding, so that contact can take a drift back exactly
             x[i] += ((slips != 0 ? v[i] : before) + v[i]) * halfStep;
         }
-#ifdef COMING_KICK
-        comingKick[i] = acceleration[i] * halfStep;
-#endif
     }
 }
 

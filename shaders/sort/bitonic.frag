@@ -1,4 +1,4 @@
-// A pass of bitonic sort with two pairs a texel (UberFlow, section 4.3.3; src/sort/network.h): the smaller key goes to
+// A pass of bitonic sort with two pairs a texel (UberFlow, section 4.3.3; src/sort/network_sort.h): the smaller key goes to
 // the smaller place.
 uniform usampler2D pairs;  // xy key and index of the even pair, zw of the odd one
 uniform int count;         // pairs past it stay

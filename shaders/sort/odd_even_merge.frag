@@ -1,4 +1,4 @@
-// A pass of odd-even merge sort, a pair a texel (Latta, figure 4; src/sort/network.h): the smaller key goes to the
+// A pass of odd-even merge sort, a pair a texel (Latta, figure 4; src/sort/network_sort.h): the smaller key goes to the
 // smaller place.
 uniform usampler2D pairs;  // x key, y index
 uniform int count;

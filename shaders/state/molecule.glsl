@@ -1,58 +1,13 @@
-// A molecule's vertex as the renderer sees it, fetched from the state of either path: textures
-// (src/simulate/texture_state.h) or, with STATE_BUFFERS, buffers (shaders/fused/state.glsl). Set by C++: STATE_WIDTH,
-// or BLOCK, POSITION_ELEMENTS and STATE_ELEMENTS; LIFE where molecules are born and die, LIFE_APART where that is a
-// 4-vector of its own.
+// A molecule's vertex as the renderer sees it, fetched from the state of either path: buffers (shaders/fused/state.glsl) or,
+// with TEXTURES, textures (src/simulate/texture_state.h). Set by C++: STATE_WIDTH, or the sizes of state/packed.glsl; LIFE
+// where molecules are born and die.
 
 // The origin of drawing (the eye, or the middle of the shadow map), as the lattice point below it and the rest.
 // Anchors lie on the same lattice, so their difference is exact and a molecule 100 km out does not shake.
 uniform vec3 originLattice;
 uniform vec3 originRest;
 
-#ifdef STATE_BUFFERS
-#include "state/packed.glsl"
-
-uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
-uniform samplerBuffer normals;  // alike
-uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
-
-vec3 moleculeAnchor(int molecule)
-{
-    return texelFetch(records, molecule).xyz;
-}
-
-vec3 vertexPosition(int molecule, int vertex)
-{
-    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), vertex);
-}
-
-vec3 vertexVelocity(int molecule, int vertex)
-{
-    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS) + POSITION_ELEMENTS * BLOCK, vertex);
-}
-
-#ifdef LIFE
-vec2 moleculeLife(int molecule)
-{
-    int first = firstElement(molecule, STATE_ELEMENTS);
-#ifdef LIFE_APART
-    return texelFetch(states, first + (STATE_ELEMENTS - 1) * BLOCK).xy;
-#else
-    return vec2(texelFetch(states, first + (POSITION_ELEMENTS - 1) * BLOCK).w,
-                texelFetch(states, first + (2 * POSITION_ELEMENTS - 1) * BLOCK).w);
-#endif
-}
-#endif
-
-vec3 vertexNormal(int molecule, int vertex)
-{
-    return packedVertex(normals, firstElement(molecule, POSITION_ELEMENTS), vertex);
-}
-
-uint moleculeSeed(int molecule)
-{
-    return uint(abs(texelFetch(records, molecule).w)) - 1u;
-}
-#else
+#ifdef TEXTURES
 uniform sampler2D positions;  // xyz relative to the anchor, m; w of a molecule's first vertex: age, s
 uniform sampler2D velocities; // xyz m/s; w of a molecule's first vertex: length of life, s
 uniform sampler2D normals;    // xyz unit, or zero before the first frame
@@ -85,13 +40,11 @@ vec3 vertexVelocity(int molecule, int vertex)
     return texelFetch(velocities, vertexTexel(molecule, vertex), 0).xyz;
 }
 
-#ifdef LIFE
-vec2 moleculeLife(int molecule)
+vec2 storedLife(int molecule)
 {
     ivec2 texel = vertexTexel(molecule, 0);
     return vec2(texelFetch(positions, texel, 0).w, texelFetch(velocities, texel, 0).w);
 }
-#endif
 
 vec3 vertexNormal(int molecule, int vertex)
 {
@@ -102,15 +55,53 @@ uint moleculeSeed(int molecule)
 {
     return uint(texelFetch(constants, recordTexel(molecule), 0).x);
 }
+#else
+#include "state/packed.glsl"
+
+uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
+uniform samplerBuffer normals;  // alike
+uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
+
+vec3 moleculeAnchor(int molecule)
+{
+    return texelFetch(records, molecule).xyz;
+}
+
+vec3 vertexPosition(int molecule, int vertex)
+{
+    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), vertex);
+}
+
+vec3 vertexVelocity(int molecule, int vertex)
+{
+    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS) + POSITION_ELEMENTS * BLOCK, vertex);
+}
+
+vec2 storedLife(int molecule)
+{
+    return packedLife(states, firstElement(molecule, STATE_ELEMENTS));
+}
+
+vec3 vertexNormal(int molecule, int vertex)
+{
+    return packedVertex(normals, firstElement(molecule, POSITION_ELEMENTS), vertex);
+}
+
+uint moleculeSeed(int molecule)
+{
+    return uint(abs(texelFetch(records, molecule).w)) - 1u;
+}
 #endif
 
-#ifndef LIFE
 // x age, y length of life, s: alive while age < life. Without LIFE always so.
 vec2 moleculeLife(int molecule)
 {
+#ifdef LIFE
+    return storedLife(molecule);
+#else
     return vec2(0.0, 1.0);
-}
 #endif
+}
 
 bool isAlive(int molecule)
 {

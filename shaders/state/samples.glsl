@@ -1,17 +1,17 @@
 // Sampled fields: grids and height fields share one table of 4-vectors, read by index.
-#ifdef SAMPLES_IN_BUFFER
-uniform samplerBuffer samples;
-
-vec4 sampleAt(int index)
-{
-    return texelFetch(samples, index);
-}
-#else
+#ifdef TEXTURES
 uniform sampler2D samples;
 
 vec4 sampleAt(int index)
 {
     return texelFetch(samples, ivec2(index & 1023, index >> 10), 0);
+}
+#else
+uniform samplerBuffer samples;
+
+vec4 sampleAt(int index)
+{
+    return texelFetch(samples, index);
 }
 #endif
 
@@ -65,7 +65,13 @@ vec3 gridSequenceVelocity(vec3 x, vec3 perMetre, ivec3 resolution, int base, boo
                gridVelocity(x, perMetre, resolution, base + next * cells, wrap), place - first);
 }
 
-// The place, in frames, `elapsed` s after frame `first`. Samples base .. base + frames - 1: from each frame to the next,
+// The place, in frames, `elapsed` s after frame `first` of a sequence of so many a second.
+float placeEvenly(float first, float elapsed, float framesPerSecond)
+{
+    return first + elapsed * framesPerSecond;
+}
+
+// The same of a sequence that is not even. Samples base .. base + frames - 1: from each frame to the next,
 // from the last to the first where the sequence repeats; period: then of all of it, else 0.
 float placeAmong(float first, float elapsed, int base, int frames, float period)
 {

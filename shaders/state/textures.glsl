@@ -1,16 +1,16 @@
 // Where a molecule's data lies in the state textures. The layout is stated in src/simulate/texture_state.h.
+#include "state/topology.glsl"
+
 uniform sampler2D positions;
 uniform sampler2D velocities;
 uniform sampler2D accelerations;
 uniform sampler2D records;
 uniform sampler2D constants;
-uniform sampler2D topology;
 uniform int firstRow;
 uniform int slabRows;
 uniform int moleculeCount;
 uniform int vertexCount;
 uniform int firstRecordRow;
-uniform int topologyBase;
 
 ivec2 stateTexel(int vertex, int molecule)
 {
@@ -20,11 +20,6 @@ ivec2 stateTexel(int vertex, int molecule)
 ivec2 recordTexel(int molecule)
 {
     return ivec2(molecule & 1023, firstRecordRow + (molecule >> 10));
-}
-
-vec4 table(int index)
-{
-    return texelFetch(topology, ivec2(index & 1023, index >> 10), 0);
 }
 
 // x vertex, y molecule of the texel that a state pass writes.

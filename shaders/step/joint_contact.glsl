@@ -1,5 +1,5 @@
-// Contact of a vertex with several colliders, thin ones or moving ones. Needs `survey`, and with SWEPT `clearances` and
-// `fastestSurface` of generated/colliders.glsl.
+// Contact of a vertex with several colliders, thin ones or moving ones. Needs `survey`, `clearances`, `materialOf`,
+// `fastestSurface` and `collidersMove` of generated/colliders.glsl.
 //
 // The way of the substep is taken as a straight line. Distances change no faster than the vertex and the surfaces move,
 // so that a step along the line by what is free (conservative advancement, [Mirtich 1996]) passes through nothing.
@@ -19,26 +19,13 @@ const float stillSquared = 1e-10;
 const int mostMarches = 48;   // steps along a way
 const int mostTouches = 6;    // of a substep; a vertex that touches more stops there
 
-// Returns restitution and friction. A negative x stands for a collider in the table: -1 - the uniform's
-// index.
-vec2 materialOf(Touch t)
-{
-#ifdef TABLED
-    if (t.material.x < 0.0) return materialAt(int(-0.5 - t.material.x));
-#endif
-    return t.material;
-}
-
 #ifdef SWEPT
 // Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
 // because this is asked of every vertex in every substep.
 float beyondReach(float free, vec3 velocity, float step)
 {
-#ifdef MOVING_COLLIDERS
-    float squared = 2.0 * (dot(velocity, velocity) + fastestSurface() * fastestSurface());
-#else
     float squared = dot(velocity, velocity);
-#endif
+    if (collidersMove) squared = 2.0 * (squared + fastestSurface() * fastestSurface());
     return free * abs(free) - squared * (step * step);
 }
 
@@ -102,6 +89,17 @@ Contact comesOut(vec3 anchor, Contact c, vec3 gravity, Drift drift, float time)
 }
 #endif
 
+// Negative where a vertex is inside a collider, or so near that it may have crossed one.
+float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
+{
+    vec2 free = clearances(anchor, position, time);
+#ifdef SWEPT
+    return min(free.x, beyondReach(free.y, velocity, step));
+#else
+    return free.x;
+#endif
+}
+
 // The next surface that the vertex touches on its way from `from` to c.position; none: its distance is not
 // negative.
 Touch nextTouch(vec3 anchor, Contact c, inout vec3 from, inout float begin, float end, inout ivec3 skip)
@@ -129,13 +127,13 @@ void keepToBoth(inout Contact c, vec3 a, vec3 b, vec2 off, vec2 speeds)
     c.velocity -= (a * (speeds.x - cosine * speeds.y) + b * (speeds.y - cosine * speeds.x)) / across;
 }
 
-#ifdef VERLET
-// Where contact is a constraint on the position: the velocity is what that leaves.
+// With verlet contact is a constraint on the position: the velocity is what that leaves.
 void followPosition(inout Contact c, vec3 position, vec3 velocity, float step)
 {
+#ifdef VERLET
     c.velocity = velocity + (c.position - position) / step;
-}
 #endif
+}
 
 // Whether neither surface alone takes the velocity out of the other.
 bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
@@ -173,9 +171,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
             // the third that presses, or the last of many
             bool fits = dot(position, before.normal) - beforeOff > -touching;
             c = Contact(crease && fits ? position - (velocity - t.velocity) * drift.kickDrift : from, t.velocity);
-#ifdef VERLET
             if (!(crease && fits)) followPosition(c, position, velocity, drift.step);
-#endif
             break;
         }
         float off = dot(c.position, t.normal) - t.distance;
@@ -200,9 +196,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                      bothPress(velocity - before.velocity, velocity - t.velocity, before.normal, t.normal);
             if (crease) {
                 keepToBoth(r, before.normal, t.normal, offs, speeds);
-#ifdef VERLET
                 followPosition(r, position, velocity, drift.step);
-#endif
                 // at rest in it: back to where the substep began, exactly, or roundings would add up
                 vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
@@ -212,9 +206,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                 }
             } else if (offs.x < -touching) {
                 keepToBoth(r, before.normal, t.normal, vec2(offs.x, 0.0), vec2(min(speeds.x, 0.0), 0.0));
-#ifdef VERLET
                 followPosition(r, position, velocity, drift.step);
-#endif
             }
         }
         c = r;

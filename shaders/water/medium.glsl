@@ -9,6 +9,11 @@ uniform sampler2D caustics;     // one tile, 1: as under a calm surface
 uniform vec4 causticsAt;        // x strength, y tiles a metre, zw the eye's place in tiles
 uniform float causticsDepth;    // m, at which the net is sharp
 
+bool isHazy()
+{
+    return true;
+}
+
 float depthOf(vec3 place)
 {
     return eyeDepth - place.y;
@@ -66,9 +71,7 @@ vec3 ambientAt(vec3 place, vec3 normal)
 vec3 mirroredFrom(vec3 place, vec3 direction, float roughness)
 {
     float depth = depthOf(place);
-    if (depth <= 0.0)
-        return mix(ambientLight(vec3(0.0, -1.0, 0.0)), skyGradient(direction) + sunGlow(direction),
-                   smoothstep(-0.05 - roughness, 0.05 + roughness, direction.y));
+    if (depth <= 0.0) return mirroredInAir(direction, roughness);
     vec3 water = scatteredFrom(depth, vec3(direction.x, min(direction.y, 0.6), direction.z), 1e4);
     vec3 window = (skyGradient(vec3(0.0, 1.0, 0.0)) + 0.35 * sunColor) * exp(-waterExtinction * (depth / max(direction.y, 0.3)));
     return water + window * smoothstep(0.66 - 0.3 * roughness, 0.66 + 0.5 * roughness, direction.y);

@@ -1,20 +1,17 @@
 // `shoal bench`: speed against what the hardware allows, and the error that it buys.
 #include <algorithm>
-#include <chrono>
 #include <iostream>
 #include <memory>
 #include <numeric>
-#include <thread>
 
-#include "app/bench_draw.h"
-#include "app/bench_plot.h"
-#include "app/bench_report.h"
+#include "app/bench.h"
 #include "app/bullet_baseline.h"
 #include "app/commands.h"
-#include "app/machine.h"
+#include "app/plot.h"
 #include "core/cache_folder.h"
 #include "core/printable.h"
-#include "measure/pin_threads.h"
+#include "measure/timing.h"
+#include "render/renderer.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
 
@@ -24,11 +21,9 @@ using namespace bench;
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using measure::Clock, measure::secondsSince;
 
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+constexpr int pictureWidth = 640, pictureHeight = 360;
 
 class BulletRunner : public BenchRunner {
   public:
@@ -112,10 +107,8 @@ class WholeRun {
 
 BenchReport describe(const Options& options, const gpu::Context& context) {
     BenchReport out;
-    out.processor = processorName();
-    out.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    out.pinned = measure::pinRasteriserThreads();
-    out.context = context.info();
+    out.machine = measuredOn(context);
+    out.machine.pinned = measure::pinRasteriserThreads();
     out.quick = options.quick;
     out.whole = options.only.empty();
     out.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 12);
@@ -170,6 +163,18 @@ void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const Ben
 
 }  // namespace
 
+DrawMaker drawMaker(gpu::Context& context) {
+    return [&context](const Scene& scene, const Plan& plan) -> Draw {
+        RenderOptions options;
+        options.width = pictureWidth;
+        options.height = pictureHeight;
+        const auto renderer = std::make_shared<Renderer>(context, shaderRoot(), scene, plan, options);
+        return [renderer, view = View::of(scene.camera)](const StateView& state) {
+            renderer->draw(state, view);
+        };
+    };
+}
+
 int benchCommand(const Options& options) {
     if (options.benchOf == "sort") return benchSortCommand(options);
     if (options.benchOf == "collide") return benchCollideCommand(options);
@@ -177,11 +182,8 @@ int benchCommand(const Options& options) {
     if (options.benchOf == "school") return benchSchoolCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
-    gpu::ContextOptions contextOptions;
-    contextOptions.kind = options.context;
-    contextOptions.visible = false;
     const Clock::time_point start = Clock::now();
-    gpu::Context context(contextOptions);
+    gpu::Context context(hiddenContext(options));
     const double contextSeconds = secondsSince(start);
     BenchReport report = describe(options, context);
     report.contextSeconds = contextSeconds;
@@ -190,17 +192,15 @@ int benchCommand(const Options& options) {
                   << context.info().version << ": its cases are left out\n";
 
     gpu::ProgramCache cache(context, cacheFolder());
-    BenchDevice device{&context, shaderRoot(), &cache, {}, report.cores, {}};
-    device.makeDraw = drawMaker(context);
+    BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     if (bulletAvailable())
         device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
             return std::make_unique<BulletRunner>(one, molecule);
         };
     measureAll(wanted, molecules, device, report);
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     if (!options.plot.empty())
-        plot(options.plot, report.processor + ", " + context.info().renderer, report.results);
+        plotBench(options.plot, report.machine.processor + ", " + context.info().renderer, report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
     return 0;

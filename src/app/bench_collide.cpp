@@ -2,14 +2,11 @@
 // each search finds.
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
-#include "app/bench_collide_report.h"
-#include "app/bench_draw.h"
+#include "app/bench.h"
 #include "app/commands.h"
-#include "app/machine.h"
 #include "core/cache_folder.h"
-#include "measure/pin_threads.h"
+#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
@@ -84,10 +81,7 @@ void measureAll(const Wanted& wanted, const Options& options, const BenchDevice&
 
 int benchCollideCommand(const Options& options) {
     const Wanted wanted = wantedOf(options.only);
-    gpu::ContextOptions contextOptions;
-    contextOptions.kind = options.context;
-    contextOptions.visible = false;
-    gpu::Context context(contextOptions);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     CollideReport report;
     report.machine = measuredOn(context);
@@ -95,8 +89,7 @@ int benchCollideCommand(const Options& options) {
     const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
     measureAll(wanted, options, device, report);
     report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

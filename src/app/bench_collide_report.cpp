@@ -1,29 +1,10 @@
-#include "app/bench_collide_report.h"
-
-#include <cstdarg>
-#include <cstdio>
+#include "app/bench.h"
 
 namespace shoal::app {
 
 using namespace bench;
 
 namespace {
-
-__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...) {
-    char text[256];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    return text;
-}
-
-// Ratios of the shortest times.
-struct Verdict {
-    std::string what;
-    double atMost = 0;
-    std::optional<double> measured;
-};
 
 const ContactTimes* find(const CollideReport& report, int quads) {
     for (const ContactTimes& times : report.contact)
@@ -32,11 +13,12 @@ const ContactTimes* find(const CollideReport& report, int quads) {
     return nullptr;
 }
 
-std::vector<Verdict> verdicts(const CollideReport& report) {
+// Ratios of the shortest times.
+std::vector<Target> targets(const CollideReport& report) {
     const ContactTimes *small = find(report, 16384), *large = find(report, 131072);
-    std::vector<Verdict> out = {
-        {"contact of 16,384 quads of moderate density, over the baseline", 2, {}},
-        {"contact of 131,072 quads over 16,384, a quad", 1.3, {}},
+    std::vector<Target> out = {
+        {"contact of 16,384 quads of moderate density, over the baseline", 2},
+        {"contact of 131,072 quads over 16,384, a quad", 1.3},
     };
     if (small) out[0].measured = small->ratio();
     if (small && large) out[1].measured = large->perQuad() / small->perQuad();
@@ -216,34 +198,21 @@ std::string asText(const CollideReport& report) {
     out += "\n" + contactText(report.contact) + uberFlowText(report.uberFlow);
     if (report.searches) out += searchText(*report.searches);
     if (report.contact.empty()) return out;
-    out += "\n";
-    for (const Verdict& verdict : verdicts(report))
-        out += verdict.what + ": " +
-               (verdict.measured ? print("%.2f (wanted: at most %g)\n", *verdict.measured, verdict.atMost)
-                                 : std::string("not measured\n"));
-    return out;
+    return out + "\n" + asText(targets(report), "%.2f");
 }
 
 JsonValue asJson(const CollideReport& report) {
-    JsonValue contact = JsonValue::makeArray(), uberFlow = JsonValue::makeArray(),
-              targets = JsonValue::makeArray();
+    JsonValue contact = JsonValue::makeArray(), uberFlow = JsonValue::makeArray();
     for (const ContactTimes& times : report.contact)
         contact.items.push_back(asJson(times));
     for (const UberFlowTimes& times : report.uberFlow)
         uberFlow.items.push_back(asJson(times));
-    for (const Verdict& verdict : verdicts(report)) {
-        JsonValue one = JsonValue::makeObject();
-        one.add("target", JsonValue::makeString(verdict.what))
-            .add("atMost", number(verdict.atMost))
-            .add("measured", verdict.measured ? number(*verdict.measured) : JsonValue());
-        targets.items.push_back(std::move(one));
-    }
     JsonValue out = headOf(report.machine);
     return out.add("secondsAGroup", number(report.secondsAGroup))
         .add("contact", std::move(contact))
         .add("uberFlow", std::move(uberFlow))
         .add("searches", report.searches ? asJson(*report.searches) : JsonValue())
-        .add("targets", std::move(targets));
+        .add("targets", app::asJson(targets(report)));
 }
 
 }  // namespace shoal::app

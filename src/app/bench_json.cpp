@@ -1,4 +1,4 @@
-#include "app/bench_report.h"
+#include "app/bench.h"
 #include "app/report.h"
 
 namespace shoal::app {
@@ -53,11 +53,15 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
     return out;
 }
 
-JsonValue asJson(const Target& target) {
+JsonValue wantedAndMeasured(const Target& target) {
     JsonValue out = JsonValue::makeObject();
-    out.add("target", JsonValue::makeString(target.what))
+    return out.add("target", JsonValue::makeString(target.what))
         .add(target.atLeast ? "atLeast" : "atMost", JsonValue::makeNumber(target.limit))
         .add("measured", orNull(target.measured));
+}
+
+JsonValue asJson(const Target& target) {
+    JsonValue out = wantedAndMeasured(target);
     if (target.ofMedians) out.add("ofMedians", JsonValue::makeNumber(*target.ofMedians));
     if (target.measured) out.add("holds", JsonValue::makeBoolean(target.holds()));
     return out;
@@ -111,16 +115,18 @@ JsonValue arrayOf(const Items& items) {
 
 }  // namespace
 
+JsonValue asJson(const std::vector<Target>& targets) {
+    JsonValue out = JsonValue::makeArray();
+    for (const Target& target : targets)
+        out.items.push_back(wantedAndMeasured(target));
+    return out;
+}
+
 JsonValue asJson(const BenchReport& report) {
     JsonValue machine = JsonValue::makeObject();
-    machine.add("processor", JsonValue::makeString(report.processor))
-        .add("cores", JsonValue::makeNumber(report.cores))
-        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.pinned));
-    JsonValue context = JsonValue::makeObject();
-    context.add("kind", JsonValue::makeString(gpu::name(report.context.kind)))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("version", JsonValue::makeString(report.context.version))
-        .add("software", JsonValue::makeBoolean(report.context.software));
+    machine.add("processor", JsonValue::makeString(report.machine.processor))
+        .add("cores", JsonValue::makeNumber(report.machine.cores))
+        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.machine.pinned));
     JsonValue cases = JsonValue::makeArray();
     for (const BenchResult& result : report.results)
         cases.items.push_back(asJson(result, report.results));
@@ -133,7 +139,7 @@ JsonValue asJson(const BenchReport& report) {
     JsonValue out = JsonValue::makeObject();
     out.add("version", JsonValue::makeString(SHOAL_VERSION))
         .add("machine", std::move(machine))
-        .add("context", std::move(context))
+        .add("context", asJson(report.machine.context))
         .add("quick", JsonValue::makeBoolean(report.quick))
         .add("pictureSize", JsonValue::makeString(concat(report.width, "x", report.height)))
         .add("secondsAGroup", JsonValue::makeNumber(report.secondsAGroup))
@@ -143,7 +149,7 @@ JsonValue asJson(const BenchReport& report) {
         .add("startUp", std::move(start))
         .add("passTimes", arrayOf(report.passes))
         .add("disturbedCases", JsonValue::makeNumber(disturbed(report.results)))
-        .add("targets", arrayOf(targets(report.results, report.context.software)));
+        .add("targets", arrayOf(targets(report.results, report.machine.context.software)));
     return out;
 }
 

@@ -1,14 +1,11 @@
 // `shoal bench particles`: point particles beside a loop on the CPU, a quad's share and the papers.
 #include <algorithm>
 #include <iostream>
-#include <thread>
 
-#include "app/bench_draw.h"
-#include "app/bench_particles_report.h"
+#include "app/bench.h"
 #include "app/commands.h"
-#include "app/machine.h"
 #include "core/cache_folder.h"
-#include "measure/pin_threads.h"
+#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
@@ -45,10 +42,7 @@ int benchParticlesCommand(const Options& options) {
     const std::vector<std::vector<ParticleCase>> groups = byGroup(wantedOf(options));
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
-    gpu::ContextOptions contextOptions;
-    contextOptions.kind = options.context;
-    contextOptions.visible = false;
-    gpu::Context context(contextOptions);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     ParticleReport report;
     report.machine = measuredOn(context);
@@ -65,8 +59,7 @@ int benchParticlesCommand(const Options& options) {
         bar.step();
     }
     report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

@@ -1,8 +1,6 @@
-#include "app/bench_particles_report.h"
+#include "app/bench.h"
 
 #include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <optional>
 
 namespace shoal::app {
@@ -12,15 +10,6 @@ using namespace bench;
 namespace {
 
 using What = ParticleCase::What;
-
-__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...) {
-    char text[256];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    return text;
-}
 
 using Times = std::vector<ParticleTimes>;
 
@@ -32,14 +21,6 @@ const ParticleTimes* find(const Times& times, Which which) {
     return found == times.end() ? nullptr : &*found;
 }
 
-// Ratios and rates of the shortest times.
-struct Verdict {
-    std::string what;
-    double limit = 0;
-    bool atLeast = false;
-    std::optional<double> measured;
-};
-
 int largestSide(const Times& times) {
     int out = 0;
     for (const ParticleTimes& t : times)
@@ -47,7 +28,7 @@ int largestSide(const Times& times) {
     return out;
 }
 
-void addShares(const Times& times, std::vector<Verdict>& out) {
+void addShares(const Times& times, std::vector<Target>& out) {
     for (const ParticleTimes& quads : times) {
         if (!quads.one.quads || !quads.leftOut.empty()) continue;
         const ParticleTimes* points =
@@ -58,7 +39,7 @@ void addShares(const Times& times, std::vector<Verdict>& out) {
     }
 }
 
-void addBirths(const Times& times, std::vector<Verdict>& out) {
+void addBirths(const Times& times, std::vector<Target>& out) {
     for (const ParticleTimes& t : times) {
         if (!t.one.allocator || !t.leftOut.empty()) continue;
         if (*t.one.allocator == Allocator::heap)
@@ -69,8 +50,9 @@ void addBirths(const Times& times, std::vector<Verdict>& out) {
     }
 }
 
-std::vector<Verdict> verdicts(const ParticleReport& report) {
-    std::vector<Verdict> out;
+// Ratios and rates of the shortest times.
+std::vector<Target> targets(const ParticleReport& report) {
+    std::vector<Target> out;
     addShares(report.times, out);
     const int side = largestSide(report.times);
     const auto step = find(report.times, [&](const ParticleCase& one) {
@@ -194,17 +176,11 @@ constexpr const char* papers =
 std::string asText(const ParticleReport& report) {
     std::string out = asText(report.machine);
     out += "\n" + timesText(report.times) + birthsText(report.times) + "\n" + papers + "\n";
-    for (const Verdict& verdict : verdicts(report))
-        out += verdict.what + ": " +
-               (verdict.measured ? print("%.4g (wanted: at %s %g)\n", *verdict.measured,
-                                         verdict.atLeast ? "least" : "most", verdict.limit)
-                                 : std::string("not measured\n"));
-    return out;
+    return out + asText(targets(report), "%.4g");
 }
 
 JsonValue asJson(const ParticleReport& report) {
-    JsonValue cases = JsonValue::makeArray(), costs = JsonValue::makeArray(),
-              targets = JsonValue::makeArray();
+    JsonValue cases = JsonValue::makeArray(), costs = JsonValue::makeArray();
     for (const ParticleTimes& times : report.times)
         cases.items.push_back(asJson(times));
     for (const BirthCost& cost : birthCosts(report.times))
@@ -212,18 +188,11 @@ JsonValue asJson(const ParticleReport& report) {
                                   .add("case", JsonValue::makeString(cost.how))
                                   .add("side", number(cost.side))
                                   .add("nanoseconds", number(cost.nanoseconds)));
-    for (const Verdict& verdict : verdicts(report)) {
-        JsonValue one = JsonValue::makeObject();
-        one.add("target", JsonValue::makeString(verdict.what))
-            .add(verdict.atLeast ? "atLeast" : "atMost", number(verdict.limit))
-            .add("measured", verdict.measured ? number(*verdict.measured) : JsonValue());
-        targets.items.push_back(std::move(one));
-    }
     JsonValue out = headOf(report.machine);
     return out.add("secondsAGroup", number(report.secondsAGroup))
         .add("cases", std::move(cases))
         .add("birthCosts", std::move(costs))
-        .add("targets", std::move(targets));
+        .add("targets", app::asJson(targets(report)));
 }
 
 }  // namespace shoal::app

@@ -1,6 +1,7 @@
-#include "app/bench_report.h"
+#include "app/bench.h"
 
 #include <algorithm>
+#include <cstdarg>
 #include <cstdio>
 #include <iomanip>
 #include <sstream>
@@ -8,6 +9,15 @@
 namespace shoal::app {
 
 using namespace bench;
+
+std::string print(const char* format, ...) {
+    char text[256];
+    va_list values;
+    va_start(values, format);
+    std::vsnprintf(text, sizeof text, format, values);
+    va_end(values);
+    return text;
+}
 
 namespace {
 
@@ -166,11 +176,20 @@ void addPasses(std::ostringstream& out, const std::vector<PassTable>& tables) {
 
 }  // namespace
 
+std::string asText(const std::vector<Target>& targets, const char* format) {
+    std::string out;
+    for (const Target& target : targets)
+        out += concat(target.what, ": ", target.measured ? print(format, *target.measured) : "not measured",
+                      target.measured
+                          ? print(" (wanted: at %s %g)", target.atLeast ? "least" : "most", target.limit)
+                          : "",
+                      "\n");
+    return out;
+}
+
 std::string asText(const BenchReport& report) {
     std::ostringstream out;
-    out << report.processor << ", " << report.cores << " cores\n"
-        << report.context.renderer << " (" << gpu::name(report.context.kind) << "), OpenGL "
-        << report.context.version << "\n"
+    out << twoLines(report.machine) << "\n"
         << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
         << " x " << report.height << ".\n"
         << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
@@ -183,7 +202,7 @@ std::string asText(const BenchReport& report) {
     addErrors(out, report);
     addStarts(out, report);
     addPasses(out, report.passes);
-    addVerdicts(out, targets(report.results, report.context.software), report.whole);
+    addVerdicts(out, targets(report.results, report.machine.context.software), report.whole);
     if (const int count = disturbed(report.results))
         out << "\nIn " << count << " of " << report.results.size()
             << " cases the median is more than 1.3 times the shortest: something else was running. Measure "

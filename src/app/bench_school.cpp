@@ -5,12 +5,13 @@
 
 #include "app/commands.h"
 #include "app/machine.h"
-#include "bench/school.h"
+#include "bench/bench.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "measure/pin_threads.h"
+#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 
@@ -58,18 +59,14 @@ JsonValue asJson(const MeasuredOn& machine, const std::vector<SchoolTimes>& all)
 
 int benchSchoolCommand(const Options& options) {
     const Molecule fry = readMolecule(moleculeFolder() + "/fry.json");
-    gpu::ContextOptions contextOptions;
-    contextOptions.kind = options.context;
-    contextOptions.visible = false;
-    gpu::Context context(contextOptions);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     MeasuredOn machine = measuredOn(context);
     const BenchDevice device{&context, shaderRoot(), &cache, {}, machine.cores, {}};
     const double seconds = options.seconds.value_or(options.quick ? 1 : 20);
     const std::vector<SchoolTimes> times = measureSchools(schoolCases(options.quick), fry, device, seconds);
     machine.pinned = measure::pinRasteriserThreads();
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     std::cout << (options.json ? writeJson(asJson(machine, times)) : asText(machine, times));
     return 0;
 }

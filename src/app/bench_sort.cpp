@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
-#include <thread>
 
+#include "app/bench.h"
 #include "app/commands.h"
-#include "app/machine.h"
 #include "bench/sort.h"
 #include "core/cache_folder.h"
 #include "core/json.h"
-#include "measure/pin_threads.h"
+#include "measure/timing.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
 
@@ -26,13 +25,7 @@ struct Report {
 };
 
 // Ratios of the shortest times of one size, the largest of this run.
-struct Verdict {
-    std::string what;
-    double limit = 0;
-    std::optional<double> measured;
-};
-
-std::vector<Verdict> verdicts(const Report& report) {
+std::vector<Target> targets(const Report& report) {
     const SortTable& table = report.tables.back();
     const SortTime* radix = table.find(SortMethod::radix);
     const SortTime* bitonic = table.find(SortMethod::bitonic);
@@ -41,11 +34,11 @@ std::vector<Verdict> verdicts(const Report& report) {
         return slow->seconds.min / radix->seconds.min;
     };
     const std::string at = concat(" at ", table.side, " x ", table.side);
-    std::vector<Verdict> out = {{"radix, times as fast as bitonic" + at, 10, over(bitonic)},
-                                {"radix, times as fast as std::sort" + at, 1, over(&table.stdSort())}};
+    std::vector<Target> out = {{"radix, times as fast as bitonic" + at, 10, true, over(bitonic)},
+                               {"radix, times as fast as std::sort" + at, 1, true, over(&table.stdSort())}};
     if (!report.machine.context.software && radix)
         out.push_back(
-            {"radix, share of the copy bandwidth in each pass" + at, 0.25, table.shareOfCopy(*radix)});
+            {"radix, share of the copy bandwidth in each pass" + at, 0.25, true, table.shareOfCopy(*radix)});
     return out;
 }
 
@@ -108,15 +101,7 @@ void print(const Report& report) {
     std::cout << "\n\n";
     printRates(report);
     printTimes(report);
-    std::cout << "\n";
-    for (const Verdict& verdict : verdicts(report)) {
-        std::cout << verdict.what << ": ";
-        if (verdict.measured)
-            std::cout << cell("%.2f", *verdict.measured) << " (wanted: at least " << cell("%g", verdict.limit)
-                      << ")\n";
-        else
-            std::cout << "not measured\n";
-    }
+    std::cout << "\n" << asText(targets(report), "%.2f");
 }
 
 JsonValue asJson(const SortTable& table, const SortTime& time) {
@@ -135,8 +120,7 @@ JsonValue asJson(const SortTable& table, const SortTime& time) {
 }
 
 JsonValue asJson(const Report& report) {
-    JsonValue cases = JsonValue::makeArray(), published = JsonValue::makeArray(),
-              targets = JsonValue::makeArray();
+    JsonValue cases = JsonValue::makeArray(), published = JsonValue::makeArray();
     for (const SortTable& table : report.tables)
         for (const SortTime& time : table.times)
             cases.items.push_back(asJson(table, time));
@@ -148,27 +132,17 @@ JsonValue asJson(const Report& report) {
                                       .add("where", JsonValue::makeString(row.where))
                                       .add("millionItemsPerSecond", std::move(rates)));
     }
-    for (const Verdict& verdict : verdicts(report)) {
-        JsonValue one = JsonValue::makeObject();
-        one.add("target", JsonValue::makeString(verdict.what))
-            .add("atLeast", JsonValue::makeNumber(verdict.limit))
-            .add("measured", verdict.measured ? JsonValue::makeNumber(*verdict.measured) : JsonValue());
-        targets.items.push_back(std::move(one));
-    }
     JsonValue out = headOf(report.machine);
     return out.add("secondsASize", JsonValue::makeNumber(report.secondsASize))
         .add("cases", std::move(cases))
         .add("published", std::move(published))
-        .add("targets", std::move(targets));
+        .add("targets", app::asJson(targets(report)));
 }
 
 }  // namespace
 
 int benchSortCommand(const Options& options) {
-    gpu::ContextOptions contextOptions;
-    contextOptions.kind = options.context;
-    contextOptions.visible = false;
-    gpu::Context context(contextOptions);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     Report report;
     report.machine = measuredOn(context);
@@ -184,8 +158,7 @@ int benchSortCommand(const Options& options) {
         report.tables.push_back(measureSorts(side, {&context, shaderRoot(), &cache}, schedule));
         progress.step();
     }
-    for (const Warning& warning : cache.takeWarnings())
-        std::cerr << "shoal: warning: " << text(warning) << "\n";
+    tellWarnings(cache.takeWarnings());
     if (options.json)
         std::cout << writeJson(asJson(report));
     else

@@ -1,6 +1,7 @@
-// CLI11, whose warnings are not ours.
+// How the command line is declared and read: CLI11, and what the sources of the options share.
 #pragma once
 
+// The warnings of CLI11 are not ours.
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -12,7 +13,10 @@
 #endif
 
 #include <charconv>
+#include <memory>
+#include <string>
 
+#include "app/options.h"
 #include "core/error.h"
 
 namespace shoal::app {
@@ -43,5 +47,65 @@ inline void excludes(CLI::App& command, const char* option, std::initializer_lis
     for (const char* other : others)
         command.get_option(option)->excludes(command.get_option(other));
 }
+
+// Options whose words are read when all are there.
+struct Texts {
+    std::string context = "auto", size = "1280x720", path = "auto", lanes = "auto", solver, slice,
+                exportCells = "surface";
+    std::vector<std::string> solvers, samplings;
+};
+
+// Titles in a command's help, of what is declared from here on.
+inline const char* const ofScene = "In place of what the scene says";
+inline const char* const execution = "How it runs";
+inline const char* const reports = "What is reported";
+inline void section(CLI::App& command, const char* title) {
+    command.option_defaults()->group(title);
+}
+
+inline CLI::Validator wholeNumber() {
+    return kindOf(isAll<int>, "a whole number");
+}
+
+void addPath(CLI::App& command, Options& options, Texts& texts);
+void addContext(CLI::App& command, Options& options, Texts& texts);
+void addCountAndSeed(CLI::App& command, Options& options);
+void addMeasure(CLI::App& command, Options& options, Texts& texts);
+void addBench(CLI::App& command, Options& options, Texts& texts);
+
+// Error: unknown; `option` is what it was given to. Nothing: auto.
+std::optional<SolverKind> solverNamed(const char* option, const std::string& word);
+
+// Reads and checks the options of `measure` and `bench`. Error: unknown words, or out of range.
+void finishMeasure(const Texts& texts, Options& options);
+
+// `slice` and `size`: where their texts go.
+void addField(CLI::App& command, Options& options, std::string& slice, std::string& size);
+// Reads the slice. Error: out of range, or what excludes itself.
+void checkField(Options& options, const std::string& slice);
+
+// Adds `molecule` with its commands. A further one is a function in options_molecule.cpp that adds its
+// options, a word of Options::Command, and a row there.
+void addMolecule(CLI::App& app, Options& options);
+
+// Once the command line is parsed: which command of `molecule` it is, if any, and its values. Error: out of
+// range, or not what is expected.
+void finishMolecule(const CLI::App& app, Options& options);
+
+// ---- Documents
+// The command's documentation, made from the declarations of its options: --help, and the files that are
+// installed with it.
+
+// Formats --help: an option's type follows its name, its default follows its description.
+std::shared_ptr<CLI::FormatterBase> helpFormat();
+
+// In the language of man (section 1).
+std::string manPage(const CLI::App& app);
+
+// In Markdown: a section a command with a table of its options (docs/command.md).
+std::string markdown(const CLI::App& app);
+
+// For bash: commands, options, the words that an option takes, scenes by their names, and files.
+std::string bashCompletion(const CLI::App& app);
 
 }  // namespace shoal::app

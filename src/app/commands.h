@@ -23,8 +23,11 @@ int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mes
 int moleculeShowCommand(const Options& options);      // shoal molecule show
 
 // With --sandbox: from now on only what lies in the folder of `file`, in the shipped data, in the cache and
-// in what other options name is opened (core/sandbox.h).
+// in what other options name is opened (core/file.h).
 void keepToSandbox(const Options& options, const std::string& file);
+
+// For a context of the kind that --context asks for, with nothing to see.
+gpu::ContextOptions hiddenContext(const Options& options);
 
 // The scene that a command is about, with its plan, unless --error has to find first what to compile
 // (measure.h).

@@ -1,4 +1,4 @@
-#include "app/documents.h"
+#include "app/cli.h"
 
 #include <algorithm>
 

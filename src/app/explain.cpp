@@ -3,7 +3,6 @@
 #include "app/commands.h"
 #include "app/measure.h"
 #include "core/json.h"
-#include "measure/calibration_store.h"
 #include "run/data_paths.h"
 #include "simulate/fused_kernel.h"
 
@@ -15,10 +14,7 @@ int explainCommand(const Options& options) {
     Loaded loaded = load(options);
     std::optional<measure::Calibration> found;
     if (options.error) {
-        gpu::ContextOptions wanted;
-        wanted.kind = options.context;
-        wanted.visible = false;
-        gpu::Context context(wanted);
+        gpu::Context context(hiddenContext(options));
         found = calibrated(options, context, loaded);
     }
     const PathLimits limits;

@@ -1,4 +1,4 @@
-#include "app/export_vtp.h"
+#include "app/export.h"
 
 #include <algorithm>
 #include <bit>

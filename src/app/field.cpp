@@ -1,18 +1,178 @@
 // `shoal field`: bakes the distance fields of a scene, or of a model, and reports them.
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
+#include "app/canvas.h"
 #include "app/commands.h"
-#include "app/field_slice.h"
 #include "core/file.h"
 #include "core/json.h"
 #include "core/printable.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "run/progress.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {
 
 namespace {
+
+// ---- A slice through a distance field as a picture
+
+struct SlicePlane {
+    int axis = 2;         // across: 0 x, 1 y, 2 z
+    double position = 0;  // m
+};
+
+struct SlicePicture {
+    Image image;
+    double contours = 0;  // m, between two lines
+};
+
+constexpr int legendHeight = 44, border = 12;
+
+// 1, 2 or 5 times a power of ten.
+double niceStep(double about) {
+    const double power = std::pow(10, std::floor(std::log10(about))), lead = about / power;
+    return power * (lead < 1.5 ? 1 : lead < 3.5 ? 2 : lead < 7.5 ? 5 : 10);
+}
+
+// Draws at most width x height pixels: outside in ochre, inside in blue, deeper with the distance; a contour
+// every `contours` m, the zero line black, and in white where the plane cuts the model itself. Below, a scale
+// in m. y goes up, else z down.
+class SliceCanvas {
+  public:
+    SliceCanvas(const DistanceField& field, const SlicePlane& plane, int width, int height)
+        : field_(field), plane_(plane), across_(plane.axis == 0 ? 2 : 0), up_(plane.axis == 1 ? 2 : 1) {
+        const glm::dvec3 extent = field.grid.high() - field.grid.low;
+        const double wide = std::max(1, width - 2 * border),
+                     high = std::max(1, height - legendHeight - border);
+        pixel_ = std::max(extent[across_] / wide, extent[up_] / high);
+        columns_ = std::max(1, int(extent[across_] / pixel_));
+        rows_ = std::max(1, int(extent[up_] / pixel_));
+        picture_.image = {std::max(columns_ + 2 * border, 320), rows_ + border + legendHeight, 4, {}};
+        picture_.image.pixels.assign(size_t(picture_.image.width) * size_t(picture_.image.height) * 4, 250);
+        for (size_t alpha = 3; alpha < picture_.image.pixels.size(); alpha += 4)
+            picture_.image.pixels[alpha] = 255;
+        left_ = (picture_.image.width - columns_) / 2;
+        findRange();
+    }
+
+    SlicePicture draw(const Mesh& mesh) {
+        for (int y = 0; y < rows_; ++y)
+            for (int x = 0; x < columns_; ++x)
+                set(left_ + x, border + y, shade(x, y));
+        Canvas lines(picture_.image, {left_, border}, {columns_, rows_});
+        for (const glm::ivec3& t : mesh.triangles)
+            drawCut(lines, mesh, t);
+        drawLegend();
+        return std::move(picture_);
+    }
+
+  private:
+    glm::dvec3 place(double x, double y) const {
+        glm::dvec3 out;
+        out[plane_.axis] = plane_.position;
+        out[across_] = field_.grid.low[across_] + (x + 0.5) * pixel_;
+        out[up_] = plane_.axis == 1 ? field_.grid.low[2] + (y + 0.5) * pixel_
+                                    : field_.grid.high()[up_] - (y + 0.5) * pixel_;
+        return out;
+    }
+    glm::dvec2 pixelOf(const glm::dvec3& p) const {
+        const double down = plane_.axis == 1 ? p.z - field_.grid.low.z : field_.grid.high()[up_] - p[up_];
+        return {(p[across_] - field_.grid.low[across_]) / pixel_ - 0.5, down / pixel_ - 0.5};
+    }
+
+    // Finds the range of distances on the slice, which sets the colours and the contours.
+    void findRange() {
+        double low = 0, high = 0;
+        for (int y = 0; y < rows_; y += 4)
+            for (int x = 0; x < columns_; x += 4) {
+                const double d = valueAt(field_, place(x, y)).distance;
+                low = std::min(low, d), high = std::max(high, d);
+            }
+        low_ = low, high_ = std::max(high, 1e-30);
+        picture_.contours = niceStep((high_ - low_) / 14);
+    }
+
+    glm::dvec3 ground(double d) const {
+        const glm::dvec3 pale = d < 0 ? glm::dvec3(0.86, 0.92, 0.97) : glm::dvec3(0.99, 0.96, 0.90);
+        const glm::dvec3 deep = d < 0 ? glm::dvec3(0.10, 0.27, 0.53) : glm::dvec3(0.76, 0.44, 0.16);
+        const double range = d < 0 ? low_ : high_;
+        return glm::mix(pale, deep, std::pow(std::clamp(d / range, 0.0, 1.0), 0.8));
+    }
+
+    // Share of a pixel that a line of this width covers, from its middle's distance to it in pixels.
+    static double cover(double distance, double width) {
+        return std::clamp(width / 2 + 0.5 - std::abs(distance), 0.0, 1.0);
+    }
+
+    glm::dvec3 shade(int x, int y) const {
+        const FieldValue value = valueAt(field_, place(x, y));
+        glm::dvec3 in = value.gradient;
+        in[plane_.axis] = 0;
+        const double steep = std::max(glm::length(in), 0.2) * pixel_;  // m a pixel
+        glm::dvec3 color = ground(value.distance);
+        const double step = picture_.contours, nearest = std::round(value.distance / step);
+        const double line = cover((value.distance - nearest * step) / steep, 1);
+        const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
+        color *= 1 - line * (fifth ? 0.42 : 0.2);
+        return glm::mix(color, glm::dvec3(0.05), cover(value.distance / steep, 2.6));
+    }
+
+    // Where the plane cuts a triangle.
+    void drawCut(Canvas& lines, const Mesh& mesh, const glm::ivec3& t) {
+        glm::dvec2 ends[3];
+        int count = 0;
+        for (int i = 0; i < 3; ++i) {
+            const glm::dvec3 &a = mesh.positions[size_t(t[i])], &b = mesh.positions[size_t(t[(i + 1) % 3])];
+            const double da = a[plane_.axis] - plane_.position, db = b[plane_.axis] - plane_.position;
+            if ((da < 0) == (db < 0)) continue;
+            ends[count++] = pixelOf(glm::mix(a, b, da / (da - db)));
+        }
+        if (count == 2) lines.line(glm::vec2(ends[0]) + 0.5f, glm::vec2(ends[1]) + 0.5f, 0.7f, glm::vec4(1));
+    }
+
+    // The colours from the least to the largest distance seen, with every fifth contour's number.
+    void drawLegend() {
+        const int wide = std::min(columns_, picture_.image.width - 2 * border) - 40;
+        const int from = (picture_.image.width - wide) / 2, top = border + rows_ + 8;
+        const double step = picture_.contours, scale = (high_ - low_) / wide;
+        for (int x = 0; x < wide; ++x) {
+            const double d = low_ + (x + 0.5) * scale, nearest = std::round(d / step);
+            const double line = cover((d - nearest * step) / scale, 1);
+            const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
+            glm::dvec3 color = ground(d) * (1 - line * (fifth ? 0.42 : 0.2));
+            color = glm::mix(color, glm::dvec3(0.05), cover(d / scale, 2.6));
+            for (int y = 0; y < 12; ++y)
+                set(from + x, top + y, color);
+        }
+        Canvas numbers(picture_.image, {0, 0}, {picture_.image.width, picture_.image.height});
+        for (int n = int(std::ceil(low_ / step)); n * step <= high_; ++n) {
+            if (n % 5 != 0) continue;
+            std::string text = concat(std::round(n * step * 1e9) / 1e9);
+            if (n == 0) text = "0 m";
+            const int middle = from + int((n * step - low_) / scale);
+            numbers.text({middle - Canvas::widthOf(text, 2) / 2, top + 10}, text,
+                         glm::vec4(0.24, 0.24, 0.24, 1), 2);
+        }
+    }
+
+    void set(int x, int y, const glm::dvec3& color) {
+        uint8_t* p = &picture_.image.pixels[(size_t(y) * size_t(picture_.image.width) + size_t(x)) * 4];
+        for (int i = 0; i < 3; ++i)
+            p[i] = uint8_t(std::lround(255 * std::clamp(color[i], 0.0, 1.0)));
+    }
+
+    const DistanceField& field_;
+    SlicePlane plane_;
+    int across_, up_;   // axes of the picture
+    double pixel_ = 1;  // m
+    int columns_ = 1, rows_ = 1, left_ = 0;
+    double low_ = 0, high_ = 1;  // m, seen
+    SlicePicture picture_;
+};
+
+// ---- Fields
 
 struct BakedField {
     std::string name;  // of the collider, else of the model
@@ -150,7 +310,7 @@ int fieldCommand(const Options& options) {
     if (!options.capture.empty()) {
         const SlicePlane plane = planeOf(options, fields.front());
         const SlicePicture picture =
-            drawSlice(fields.front().field, fields.front().mesh, plane, options.width, options.height);
+            SliceCanvas(fields.front().field, plane, options.width, options.height).draw(fields.front().mesh);
         writePng(options.capture, picture.image);
         drawn = concat("  ", printable(options.capture), ": the slice ", "xyz"[plane.axis], " = ",
                        plane.position, " m, a contour every ", picture.contours, " m\n");

@@ -2,7 +2,7 @@
 
 #include "app/commands.h"
 #include "core/json.h"
-#include "gpu/probe.h"
+#include "gpu/context.h"
 
 namespace shoal::app {
 

@@ -1,48 +1,41 @@
 // `shoal keys`: what files may say, from the descriptions that their readers go by.
-#include <algorithm>
 #include <iostream>
 
 #include "app/commands.h"
 #include "core/description_schema.h"
-#include "molecule/rules.h"
-#include "scene/field_files/read_raw.h"
+#include "molecule/molecule_json.h"
+#include "scene/field_files/field_file.h"
 #include "scene/scene.h"
 
 namespace shoal::app {
 
 namespace {
 
-// An object that a file can hold, and where: "scene.groups[].emitters[]".
+// An object that a file can hold: where, such as "scene.groups[].emitters[]", and the key that holds it, or
+// the word of a variant.
 struct Place {
-    std::string path;
+    std::string path, name;
     const Description* object;
-    const Description* variant = nullptr;  // whose word chose this one; its keys stand beside it
 };
-
-void addPlaces(std::vector<Place>& out, const Place& place);
-
-void addWithin(std::vector<Place>& out, const std::string& path, const Description& object) {
-    for (const Key& key : object.keys()) {
-        const std::string inner = concat(path, ".", key.name);
-        if (key.kind == Key::Kind::object) addPlaces(out, {inner, key.objects[0]});
-        if (key.kind == Key::Kind::list) addPlaces(out, {inner + "[]", key.objects[0]});
-        if (key.kind != Key::Kind::variant) continue;
-        for (const Description* one : key.objects)
-            addPlaces(out, {concat(path, ", ", key.name, " \"", one->name(), "\""), one, &object});
-    }
-}
 
 void addPlaces(std::vector<Place>& out, const Place& place) {
     out.push_back(place);
-    addWithin(out, place.path, *place.object);
+    for (const Key& key : place.object->keys()) {
+        const std::string inner = concat(place.path, ".", key.name);
+        if (key.kind == Key::Kind::object) addPlaces(out, {inner, key.name, key.objects[0]});
+        if (key.kind == Key::Kind::list) addPlaces(out, {inner + "[]", key.name, key.objects[0]});
+        if (key.kind != Key::Kind::variant) continue;
+        for (const Description* one : key.objects)
+            addPlaces(out, {concat(place.path, ", ", key.name, " \"", one->name(), "\""), one->name(), one});
+    }
 }
 
 std::vector<Place> allPlaces() {
     std::vector<Place> out;
-    addPlaces(out, {"scene", &describe(static_cast<const Scene*>(nullptr))});
-    addPlaces(out, {"molecule", &describe(static_cast<const Molecule*>(nullptr))});
-    addPlaces(out, {"molecule.defaults", &describeDefaults()});
-    addPlaces(out, {"layout", &describe(static_cast<const RawLayout*>(nullptr))});
+    addPlaces(out, {"scene", "scene", &describe(static_cast<const Scene*>(nullptr))});
+    addPlaces(out, {"molecule", "molecule", &describe(static_cast<const Molecule*>(nullptr))});
+    addPlaces(out, {"molecule.defaults", "defaults", &describeDefaults()});
+    addPlaces(out, {"layout", "layout", &describe(static_cast<const RawLayout*>(nullptr))});
     return out;
 }
 
@@ -58,13 +51,27 @@ void print(const Place& place) {
     std::cout << "\n";
 }
 
-// The name of the last key on the way, or the word of a variant.
-bool isNamed(const Place& place, const std::string& name) {
-    const size_t dot = place.path.find_last_of('.');
-    std::string last = dot == std::string::npos ? place.path : place.path.substr(dot + 1);
-    if (place.variant) last = place.object->name();
-    if (last.ends_with("[]")) last.resize(last.size() - 2);
-    return last == name || place.object->name() == name;
+// Prints the objects of that name, else the keys of that name. Error: there is neither.
+void printNamed(const std::vector<Place>& places, const std::string& name) {
+    std::vector<std::string> known;
+    bool found = false;
+    for (const Place& place : places) {
+        known.push_back(place.object->name());
+        if (place.name != name && place.object->name() != name) continue;
+        found = true;
+        print(place);
+    }
+    if (found) return;
+    for (const Place& place : places)
+        for (const Key& key : place.object->keys()) {
+            known.push_back(key.name);
+            if (key.name != name) continue;
+            found = true;
+            std::cout << place.path << "\n";
+            print(key, *place.object);
+            std::cout << "\n";
+        }
+    if (!found) throw WrongUse(concat("no file says \"", name, "\"", suggestion(name, known)));
 }
 
 }  // namespace
@@ -77,26 +84,8 @@ int keysCommand(const Options& options) {
         std::cout << "\n`shoal keys NAME` prints the keys of an object, or every key of that name.\n";
         return 0;
     }
-    for (const std::string& name : options.files) {
-        bool found = false;
-        std::vector<std::string> known;
-        for (const Place& place : places) {
-            if (isNamed(place, name)) print(place);
-            found |= isNamed(place, name);
-            known.push_back(place.object->name());
-        }
-        for (const Place& place : places) {
-            const Key* key = found ? nullptr : place.object->find(name);
-            for (const Key& other : place.object->keys())
-                known.push_back(other.name);
-            if (!key) continue;
-            std::cout << place.path << "\n";
-            print(*key, *place.object);
-            std::cout << "\n";
-        }
-        const bool any = found || std::find(known.begin(), known.end(), name) != known.end();
-        if (!any) throw WrongUse(concat("no file says \"", name, "\"", suggestion(name, known)));
-    }
+    for (const std::string& name : options.files)
+        printNamed(places, name);
     return 0;
 }
 

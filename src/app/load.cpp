@@ -3,7 +3,7 @@
 
 #include "app/commands.h"
 #include "core/cache_folder.h"
-#include "core/sandbox.h"
+#include "core/file.h"
 #include "run/data_paths.h"
 
 namespace shoal::app {
@@ -22,6 +22,13 @@ void keepToSandbox(const Options& options, const std::string& file) {
     if (!options.molecule.output.empty())
         folders.push_back(fs::absolute(options.molecule.output).parent_path());
     openOnlyWithin(folders);
+}
+
+gpu::ContextOptions hiddenContext(const Options& options) {
+    gpu::ContextOptions out;
+    out.kind = options.context;
+    out.visible = false;
+    return out;
 }
 
 Loaded load(const Options& options) {

@@ -29,6 +29,19 @@ std::string asText(const MeasuredOn& machine) {
     return out;
 }
 
+std::string twoLines(const MeasuredOn& machine) {
+    return concat(machine.processor, ", ", machine.cores, " cores\n", machine.context.renderer, " (",
+                  gpu::name(machine.context.kind), "), OpenGL ", machine.context.version);
+}
+
+JsonValue asJson(const gpu::ContextInfo& context) {
+    JsonValue out = JsonValue::makeObject();
+    return out.add("kind", JsonValue::makeString(gpu::name(context.kind)))
+        .add("renderer", JsonValue::makeString(context.renderer))
+        .add("version", JsonValue::makeString(context.version))
+        .add("software", JsonValue::makeBoolean(context.software));
+}
+
 JsonValue headOf(const MeasuredOn& machine) {
     JsonValue out = JsonValue::makeObject();
     out.add("version", JsonValue::makeString(SHOAL_VERSION))

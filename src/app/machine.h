@@ -18,6 +18,8 @@ struct MeasuredOn {
 };
 MeasuredOn measuredOn(const gpu::Context& context);  // none pinned
 std::string asText(const MeasuredOn& machine);       // one line, without its end
+std::string twoLines(const MeasuredOn& machine);     // without the second one's end
 JsonValue headOf(const MeasuredOn& machine);         // the first keys of a report
+JsonValue asJson(const gpu::ContextInfo& context);
 
 }  // namespace shoal::app

@@ -3,11 +3,8 @@
 #include <iostream>
 #include <thread>
 
-#include "app/commands.h"
-#include "app/gnuplot.h"
-#include "app/machine.h"
 #include "app/measure.h"
-#include "app/measure_plot.h"
+#include "app/plot.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
@@ -81,7 +78,7 @@ void choose(const Scene& scene, const Options& options, const AccuracyDevice& de
 AccuracyPanel panelOf(const MeasureReport& report) {
     AccuracyPanel out;
     out.title = concat(report.accuracy.scene, ": error after ", report.accuracy.duration, " s");
-    out.subtitle = report.processor + ", " + report.context.renderer;
+    out.subtitle = report.machine.processor + ", " + report.machine.context.renderer;
     out.points = report.accuracy.points;
     if (const AccuracyPoint* point = chosenPoint(report)) out.chosen = *point;
     out.target = report.target;
@@ -137,9 +134,7 @@ Calibration calibrated(const Options& options, gpu::Context& context, Loaded& lo
 
 MeasureReport measureScene(const Scene& scene, const Options& options, const AccuracyDevice& device) {
     MeasureReport report;
-    report.processor = processorName();
-    report.cores = device.cores;
-    report.context = device.context->info();
+    report.machine = measuredOn(*device.context);
     report.target = options.error.value_or(1e-3);
     AccuracyOptions wanted = accuracyOptions(options);
     wanted.extra = [&] {
@@ -161,10 +156,7 @@ int measureCommand(const Options& options) {
     if (!options.report.empty()) return measureReport(options);
     const Scene scene = readScene(options.files.front(), options);
     tellWarnings(scene.warnings);
-    gpu::ContextOptions wanted;
-    wanted.kind = options.context;
-    wanted.visible = false;
-    gpu::Context context(wanted);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     const MeasureReport report = measureScene(scene, options, accuracyDevice(options, context, cache));
     tellWarnings(cache.takeWarnings());

@@ -1,12 +1,43 @@
-// Functions that the commands which measure a scene share.
+// The reports of `shoal measure`, as tables, JSON or CSV, and what the commands that measure a scene share.
 #pragma once
 
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "app/commands.h"
-#include "app/measure_report.h"
+#include "app/machine.h"
 #include "app/options.h"
+#include "core/json.h"
+#include "gpu/context.h"
 #include "gpu/program_cache.h"
+#include "measure/accuracy.h"
+#include "measure/calibrate.h"
+#include "measure/report_scenes.h"
 
 namespace shoal::app {
+
+struct MeasureReport {
+    MeasuredOn machine;
+    measure::AccuracyReport accuracy;
+    double target = 1e-3;                        // relative error
+    std::optional<measure::Calibration> chosen;  // what the calibration takes for it
+    std::string notChosen;                       // why there is none
+};
+
+// One point: what was chosen; null without.
+const measure::AccuracyPoint* chosenPoint(const MeasureReport& report);
+
+std::string asText(const MeasureReport& report);
+JsonValue asJson(const MeasureReport& report);
+// A row a point; the first names the columns.
+std::string asCsv(const MeasureReport& report);
+
+// A calibration as text, also for `explain`.
+std::string asText(const measure::Calibration& calibration);
+std::string oneLine(const measure::Calibration& calibration);
 
 // Returns the options that --error, --solver, --substeps, --field-sampling and --duration ask for.
 measure::CalibrationOptions calibrationOptions(const Options& options);
@@ -21,5 +52,33 @@ MeasureReport measureScene(const Scene& scene, const Options& options, const mea
 
 // `shoal measure --report`.
 int measureReport(const Options& options);
+
+// ---- Reports read again
+// Reads what `shoal measure --json` wrote, so that a report goes on where it was ended.
+
+// Where and how a scene was measured: what is measured again where it differs.
+struct MeasuredWith {
+    std::string processor, renderer, context, opengl;
+    int cores = 1;
+    std::string path;  // "fused"; empty: any
+    std::string scene;
+    double frameRate = 60, duration = 1;
+    double target = 1e-3;
+    std::vector<std::pair<int, int>> molecules;  // of each group: measured, timed
+    std::vector<std::pair<int, int>> shapes;     // of each group: vertices, springs
+    std::set<std::string> solvers, samplings;
+};
+
+struct Measured {
+    measure::ReportEntry entry;
+    MeasuredWith with;
+};
+
+// The points, why there are no errors, and what was chosen (without candidates). Nothing: there is no such
+// file, or none of this version.
+std::optional<Measured> readMeasured(const std::string& file);
+
+// The first thing that differs, as "the processor"; empty: nothing.
+std::string difference(const MeasuredWith& found, const MeasuredWith& wanted);
 
 }  // namespace shoal::app

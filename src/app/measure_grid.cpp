@@ -5,22 +5,17 @@
 //   <folder>/tables.md                               speed-ups, costs, what is chosen
 //
 // A scene whose file is there is not measured again, so that a run goes on where it was ended; unless it was
-// measured with something else than this run would (app/measure_read.h).
+// measured with something else than this run would (MeasuredWith in app/measure.h).
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 
-#include "app/gnuplot.h"
-#include "app/machine.h"
 #include "app/measure.h"
-#include "app/measure_plot.h"
-#include "app/measure_read.h"
+#include "app/plot.h"
 #include "core/cache_folder.h"
 #include "core/file.h"
 #include "core/printable.h"
-#include "measure/report_scenes.h"
 #include "run/progress.h"
 
 namespace shoal::app {
@@ -29,8 +24,6 @@ using namespace measure;
 namespace fs = std::filesystem;
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // Enough to fill the device.
 constexpr int moleculesOnGpu = 16384, moleculesOnCpu = 4096;
@@ -105,7 +98,7 @@ void measureMissing(const Options& options, const std::vector<ReportScene>& all,
             missing.push_back(&scene);
     const Clock::time_point start = Clock::now();
     for (size_t i = 0; i < missing.size(); ++i) {
-        const double passed = std::chrono::duration<double>(Clock::now() - start).count();
+        const double passed = secondsSince(start);
         tellLeft(i, missing.size(), *missing[i],
                  i > 0 ? passed / double(i) : options.seconds.value_or(usualSeconds));
         Options own = options;
@@ -199,10 +192,7 @@ int measureReport(const Options& given) {
     Options options = given;
     if (options.samplings.empty()) options.samplings = {FieldSampling::vertexSubstep};
     needGnuplot((fs::path(options.report) / "tables.md").string());
-    gpu::ContextOptions wanted;
-    wanted.kind = options.context;
-    wanted.visible = false;
-    gpu::Context context(wanted);
+    gpu::Context context(hiddenContext(options));
     gpu::ProgramCache cache(context, cacheFolder());
     const int count = options.count.value_or(context.info().software ? moleculesOnCpu : moleculesOnGpu);
     const std::vector<ReportScene> all = reportScenes(count);

@@ -1,11 +1,8 @@
-#include "app/measure_read.h"
+#include "app/measure.h"
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-
-#include "app/options.h"
-#include "core/json.h"
 
 namespace shoal::app {
 

@@ -1,5 +1,4 @@
-#include "app/measure_report.h"
-#include "core/many.h"
+#include "app/measure.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -7,9 +6,8 @@
 #include <sstream>
 
 #include "bench/case.h"
+#include "core/error.h"
 #include "core/printable.h"
-#include "measure/calibration_store.h"
-#include "measure/pareto.h"
 
 namespace shoal::app {
 
@@ -38,9 +36,7 @@ std::string steps(const AccuracyPoint& point) {
 
 void addHead(std::ostringstream& out, const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
-    out << report.processor << ", " << report.cores << " cores\n"
-        << report.context.renderer << " (" << gpu::name(report.context.kind) << "), OpenGL "
-        << report.context.version << "; " << name(a.path) << " path\n"
+    out << twoLines(report.machine) << "; " << name(a.path) << " path\n"
         << "\"" << printable(a.scene) << "\": " << a.duration << " s at " << a.frameRate
         << " frames a second\n";
     for (const AccuracyGroup& group : a.groups)
@@ -278,13 +274,8 @@ std::string asText(const MeasureReport& report) {
 JsonValue asJson(const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
     JsonValue machine = JsonValue::makeObject();
-    machine.add("processor", JsonValue::makeString(report.processor))
-        .add("cores", JsonValue::makeNumber(report.cores));
-    JsonValue context = JsonValue::makeObject();
-    context.add("kind", JsonValue::makeString(gpu::name(report.context.kind)))
-        .add("renderer", JsonValue::makeString(report.context.renderer))
-        .add("version", JsonValue::makeString(report.context.version))
-        .add("software", JsonValue::makeBoolean(report.context.software));
+    machine.add("processor", JsonValue::makeString(report.machine.processor))
+        .add("cores", JsonValue::makeNumber(report.machine.cores));
     JsonValue groups = JsonValue::makeArray(), points = JsonValue::makeArray(),
               notes = JsonValue::makeArray();
     for (const AccuracyGroup& group : a.groups)
@@ -296,7 +287,7 @@ JsonValue asJson(const MeasureReport& report) {
     JsonValue out = JsonValue::makeObject();
     out.add("version", JsonValue::makeString(SHOAL_VERSION))
         .add("machine", std::move(machine))
-        .add("context", std::move(context))
+        .add("context", asJson(report.machine.context))
         .add("scene", JsonValue::makeString(a.scene))
         .add("path", JsonValue::makeString(name(a.path)))
         .add("frameRate", JsonValue::makeNumber(a.frameRate))

@@ -5,12 +5,12 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "core/error.h"
 #include "core/file.h"
 #include "core/image.h"
 #include "core/json.h"
-#include "core/many.h"
 #include "core/printable.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 

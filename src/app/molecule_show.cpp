@@ -8,7 +8,7 @@
 #include "app/canvas.h"
 #include "app/commands.h"
 #include "core/cache_folder.h"
-#include "core/many.h"
+#include "core/error.h"
 #include "core/printable.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"

@@ -7,9 +7,6 @@
 #include <iostream>
 
 #include "app/cli.h"
-#include "app/documents.h"
-#include "app/options_field.h"
-#include "app/options_measure.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
 #include "window/interface.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "app/options_molecule.h"
+#include "author/from_mesh.h"
 #include "gpu/context.h"
 #include "run/request.h"
 
@@ -21,6 +21,20 @@ enum class ExportCells {
 };
 
 constexpr int headlessFrames = 240;  // unless --frames says otherwise
+
+// The options of `shoal molecule COMMAND`.
+struct MoleculeOptions {
+    // from-mesh
+    FromMesh fromMesh;
+    std::string output;  // empty: nothing is written
+    bool force = false;  // write over a file that is there
+    std::string texture;
+    std::string color;
+    std::string springs = "surface";
+    std::vector<std::string> pinRules;
+    // show
+    std::string sheet;  // its size in pixels; empty: the usual
+};
 
 struct Options : RunRequest {
     enum class Command {

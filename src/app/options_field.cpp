@@ -1,4 +1,4 @@
-#include "app/options_field.h"
+#include "app/cli.h"
 
 #include "core/file.h"
 #include "geometry/distance_field.h"

@@ -1,4 +1,4 @@
-#include "app/options_measure.h"
+#include "app/cli.h"
 
 #include <algorithm>
 

@@ -1,10 +1,9 @@
-#include "app/options_molecule.h"
+#include "app/cli.h"
 
 #include <filesystem>
 
-#include "app/cli.h"
 #include "app/options.h"
-#include "author/material_scale.h"
+#include "author/from_mesh.h"
 
 namespace shoal::app {
 

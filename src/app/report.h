@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/json.h"
-#include "gpu/traffic.h"
+#include "gpu/context.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {

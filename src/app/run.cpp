@@ -13,8 +13,8 @@
 #include "app/measure.h"
 #include "app/report.h"
 #include "core/cache_folder.h"
+#include "core/error.h"
 #include "core/file.h"
-#include "core/many.h"
 #include "core/printable.h"
 #include "render/picture.h"
 #include "render/renderer.h"
@@ -100,9 +100,10 @@ class HeadlessRun {
         : options_(options),
           context_(context),
           frames_(options.frames.value_or(headlessFrames)),
-          loaded_(std::move(loaded)),
+          scene_(std::move(loaded.scene)),
           cache_(context, cacheFolder()),
-          simulation_(context, shaderRoot(), loaded_.plan, simulationOptions(options, context, cache_)) {
+          simulation_(context, shaderRoot(), std::move(loaded.plan),
+                      simulationOptions(options, context, cache_)) {
         tellWarnings(simulation_.warnings());
         tellWarnings(cache_.takeWarnings());
         report_.scene = options.files.front();
@@ -123,9 +124,9 @@ class HeadlessRun {
         size.width = options.width;
         size.height = options.height;
         if (options.timings) size.timing = gpu::PassTimers::suitedTo(context.info());
-        renderer_ = std::make_unique<Renderer>(context, shaderRoot(), loaded_.scene, loaded_.plan, size);
-        pictures_ = std::make_unique<PictureWriter>(target, loaded_.scene.frameRate / every_,
-                                                    frames_ > every_, last_);
+        renderer_ = std::make_unique<Renderer>(context, shaderRoot(), scene_, simulation_.plan(), size);
+        pictures_ =
+            std::make_unique<PictureWriter>(target, scene_.frameRate / every_, frames_ > every_, last_);
     }
 
     void go() {
@@ -135,10 +136,9 @@ class HeadlessRun {
             runFrames();
         } catch (const Runaway& runaway) {
             if (pictures_) pictures_->finish();  // they show how it came about
-            throw Error(
-                runaway.location(),
-                concat(runaway.message(), ". ",
-                       saveForInspection(outputFolder(options_), loaded_.scene.file, simulation_, runaway)));
+            throw Error(runaway.location(),
+                        concat(runaway.message(), ". ",
+                               saveForInspection(outputFolder(options_), scene_.file, simulation_, runaway)));
         }
         if (pictures_) pictures_->finish();
         if (isVideo(target()) && drawn_ > 0) report_.written.push_back(target());
@@ -155,8 +155,7 @@ class HeadlessRun {
             const gpu::Traffic before = context_.traffic();
             simulation_.frame();
             const bool draws = renderer_ && frame % every_ == 0;
-            if (draws)
-                renderer_->draw(simulation_.state(), View::of(loaded_.scene.camera, simulation_.time()));
+            if (draws) renderer_->draw(simulation_.state(), View::of(scene_.camera, simulation_.time()));
             addTo(report_.frames, context_.traffic() - before);
             outside([&] {
                 if (draws) {
@@ -264,12 +263,12 @@ class HeadlessRun {
 
     // Exports and saves the frame where that was asked for.
     void writeIfAsked(int frame) {
-        if (exporter_->asksFor(frame)) note(exported_, exporter_->write(simulation_, loaded_.scene));
+        if (exporter_->asksFor(frame)) note(exported_, exporter_->write(simulation_, scene_));
         if (contains(options_.saveFrames, frame)) save(frame);
     }
     // Exports and saves the last frame where that was asked for; the run may have ended early.
     void writeLast() {
-        if (exporter_->asksForLast()) note(exported_, exporter_->write(simulation_, loaded_.scene));
+        if (exporter_->asksForLast()) note(exported_, exporter_->write(simulation_, scene_));
         if (options_.saveFrames.empty() && !options_.save.empty()) save(simulation_.frames());
     }
     void save(int frame) {
@@ -282,7 +281,7 @@ class HeadlessRun {
     gpu::Context& context_;
     int frames_, every_ = 1;
     int first_ = 0, last_ = 0;  // where the run goes on, where it ends
-    Loaded loaded_;
+    Scene scene_;
     gpu::ProgramCache cache_;
     Simulation simulation_;
     std::unique_ptr<Renderer> renderer_;

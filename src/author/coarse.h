@@ -1,11 +1,15 @@
-// A mesh of few vertices in the shape of one of many.
+// A mesh of few vertices in the shape of one of many: simplified (coarse.cpp), of rings (rings.cpp), or the
+// surface of a lattice (lattice.cpp).
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "geometry/mesh.h"
 
 namespace shoal {
+
+class Inside;
 
 struct CoarseMesh {
     std::vector<glm::dvec3> positions;
@@ -24,6 +28,17 @@ CoarseMesh simplify(const Mesh& mesh, int vertices);
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its
 // positive end to its negative one, closed at the ends. Error: the mesh is flat along an axis.
 CoarseMesh ringsOf(const Mesh& mesh, int rings);
+
+// Tetrahedra of a body-centred cubic lattice that fill a volume ([Molino 2003]: the lattice, not its
+// refinement).
+struct Lattice {
+    CoarseMesh surface;                     // its vertices, and the faces of one tetrahedron only
+    std::vector<std::array<int, 4>> cells;  // tetrahedra
+};
+
+// As fine as `vertices` allow: of all lattices over the box the one that fills most with at most so many
+// vertices. Error: the shape is too thin for any.
+Lattice latticeIn(const Mesh& mesh, const Inside& inside, int vertices);
 
 // Fills map and source from positions: by the way along the mesh's edges, else by distance.
 void mapToCoarse(const Mesh& mesh, CoarseMesh& coarse);

@@ -1,4 +1,4 @@
-#include "author/document.h"
+#include "author/edit.h"
 
 #include <cstdlib>
 #include <utility>
@@ -8,6 +8,7 @@
 #include "core/json_edit.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 
@@ -61,8 +62,7 @@ std::filesystem::path targetOf(const std::string& file) {
     return code ? std::filesystem::path(file) : target;
 }
 
-}  // namespace
-
+// $XDG_STATE_HOME/shoal/unsaved, ~/.local/state/shoal/unsaved; else empty.
 std::string unsavedFolder() {
     const auto variable = [](const char* name) {
         const char* value = std::getenv(name);
@@ -73,10 +73,12 @@ std::string unsavedFolder() {
     return home.empty() ? home : home + "/.local/state/shoal/unsaved";
 }
 
+}  // namespace
+
 Document::Document(const std::string& file) : file_(file) {
     text_ = readFile(file);
-    now_.draft = Draft(parseMolecule(text_, file));
-    saved_ = toJson(now_.draft.molecule, true);
+    now_ = Draft(parseMolecule(text_, file));
+    saved_ = toJson(now_.molecule, true);
     written_ = timeOf(file);
     changed();
     std::error_code code;
@@ -86,37 +88,27 @@ Document::Document(const std::string& file) : file_(file) {
 
 void Document::changed() {
     ++version_;
-    placeSkin(now_.draft.molecule);
-    problem_ = problemOf(now_.draft.molecule);
-    unsaved_ = !sameJson(toJson(now_.draft.molecule, true), saved_);
+    placeSkin(now_.molecule);
+    problem_ = problemOf(now_.molecule);
+    unsaved_ = !sameJson(toJson(now_.molecule, true), saved_);
 }
 
 void Document::edit(const std::string& label, const std::function<void(Draft&)>& change, int gesture) {
     const bool goesOn = gesture > 0 && gesture == std::exchange(lastGesture_, gesture);
     if (!goesOn) {
-        past_.push_back({now_.draft, label});
+        past_.push_back({now_, label});
         if (past_.size() > mostSteps) past_.erase(past_.begin());
     }
     future_.clear();
-    change(now_.draft);
+    change(now_);
     changed();
 }
 
-bool Document::undo() {
-    if (past_.empty()) return false;
-    future_.push_back({std::move(now_.draft), past_.back().label});
-    now_.draft = std::move(past_.back().draft);
-    past_.pop_back();
-    lastGesture_ = 0;
-    changed();
-    return true;
-}
-
-bool Document::redo() {
-    if (future_.empty()) return false;
-    past_.push_back({std::move(now_.draft), future_.back().label});
-    now_.draft = std::move(future_.back().draft);
-    future_.pop_back();
+bool Document::step(std::vector<Step>& from, std::vector<Step>& to) {
+    if (from.empty()) return false;
+    to.push_back({std::move(now_), from.back().label});
+    now_ = std::move(from.back().draft);
+    from.pop_back();
     lastGesture_ = 0;
     changed();
     return true;
@@ -125,8 +117,8 @@ bool Document::redo() {
 // Starts again from the molecule as its file has it now. The drafts of undo and redo came from the earlier
 // file: their elements are new to this one.
 void Document::restart(Molecule molecule) {
-    now_.draft = Draft(std::move(molecule));
-    saved_ = toJson(now_.draft.molecule, true);
+    now_ = Draft(std::move(molecule));
+    saved_ = toJson(now_.molecule, true);
     for (std::vector<Step>* steps : {&past_, &future_})
         for (Step& step : *steps) {
             Draft::Origins& origins = step.draft.origins;
@@ -140,19 +132,19 @@ void Document::save() {
     std::string there = readFile(file_);
     if (there != text_)
         throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
-    const std::string edited = withEdits(text_, now_.draft);
+    const std::string edited = withEdits(text_, now_);
     if (edited != text_) writeFile(file_, edited);
     // one state of the draft is the file's now; those before and after it keep their origins where the
     // elements are the same ones
     text_ = edited;
-    const Draft before = now_.draft;
+    const Draft before = now_;
     restart(parseMolecule(text_, file_));
     for (std::vector<Step>* steps : {&past_, &future_})
         for (Step& step : *steps)
             if (step.draft.molecule.vertices.size() == before.molecule.vertices.size() &&
                 step.draft.molecule.springs.size() == before.molecule.springs.size() &&
                 step.draft.molecule.triangles.size() == before.molecule.triangles.size())
-                step.draft.origins = now_.draft.origins;
+                step.draft.origins = now_.origins;
     written_ = timeOf(file_);
     changed();
     closeInOrder();
@@ -161,7 +153,7 @@ void Document::save() {
 void Document::reload() {
     const std::string text = readFile(file_);
     Molecule molecule = parseMolecule(text, file_);
-    past_.push_back({now_.draft, "reload"});
+    past_.push_back({now_, "reload"});
     future_.clear();
     text_ = text;
     restart(std::move(molecule));
@@ -198,7 +190,7 @@ std::filesystem::path Document::keptFile() const {
 }
 
 std::string Document::kept() const {
-    const Draft& draft = now_.draft;
+    const Draft& draft = now_;
     JsonValue root = JsonValue::makeObject();
     root.add("file", JsonValue::makeString(file_))
         .add("base", JsonValue::makeString(contentKey(text_)))

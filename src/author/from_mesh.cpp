@@ -9,15 +9,9 @@
 
 #include "author/coarse.h"
 #include "author/inside.h"
-#include "author/lattice.h"
-#include "author/material_scale.h"
-#include "author/skin_mesh.h"
 #include "author/springs.h"
 #include "compile/path.h"
-#include "core/error.h"
-#include "geometry/closed_surface.h"
-#include "geometry/load_model.h"
-#include "molecule/bind_skin.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 

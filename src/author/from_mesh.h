@@ -1,21 +1,48 @@
 // From any mesh to a molecule: few vertices that are simulated, springs that hold their shape, and the mesh
 // itself as a skin that moves with them.
 //
-//   mesh -> coarse mesh (coarse.h, rings.cpp or lattice.h) -> springs -> masses -> pins -> braces ->
-//   stiffness
-//        -> skin (molecule/bind_skin.h)
+//   mesh -> coarse mesh (coarse.h) -> springs -> masses -> pins (pins.cpp) -> braces -> stiffness
+//        -> skin (skin_mesh.cpp, molecule/skin.h)
+//
+// Stiffness and mass are those of a named material (material_scale.cpp).
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "author/pins.h"
 #include "geometry/mesh.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule.h"
 
 namespace shoal {
+
+struct CoarseMesh;
+struct SkinMesh;
+
+// A rule by which vertices are pinned. "y<0.1": the coordinate in shares of the mesh's box, from 0 to 1.
+// "y<0.02m": in metres.
+struct PinRule {
+    int axis = 1;
+    bool below = true;
+    double limit = 0;
+    bool metres = false;
+    std::string text;
+};
+
+// Error: not such a rule.
+PinRule parsePinRule(const std::string& text);
+// Linear RGB: red, green, blue, yellow, cyan, magenta, white, black, or three numbers from 0 to 1
+// ("1,0.5,0"). Error: neither.
+glm::dvec3 parsePaint(const std::string& text);
+
+struct PinChoice {
+    std::vector<PinRule> rules;
+    std::vector<std::string> names;   // of objects, meshes or materials
+    std::vector<std::string> paints;  // vertex colours
+    bool any() const { return !rules.empty() || !names.empty() || !paints.empty(); }
+};
 
 struct FromMesh {
     enum class Springs {
@@ -63,5 +90,39 @@ void checkOptions(const FromMesh& options);
 // Error: without a place, as the mesh or the options have it: no volume where one is needed, more vertices
 // than the fused path holds, an unknown material, a number out of range, pins that no vertex meets.
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options);
+
+// makeMolecule calls what follows, which has sources of its own.
+
+// For each coarse vertex: it is pinned when most of the source's vertices that it stands for are; when that
+// leaves none, the one with the largest share. A rule that no vertex meets, a name that is not there or a
+// colour that is not painted: Error.
+std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const PinChoice& choice);
+
+// The mesh that becomes a skin: a vertex for each that differs by place, by uv or, at an edge of more than 40
+// degrees, by normal; without triangles that have no extent. With `triangles`: simplified to about so many
+// (quadric edge collapse, meshoptimizer), or as far as its seams let it. Error: more than a molecule file
+// holds.
+SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles);
+
+// A named material, from soft to stiff. Rounded values of handbooks. A sheet has the thickness; a body is as
+// thick as it is.
+struct ScaledMaterial {
+    const char* name;
+    double modulus;    // Pa, Young's
+    double density;    // kg/m^3
+    double thickness;  // m, of a sheet
+    double damping;    // ratio of the lowest mode to critical
+};
+
+std::span<const ScaledMaterial> materialScale();
+// Error: unknown, with the nearest.
+const ScaledMaterial& scaledMaterial(const std::string& name);
+
+// The lowest frequency of a free body or sheet of a material, Hz: of bending, as a beam that is free at both
+// ends
+//   (4.730^2 / 2 pi) sqrt(EI / (mass / length)) / length^2     (Euler and Bernoulli; Blevins, table 8-1)
+// and no higher than that of stretching, sqrt(E / density) / (2 length).
+// `length` m; `gyration` m: of the section about the axis that it bends about most easily; `density` kg/m^3.
+double lowestFrequency(double modulus, double density, double length, double gyration);
 
 }  // namespace shoal

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "geometry/winding_numbers.h"
+#include "geometry/sample_grid.h"
 
 namespace shoal {
 

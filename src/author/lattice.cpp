@@ -1,10 +1,11 @@
-#include "author/lattice.h"
+#include "author/coarse.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 
+#include "author/inside.h"
 #include "core/error.h"
 
 namespace shoal {

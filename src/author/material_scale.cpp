@@ -1,11 +1,9 @@
-#include "author/material_scale.h"
+#include "author/from_mesh.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <vector>
-
-#include "core/error.h"
 
 namespace shoal {
 

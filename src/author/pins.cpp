@@ -1,10 +1,10 @@
-#include "author/pins.h"
+#include "author/from_mesh.h"
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 
-#include "core/error.h"
+#include "author/coarse.h"
 
 namespace shoal {
 

@@ -1,11 +1,11 @@
-#include "author/skin_mesh.h"
+#include "author/from_mesh.h"
 
 #include <algorithm>
 
 #include <meshoptimizer.h>
 
-#include "core/error.h"
-#include "molecule/skin_file.h"
+#include "molecule/molecule_file.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 

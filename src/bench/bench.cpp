@@ -1,20 +1,13 @@
 #include "bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-
-#include "measure/pin_threads.h"
 
 namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using measure::Clock, measure::secondsSince;
 
 // The frames that a visit times, after a restart and one frame that is not timed, so that caches are as in a
 // run of one case. Slow frames do without that one and are timed one by one: five frames of a fall differ by
@@ -43,7 +36,7 @@ class Entrant {
         slow_ = timed(1) > slowFrameSeconds;
         result.framesPerSample = slow_ ? 1 : framesTimed;
         visit();
-        seconds = since(start) * (slow_ ? 0.5 : double(framesTimed + 1) / (framesTimed + 2));
+        seconds = secondsSince(start) * (slow_ ? 0.5 : double(framesTimed + 1) / (framesTimed + 2));
         samples_.clear();
     }
 
@@ -71,7 +64,7 @@ class Entrant {
         for (int i = 0; i < frames; ++i)
             runner_->frame();
         runner_->finish();
-        const double out = since(start) / frames;
+        const double out = secondsSince(start) / frames;
         busBytes_ += context_.traffic().total(gpu::Traffic::Kind::state) - before;
         timedFrames_ += frames;
         return out;

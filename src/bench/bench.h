@@ -1,5 +1,7 @@
-// The measurement: all cases of a group in turn, round after round, so that a machine whose speed drifts
-// drifts for all alike.
+// The measurements of `shoal bench`: frames, errors, passes, the start, schools, and what is made of them.
+//
+// All cases of a group are measured in turn, round after round, so that a machine whose speed drifts drifts
+// for all alike.
 //
 // A visit of a case: back to the start; a frame that is not timed, so that caches are as in a run of its own;
 // then four frames between two waits, one sample. Frames above 0.1 s go without the first and are sampled one
@@ -12,13 +14,14 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/case.h"
 #include "bench/runner.h"
-#include "measure/statistics.h"
-#include "measure/visits.h"
+#include "gpu/pass_timers.h"
+#include "measure/timing.h"
 
 namespace shoal::bench {
 
@@ -44,5 +47,119 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
 
 // The cases of a list by their groups, in the order of the list.
 std::vector<std::vector<BenchCase>> byGroup(const std::vector<BenchCase>& cases);
+
+// ---- Errors
+// The error that a speed buys: quads spinning in the air, after 1 s at the benchmark's step, against the
+// double-precision reference.
+
+struct BenchError {
+    Subject subject = Subject::fused;
+    SolverKind solver = SolverKind::euler;
+    Wind wind = Wind::uniform;
+    FieldSampling sampling = FieldSampling::vertexSubstep;
+    // RMS distance of the vertices over the molecule's size, RMS over the molecules. Nothing: the reference
+    // does not converge, or the context lacks the path.
+    std::optional<double> relative;
+};
+
+// Calls `progress` some times with the share that is done. `count`: molecules.
+std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const BenchDevice& device, int count,
+                                      const std::function<void(double share)>& progress);
+
+// ---- Passes
+// Time per pass, from the passes' own timers: queries on a GPU, waits and a clock on a CPU rasteriser.
+
+struct PassTable {
+    int count = 0;  // quads
+    Subject subject = Subject::fused;
+    SolverKind solver = SolverKind::euler;
+    std::vector<gpu::PassTime> passes;
+    measure::Spread frame;  // s, wall-clock, with the timers in it
+};
+
+// Quads that are drawn, so that normals are computed, without a picture; round after round for `seconds`.
+std::vector<PassTable> measurePasses(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
+                                     double seconds, const std::function<void(double share)>& progress);
+
+// ---- Start
+// How long it takes from nothing to the first frame.
+
+// Seconds. The last three are of making a Simulation and its first frame, waited for:
+struct StartTime {
+    std::string molecule;
+    SolverKind solver = SolverKind::euler;
+    int count = 0;
+    double compile = 0;  // scene to plan
+    double cold = 0;     // a kernel that neither our cache nor the driver's has seen
+    double driver = 0;   // the driver's own cache may know it
+    double cached = 0;   // our cache has it, too
+};
+
+// Makes a folder for a cache of its own and removes it. Empty below OpenGL 4.3.
+std::vector<StartTime> measureStart(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
+                                    const std::function<void(double share)>& progress);
+
+// ---- Verdict, pure: ratios between cases, and whether the project's targets hold
+
+// Ratios of the shortest times; nothing where there is nothing to compare with in the case's group.
+struct Ratios {
+    std::optional<double> avx512, avx2;  // the case's time over that baseline's
+    std::optional<double> pingPong;      // the ping-pong path's time over the case's: how much faster it is
+    std::optional<double> bandwidth;     // B/s: bytes moved over time
+    std::optional<double> shareOfCopy;   // of the fastest copy of as many bytes on the same device
+    std::optional<double> arithmetic;    // operations a second, about
+    std::optional<double> shareOfPeak;   // of what multiply-adds alone reach on the same device
+};
+Ratios ratiosOf(const BenchResult& result, const std::vector<BenchResult>& all);
+
+struct Target {
+    std::string what;
+    double limit = 0;
+    bool atLeast = false;                 // else at most
+    std::optional<double> measured = {};  // of the shortest times; nothing: this run has not what it takes
+    std::string unit = "x";               // or "bytes"
+    std::optional<double> ofMedians = {};
+    bool holds() const { return measured && (atLeast ? *measured >= limit : *measured <= limit); }
+};
+// `software`: a CPU rasteriser, for which the share of a GPU's bandwidth is no target.
+std::vector<Target> targets(const std::vector<BenchResult>& all, bool software);
+
+// The case that says how fast `count` quads run with what an error was measured of; null without one.
+const BenchResult* speedOf(const BenchError& error, int count, const std::vector<BenchResult>& all);
+
+// How near the fused path comes to what the device can move and compute, where both were measured; for
+// people.
+std::vector<std::string> distances(const std::vector<BenchResult>& all);
+
+// How many cases took much longer by the median than by the shortest time: something else was running.
+int disturbed(const std::vector<BenchResult>& all);
+
+// One line for people: what was wanted, what was measured.
+std::string sentence(const Target& target);
+
+// ---- Schools
+// `shoal bench school` measures fry that swim with their muscles and school at a fixed
+// density, 1,000 to 100,000 of them, and beside them as many that only swim; simulate only. Cases take turns;
+// none starts over between its samples, so that they are in motion.
+
+struct SchoolCase {
+    int count = 1000;
+    bool schools = true;
+};
+
+constexpr double schoolDensity = 100;  // fish a m^3
+
+std::vector<SchoolCase> schoolCases(bool quick);
+Scene schoolScene(const SchoolCase& one, const Molecule& fry);
+
+struct SchoolTimes {
+    SchoolCase one;
+    measure::Spread frame;                                    // s
+    double perFish() const { return frame.min / one.count; }  // s
+};
+
+// Error: a context below 4.3; the driver refuses a shader.
+std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
+                                        const BenchDevice& device, double seconds);
 
 }  // namespace shoal::bench

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "scene/field_kinds.h"
 
 namespace shoal::bench {
 
@@ -254,7 +255,7 @@ BaselineStep baselineStep(const Scene& scene) {
     out.h = float(h);
     out.substeps = scene.solver.substeps;
     out.gravity = scene.gravity;
-    out.wind = std::get<UniformField>(scene.fields[0].shape).velocity;
+    out.wind = std::get<UniformField>(*scene.fields[0].shape).velocity;
     out.decay = float(-std::expm1(-gamma * h));
     out.phi = float(-std::expm1(-gamma * h) / gamma);
     out.planePoint = plane.point;

@@ -1,25 +1,20 @@
 #include "bench/collide.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <random>
 
 #include "bench/contact_baseline.h"
 #include "gpu/gl.h"
-#include "measure/pin_threads.h"
+#include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using measure::Clock, measure::secondsSince;
 
 constexpr double contactTime = 1.0 / 120;  // s: a frame is one contact step of two substeps
 
@@ -101,7 +96,7 @@ class Entrant {
                                " quads the baseline finds ", differ.size(), " otherwise"));
         const Clock::time_point start = Clock::now();
         visit();
-        seconds = since(start);
+        seconds = secondsSince(start);
         for (std::vector<double>* samples : {&fused_, &grid_, &search_, &response_, &all_, &cpu_})
             samples->clear();
     }
@@ -120,7 +115,7 @@ class Entrant {
         baseline_.set(start_);
         const Clock::time_point start = Clock::now();
         baseline_.step(step_);
-        cpu_.push_back(since(start));
+        cpu_.push_back(secondsSince(start));
     }
 
     ContactTimes finish() {

@@ -1,4 +1,7 @@
-// Contact of molecules with one another, against the baseline on the CPU (bench/contact_baseline.h).
+// The measurements of `shoal bench collide`: contact, UberFlow's experiments, and searches.
+//
+// Contact of molecules with one another is measured against the baseline on the CPU
+// (bench/contact_baseline.h).
 //
 // Quads at random in a cube, so many cubic metres each whatever their number, with contact; in each size a
 // step of contact, pass by pass, the fused step before it, and the baseline's step. All sizes take turns,
@@ -12,7 +15,7 @@
 
 #include "bench/bench.h"
 #include "bench/runner.h"
-#include "measure/statistics.h"
+#include "measure/timing.h"
 
 namespace shoal::bench {
 
@@ -45,5 +48,70 @@ struct ContactTimes {
 std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, const Molecule& quad,
                                          const BenchDevice& device, const measure::Schedule& schedule,
                                          const CollideProgress& progress);
+
+// ---- UberFlow
+// UberFlow's five experiments [Kipfer 2004, section 5, table 2] on squares of particles, all of
+// which are drawn:
+//
+//   E1   motion through a vector field
+//   E2   and collisions with a height field
+//   E3   E1 and a full sort by depth
+//   E4   E1 and collisions of particles with one another: eight neighbours to either side in the order of
+//        their cells, in rows that are sorted by themselves; and with the full sort, other searches
+//   E5   E3 on the CPU: motion, std::sort, upload
+//
+// A sample: the start state and unsorted keys (not timed), then the parts of one frame, each between two
+// waits; a frame is their sum.
+
+struct UberFlowTimes {
+    std::string experiment;         // "E1"
+    std::string how;                // what differs from the published one
+    std::vector<double> published;  // frames a second, for each of uberFlowSides(false); empty: none
+    int side = 0;                   // of the square
+    std::string leftOut;            // why it was not measured; empty: it was
+    measure::Spread motion, contact, sort, draw, frame;  // s; contact: without the sort of the grid
+    double framesPerSecond() const { return 1 / frame.min; }
+    // Without the picture, which is another than the paper's points of one pixel.
+    double undrawnFramesPerSecond() const { return 1 / (motion.min + contact.min + sort.min); }
+};
+
+std::vector<int> uberFlowSides(bool quick);
+
+// Cases of one size. `point`: a molecule of one vertex. Error: the driver refuses a shader.
+std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, const BenchDevice& device,
+                                           const measure::Schedule& schedule,
+                                           const CollideProgress& progress);
+
+// ---- Searches
+// The searches of contact against brute force: what share of the contacts each finds, and at what time.
+
+struct SearchShare {
+    ContactSearch search = ContactSearch::exact;
+    double perCell = 0;    // spheres
+    size_t contacts = 0;   // by brute force
+    size_t found = 0;      // of those
+    measure::Spread time;  // s, of grid and search
+    double share() const { return contacts > 0 ? double(found) / double(contacts) : 1; }
+    double perContact() const { return found > 0 ? time.min / double(found) : 0; }  // s
+};
+
+// Spheres that fly in straight lines, looked at after every step: of the pairs that touch at any time, the
+// share that one of the looks finds.
+struct StepShare {
+    ContactSearch search = ContactSearch::exact;
+    double step = 0;  // way of one sphere relative to another in a step, in radii, in the mean
+    size_t contacts = 0, found = 0;
+    double share() const { return contacts > 0 ? double(found) / double(contacts) : 1; }
+};
+
+struct SearchReport {
+    int spheres = 0, movingSpheres = 0;
+    double movingPerCell = 0;
+    std::vector<SearchShare> shares;
+    std::vector<StepShare> steps;
+};
+
+SearchReport measureSearches(const Molecule& point, bool quick, const BenchDevice& device,
+                             const measure::Schedule& schedule, const CollideProgress& progress);
 
 }  // namespace shoal::bench

@@ -80,7 +80,7 @@ struct ContactBaseline::Data {
         keys.resize(spheres);
         sphereOf.resize(spheres);
         numbers.resize(spheres);
-        crowds.resize(spheres);
+        effectiveCounts.resize(spheres);
         kept.resize(spheres);
         places.resize(spheres);
         motions.resize(spheres);
@@ -105,7 +105,7 @@ struct ContactBaseline::Data {
     std::vector<Place> places;
     // By slot, set where it is in contact.
     std::vector<Motion> motions;
-    std::vector<float> crowds, kept;
+    std::vector<float> effectiveCounts, kept;
     std::vector<vec3> impulses, newImpulses, earlierImpulses;  // N s
     std::vector<vec3> shifts;                                  // kg m
 
@@ -130,7 +130,7 @@ struct ContactBaseline::Data {
     void know(Piece& piece, const ContactBaselineStep& step);
     void startPushing(Piece& piece, const ContactBaselineStep& step);
     void relax(Piece& piece, float momentum);
-    void settle(Piece& piece, const ContactBaselineStep& step);
+    void addFriction(Piece& piece, const ContactBaselineStep& step);
     void apply(Piece& piece, const ContactBaselineStep& step);
     // Returns the impulse that an iteration begins with, extrapolated from the last two.
     vec3 impulse(int slot, float momentum) const {
@@ -293,8 +293,9 @@ void ContactBaseline::Data::know(Piece& piece, const ContactBaselineStep& step) 
         const vec3 m = glm::abs(mixed);
         const vec3 rows = squares + vec3(m.y + m.z, m.z + m.x, m.x + m.y);
         const float norm = std::sqrt(glm::dot(squares, squares) + 2 * glm::dot(m, m));
-        crowds[size_t(active.slot)] = std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm),
-                                               active.end - active.begin > 1 ? 1.01f : 1.0f);
+        effectiveCounts[size_t(active.slot)] =
+            std::max(std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm),
+                     active.end - active.begin > 1 ? 1.01f : 1.0f);
     }
 }
 
@@ -304,7 +305,7 @@ void ContactBaseline::Data::startPushing(Piece& piece, const ContactBaselineStep
         vec3 sum(0);
         for (int c = active.begin; c < active.end; ++c) {
             Contact& contact = piece.contacts[size_t(c)];
-            contact.share = 1 / std::max(crowds[slot], crowds[size_t(contact.other)]);
+            contact.share = 1 / std::max(effectiveCounts[slot], effectiveCounts[size_t(contact.other)]);
             contact.push *= contact.share * contact.mass;
             contact.pushed = contact.earlier = contact.push / step.stepTime;
             sum += contact.normal * contact.pushed;
@@ -333,7 +334,7 @@ void ContactBaseline::Data::relax(Piece& piece, float momentum) {
 
 // A round of friction, how far all of it moves the spheres, and what part of the pushes' speed they are to
 // keep.
-void ContactBaseline::Data::settle(Piece& piece, const ContactBaselineStep& step) {
+void ContactBaseline::Data::addFriction(Piece& piece, const ContactBaselineStep& step) {
     for (const Active& active : piece.active) {
         const auto slot = size_t(active.slot);
         vec3 sum = impulses[slot], bounce(0), rest(0);
@@ -343,24 +344,24 @@ void ContactBaseline::Data::settle(Piece& piece, const ContactBaselineStep& step
             const vec3 relative = own - velocity(contact.other, impulses[size_t(contact.other)]);
             const vec3 along = relative - contact.normal * glm::dot(relative, contact.normal);
             const float slip = glm::length(along);
-            const int crowd = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
+            const int number = 1 + std::max(numbers[slot], numbers[size_t(contact.other)]);
             const bool alone =
                 contact.share > 0.995f;  // its spheres exchange a push and friction, and nothing else
-            const float rubbed = glm::length(sum - contact.normal * contact.pushed);
+            const float spent = glm::length(sum - contact.normal * contact.pushed);
             const float grip =
-                alone ? std::min(std::max(step.friction * contact.pushed - rubbed, 0.0f), slip * contact.mass)
+                alone ? std::min(std::max(step.friction * contact.pushed - spent, 0.0f), slip * contact.mass)
                       : std::min(step.friction * contact.pushed / ContactPlan::frictionRounds,
-                                 1.5f * slip * contact.mass / float(crowd));
-            const vec3 rub = along * (-grip / std::max(slip, 1e-30f));
-            sum += rub;
-            bounce += (alone ? sum : contact.normal * contact.pushed + rub) * contact.since;
+                                 1.5f * slip * contact.mass / float(number));
+            const vec3 change = along * (-grip / std::max(slip, 1e-30f));
+            sum += change;
+            bounce += (alone ? sum : contact.normal * contact.pushed + change) * contact.since;
             rest += contact.normal * contact.push;
         }
         newImpulses[slot] = sum;
         shifts[slot] = bounce + rest;
-        const vec3 change = rest * (motions[slot].weight / step.stepTime);
-        const float square = glm::dot(change, change);
-        kept[slot] = square > 0 ? std::clamp(-glm::dot(own, change) / square, 0.0f, 1.0f) : 0.0f;
+        const vec3 gained = rest * (motions[slot].weight / step.stepTime);
+        const float square = glm::dot(gained, gained);
+        kept[slot] = square > 0 ? std::clamp(-glm::dot(own, gained) / square, 0.0f, 1.0f) : 0.0f;
     }
 }
 
@@ -405,7 +406,7 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
         data.impulses.swap(data.newImpulses);
     }
     for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
-        data.each([&](int, Piece& piece) { data.settle(piece, step); });
+        data.each([&](int, Piece& piece) { data.addFriction(piece, step); });
         data.impulses.swap(data.newImpulses);
     }
     data.newImpulses.swap(data.impulses);

@@ -1,4 +1,4 @@
-#include "bench/error.h"
+#include "bench/bench.h"
 
 #include <atomic>
 #include <cmath>

@@ -74,7 +74,7 @@ struct Part {
                 of(c)[i] = of(c)[count];
         }
     }
-    void bear(int births, const ParticleStep& step) {
+    void spawn(int births, const ParticleStep& step) {
         const vec3 low(step.from.low), size(step.from.high - step.from.low), velocity(step.velocity);
         const auto shortest = float(step.life.x), range = float(step.life.y - step.life.x);
         for (int n = 0; n < births && count < room; ++n, ++count) {
@@ -171,8 +171,8 @@ void ParticleBaseline::step(const ParticleStep& step) {
         if (step.births == 0) return;
         part.letDie();
         const int threads = d.threads.count();
-        part.bear(int(int64_t(step.births) * (index + 1) / threads - int64_t(step.births) * index / threads),
-                  step);
+        part.spawn(int(int64_t(step.births) * (index + 1) / threads - int64_t(step.births) * index / threads),
+                   step);
     });
 }
 

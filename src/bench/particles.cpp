@@ -2,29 +2,24 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <random>
 
 #include "bench/particle_baseline.h"
 #include "gpu/gl.h"
-#include "measure/pin_threads.h"
+#include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using measure::Clock, measure::secondsSince;
 using What = ParticleCase::What;
 
 constexpr int framesBefore = 30, framesTimed = 8;
 constexpr double slowFrameSeconds = 0.1;  // such frames are timed one by one
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 // Frames until as many die as are born.
 int framesToSteady(const ParticleCase& one) {
@@ -101,7 +96,7 @@ ParticleStep loopStep(const ParticleCase& one, const Scene& scene) {
     ParticleStep out;
     out.h = 1 / scene.frameRate / scene.solver.substeps;
     out.gravity = scene.gravity;
-    out.wind = std::get<UniformField>(scene.fields[0].shape).velocity;
+    out.wind = std::get<UniformField>(*scene.fields[0].shape).velocity;
     out.drag = group.drag.tangent;
     if (one.heights) out.heights = &std::get<HeightFieldCollider>(scene.colliders[0].shape);
     if (one.turnover == 0) return out;
@@ -220,7 +215,7 @@ class Entrant {
         if (samples_.back() < slowFrameSeconds) frames_ = framesTimed;
         const Clock::time_point start = Clock::now();
         visit();
-        seconds = since(start);
+        seconds = secondsSince(start);
         samples_.clear();
         packing_.clear();
         timedFrames_ = 0;
@@ -236,7 +231,7 @@ class Entrant {
         for (int i = 0; i < frames_; ++i)
             runner_->frame();
         runner_->finish();
-        samples_.push_back(since(start) / frames_);
+        samples_.push_back(secondsSince(start) / frames_);
         const gpu::Traffic crossed = context_.traffic() - before;
         moved_ +=
             double(crossed.total(gpu::Traffic::Kind::state) + crossed.total(gpu::Traffic::Kind::births));
@@ -275,7 +270,7 @@ class Entrant {
 // Returns the position t s after the start, exactly, under constant force and drag.
 glm::dvec3 exactAfter(const Scene& scene, const glm::dvec3& x, const glm::dvec3& v, double t) {
     const double gamma = scene.groups[0].drag.tangent;
-    const glm::dvec3 last = std::get<UniformField>(scene.fields[0].shape).velocity + scene.gravity / gamma;
+    const glm::dvec3 last = std::get<UniformField>(*scene.fields[0].shape).velocity + scene.gravity / gamma;
     return x + last * t + (v - last) * (-std::expm1(-gamma * t) / gamma);
 }
 

@@ -15,7 +15,7 @@
 
 #include "bench/bench.h"
 #include "bench/runner.h"
-#include "measure/statistics.h"
+#include "measure/timing.h"
 #include "scene/emitter.h"
 #include "scene/particle.h"
 #include "sort/sorter.h"

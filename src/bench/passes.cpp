@@ -1,17 +1,15 @@
-#include "bench/passes.h"
+#include "bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "gpu/gl.h"
-#include "measure/pin_threads.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using measure::Clock, measure::secondsSince;
 
 constexpr int leastRounds = 3, mostRounds = 15;
 
@@ -26,7 +24,7 @@ void frame(Run& run) {
     const Clock::time_point start = Clock::now();
     run.simulation->frame();
     glFinish();
-    run.frames.push_back(std::chrono::duration<double>(Clock::now() - start).count());
+    run.frames.push_back(secondsSince(start));
 }
 
 Run makeRun(const PassTable& table, const BenchMolecules& molecules, const BenchDevice& device) {
@@ -65,7 +63,7 @@ std::vector<PassTable> measurePasses(const BenchMolecules& molecules, const Benc
     measure::pinRasteriserThreads();
     const Clock::time_point start = Clock::now();
     for (int round = 0; round < mostRounds; ++round) {
-        const double spent = std::chrono::duration<double>(Clock::now() - start).count();
+        const double spent = secondsSince(start);
         if (round >= leastRounds && spent > seconds) break;
         progress(std::min(1.0, std::max(spent / seconds, double(round) / mostRounds)));
         for (Run& run : runs)

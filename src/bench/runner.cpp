@@ -3,8 +3,7 @@
 #include <cstring>
 
 #include "bench/baseline_threads.h"
-#include "gpu/barrier.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "gpu/program.h"
 #include "simulate/simulation.h"
@@ -103,7 +102,7 @@ class KernelCopy : public BufferCopy {
         options.compute = "bench/copy.comp";
         options.label = "copy";
         options.defines = {concat("LANES ", lanesOfGroup)};
-        if (device.context->info().software) options.defines.emplace_back("PAIRED_STORES");
+        if (device.context->info().software) options.defines.emplace_back("SOFTWARE");
         program_ = gpu::Program(*device.context, device.shaderRoot, options);
         for (size_t i = 0; i < 2; ++i)
             textures_[i] = gpu::BufferTexture(*device.context, sides_[i], "copy");

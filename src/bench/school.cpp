@@ -1,22 +1,16 @@
-#include "bench/school.h"
+#include "bench/bench.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 
-#include "measure/pin_threads.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using measure::Clock, measure::secondsSince;
 
 class Entrant {
   public:
@@ -39,7 +33,7 @@ class Entrant {
         for (int i = 0; i < frames; ++i)
             simulation_.frame();
         simulation_.check();  // waits
-        samples_.push_back(since(start) / frames);
+        samples_.push_back(secondsSince(start) / frames);
     }
     SchoolTimes finish() {
         result.frame = measure::spreadOf(samples_);

@@ -1,11 +1,10 @@
-#include "bench/search.h"
+#include "bench/collide.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
 
-#include "measure/pin_threads.h"
 #include "reference/sphere_contact.h"
 #include "simulate/simulation.h"
 

@@ -1,7 +1,6 @@
 #include "bench/sort.h"
 
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <random>
 
@@ -13,7 +12,7 @@ namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using measure::Clock, measure::secondsSince;
 using Pairs = std::vector<KeyIndex>;
 
 // One case, made once and run in turn with the others.
@@ -140,11 +139,7 @@ std::vector<Running> runnersOf(int side, const SortBenchDevice& device, const Pa
 double timed(SortRunner& runner) {
     const Clock::time_point start = Clock::now();
     runner.run();
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-double secondsSince(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return secondsSince(start);
 }
 
 // A first run of each, not counted: it finds what a visit costs, and whether the sort sorts.

@@ -13,7 +13,7 @@
 #include "bench/bench.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
-#include "measure/statistics.h"
+#include "measure/timing.h"
 #include "sort/sorter.h"
 
 namespace shoal::bench {

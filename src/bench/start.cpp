@@ -1,8 +1,7 @@
-#include "bench/start.h"
+#include "bench/bench.h"
 
 #include <stdlib.h>
 
-#include <chrono>
 #include <filesystem>
 #include <random>
 
@@ -13,11 +12,7 @@ namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double since(Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-}
+using measure::Clock, measure::secondsSince;
 
 class ScratchFolder {
   public:
@@ -47,7 +42,7 @@ double firstFrame(const Plan& plan, const BenchDevice& device, gpu::ProgramCache
     Simulation simulation(*device.context, device.shaderRoot, std::move(own), options);
     simulation.frame();
     glFinish();
-    return since(start);
+    return secondsSince(start);
 }
 
 // A molecule of a slightly different shape, which no cache has seen: its rest lengths are the kernel's
@@ -80,7 +75,7 @@ std::vector<StartTime> measureStart(const BenchMolecules& molecules, const Bench
         const Scene scene = benchScene(like, unseen(molecules.of(one.molecule)));
         const Clock::time_point start = Clock::now();
         const Plan plan = compile(scene);
-        one.compile = since(start);
+        one.compile = secondsSince(start);
         const ScratchFolder folder;
         gpu::ProgramCache cache(*device.context, folder.path.string());
         one.cold = firstFrame(plan, device, &cache);

@@ -1,14 +1,13 @@
-#include "bench/uberflow.h"
+#include "bench/collide.h"
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <random>
 
 #include "gpu/gl.h"
-#include "measure/pin_threads.h"
+#include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 #include "sort/sorter.h"
 
@@ -16,8 +15,8 @@ namespace shoal::bench {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
 using glm::vec3;
+using measure::Clock, measure::secondsSince;
 
 constexpr double frameRate = 60, gamma = 1, half = 4, radius = 0.01;
 
@@ -111,7 +110,7 @@ double timed(const std::function<void()>& work) {
     const Clock::time_point start = Clock::now();
     work();
     glFinish();
-    return std::chrono::duration<double>(Clock::now() - start).count();
+    return secondsSince(start);
 }
 
 std::vector<KeyIndex> randomKeys(int count, uint32_t mask) {
@@ -209,7 +208,7 @@ class Entrant {
         visit();
         const Clock::time_point begin = Clock::now();
         visit();
-        seconds = std::chrono::duration<double>(Clock::now() - begin).count();
+        seconds = secondsSince(begin);
         for (std::vector<double>* samples : {&motion_, &contact_, &sort_, &drawing_, &frame_})
             samples->clear();
     }

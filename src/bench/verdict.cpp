@@ -1,4 +1,4 @@
-#include "bench/verdict.h"
+#include "bench/bench.h"
 
 #include <algorithm>
 #include <cstdio>

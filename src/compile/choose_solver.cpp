@@ -7,6 +7,7 @@
 #include "compile/generate_forces.h"
 #include "compile/path.h"
 #include "molecule/analysis.h"
+#include "scene/force_kinds.h"
 
 namespace shoal {
 
@@ -71,7 +72,7 @@ void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
 std::optional<size_t> fastestByPlace(const std::vector<Force>& forces, const std::string& group) {
     std::optional<size_t> out;
     for (size_t i = 0; i < forces.size(); ++i) {
-        const ForceShape& shape = forces[i].shape;
+        const ForceShape& shape = *forces[i].shape;
         if (std::holds_alternative<ThrustForce>(shape) || std::holds_alternative<WindForce>(shape)) continue;
         if (actsOn(forces[i], group) && (!out || fastestRate(forces[i]) > fastestRate(forces[*out]))) out = i;
     }
@@ -86,7 +87,7 @@ std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group,
     const double rate = fastestRate(force), most = solver(group.solver).mostForced;
     if (rate * step <= most) return {};
     return concat("the force ", force.name.empty() ? "" : concat("\"", force.name, "\" "), "(",
-                  kindName(force.shape), ") turns \"", group.name, "\" by up to ", rate, " rad/s; ",
+                  kindName(*force.shape), ") turns \"", group.name, "\" by up to ", rate, " rad/s; ",
                   name(group.solver), " is stable up to a frequency times substep of ", most, ", here it is ",
                   rate * step);
 }

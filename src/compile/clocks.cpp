@@ -29,8 +29,8 @@ glm::vec2 frameAt(const FieldClock& clock, double time) {
 
 }  // namespace
 
-void setClocks(std::vector<glm::vec4>& parameters, const std::vector<FieldClock>& clocks, double time) {
-    for (const FieldClock& clock : clocks) {
+void setClocks(std::vector<glm::vec4>& parameters, const std::vector<ClockSlot>& clocks, double time) {
+    for (const ClockSlot& clock : clocks) {
         glm::vec4& out = parameters[clock.slot];
         switch (clock.kind) {
         case FieldClock::Kind::angle:

@@ -7,27 +7,18 @@
 
 #include <glm/glm.hpp>
 
-#include "scene/field.h"
+#include "scene/glsl_call.h"
 
 namespace shoal {
 
 struct Molecule;
 struct Spring;
 
-// One 4-vector of a field's parameters, renewed at the start of a frame at time t:
-//   angle    x: start + rate t, rad, less whole turns
-//   cells    rate t in cells of a lattice:  x: less whole ones;  y, z: the lower and the upper 16 bits of
-//   those frames   x: the frame of a sequence that was last passed;  y: s since then
-struct FieldClock {
-    enum class Kind { angle, cells, frames };
-    Kind kind = Kind::angle;
+// The clock of one of a plan's parameters.
+struct ClockSlot : FieldClock {
     size_t slot = 0;
-    double rate = 0;              // rad/s, or cells per s
-    double start = 0;             // rad
-    std::vector<double> times{};  // s, of frames
-    double period = 0;            // s, of frames that repeat; 0: they do not
 };
-void setClocks(std::vector<glm::vec4>& parameters, const std::vector<FieldClock>& clocks, double time);
+void setClocks(std::vector<glm::vec4>& parameters, const std::vector<ClockSlot>& clocks, double time);
 
 // The different frequencies of a molecule's muscles, Hz, and the place of a spring's among them.
 std::vector<double> muscleFrequencies(const Molecule& molecule);

@@ -9,6 +9,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <string>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -76,5 +78,11 @@ ContactGap largestGap(const Molecule& molecule, const GroupContact& contact);
 // Error (located at the group's contact): more spheres than 2^27, or than a label names; a radius that the
 // cell given does not hold.
 ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups);
+
+// Returns the generated file of contact/respond.comp and contact/respond.frag for a stage, a file of
+// shaders/contact.
+inline std::map<std::string, std::string> responseStage(const char* stage) {
+    return {{"generated/stage.glsl", concat("#include \"contact/", stage, ".glsl\"\n")}};
+}
 
 }  // namespace shoal

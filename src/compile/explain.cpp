@@ -2,8 +2,8 @@
 #include <sstream>
 
 #include "compile/path.h"
+#include "core/error.h"
 #include "core/json.h"
-#include "core/many.h"
 #include "core/printable.h"
 
 namespace shoal {
@@ -69,7 +69,7 @@ static void listBirths(std::ostringstream& out, const GroupPlan& group) {
     if (life.within) out << ", dies outside a box";
     if (life.afterContact) out << ", dies " << *life.afterContact << " s after contact";
     out << "; " << group.life->atStart << " of " << life.capacity << " places taken at the start\n";
-    if (!group.life->bears()) return;
+    if (!group.life->emits()) return;
     out << "  births   once a frame" << std::string(9, ' ') << "allocator " << name(life.allocator) << "\n";
     for (const Emitter& emitter : life.emitters) {
         out << "           from " << name(emitter.from);
@@ -104,8 +104,8 @@ static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& gr
         for (const GroupForces::One& one : *kind) {
             const Force& force = plan.forces[one.force];
             out.push_back(force.name.empty()
-                              ? kindName(force.shape)
-                              : concat(kindName(force.shape), " \"", printable(force.name), "\""));
+                              ? kindName(*force.shape)
+                              : concat(kindName(*force.shape), " \"", printable(force.name), "\""));
         }
     return out;
 }

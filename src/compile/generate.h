@@ -22,7 +22,7 @@ struct Generated {
 
 struct GeneratedFields : Generated {
     std::vector<size_t> weights;  // of each field: the parameter whose w is its weight
-    std::vector<FieldClock> clocks;
+    std::vector<ClockSlot> clocks;
 };
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor; time: since the
@@ -41,12 +41,12 @@ struct GeneratedColliders : Generated {
     std::optional<size_t> fastestSlot;  // setPoses
 };
 
-// For one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3
-// velocity, vec3 gravity, Drift drift) and float clearance(vec3 anchor, vec3 position): negative where
-// collideAll would respond; and their parts, vec4 surfaceAt(vec3 anchor, vec3 position) and Contact
-// answerTo(vec4 surface, vec3 position, vec3 velocity, vec3 gravity, Drift drift). For all else, with
-// JOINT_CONTACT defined, those of shaders/step/joint_contact.glsl; what uniforms have no room for goes into
-// the samples (compile/collider_table.h).
+// float clearance(vec3 anchor, vec3 position, float time): m from the nearest surface, negative inside. For
+// one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3 velocity,
+// vec3 gravity, Drift drift), which responds where that is negative, and its parts, vec4 surfaceAt(vec3
+// anchor, vec3 position) and Contact answerTo(vec4 surface, vec3 position, vec3 velocity, vec3 gravity, Drift
+// drift). For all else, with JOINT_CONTACT defined, those of shaders/step/joint_contact.glsl; what uniforms
+// have no room for goes into the samples (compile/collider_table.h).
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders, std::vector<glm::vec4>& samples);
 
 // The declaration of a uniform array, and for the fused step (FUSED) its copy in registers:

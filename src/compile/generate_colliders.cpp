@@ -1,7 +1,3 @@
-// Adding a collider: its struct in scene/scene.h, its distance in shaders/physics/solid.glsl, one overload of
-// `emit` here, its reader in scene/json/colliders.cpp, its double-precision twin in reference/colliders.cpp,
-// one test.
-//
 // A scene with a single plane or height field that stands still asks for it at the end of every substep. Any
 // other has contact with all at once (shaders/step/joint_contact.glsl).
 #include <algorithm>
@@ -188,7 +184,8 @@ std::string sourceOfOne(const Text& text) {
         "Drift ",
         "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, gravity, "
         "drift);\n}\n\n",
-        "float clearance(vec3 anchor, vec3 position)\n{\n    return surfaceAt(anchor, position).w;\n}\n");
+        "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return surfaceAt(anchor, "
+        "position).w;\n}\n");
 }
 
 class Joint {
@@ -262,13 +259,16 @@ class Joint {
     std::string source(const GeneratedColliders& out, const std::string& fastest) const {
         return concat(
             "#define JOINT_CONTACT\n", swept_ ? "#define SWEPT\n" : "",
-            out.moving.empty() ? "" : "#define MOVING_COLLIDERS\n", table_.empty() ? "" : "#define TABLED\n",
             "#include \"physics/collide.glsl\"\n#include \"step/surfaces.glsl\"\n",
             "#include \"step/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
-            "#ifdef TABLED\nvec2 materialAt(int index)\n{\n#ifdef FUSED\n",
-            "    return givenColliderParameters[index].xy;\n#else\n    return "
-            "colliderParameters[index].xy;\n",
-            "#endif\n}\n#endif\n\n",
+            "const bool collidersMove = ", out.moving.empty() ? "false" : "true", ";\n\n",
+            "// Restitution and friction.\nvec2 materialOf(Touch t)\n{\n",
+            table_.empty() ? ""
+                           : "    // of a collider in the table: -1 - the uniform's index\n"
+                             "    int index = int(-0.5 - t.material.x);\n#ifdef FUSED\n"
+                             "    if (t.material.x < 0.0) return givenColliderParameters[index].xy;\n#else\n"
+                             "    if (t.material.x < 0.0) return colliderParameters[index].xy;\n#endif\n",
+            "    return t.material;\n}\n\n",
             "// m/s: no surface that is looked for on the way moves faster.\nfloat fastestSurface()\n{\n",
             "    return ", fastest, ";\n}\n\n",
             "// m: x from the nearest surface of all, y of those that are looked for on the way, less the\n",
@@ -277,6 +277,8 @@ class Joint {
             "    Contact c = Contact(position, vec3(0.0));\n    vec4 surface;\n    vec2 least = "
             "vec2(1e30);\n",
             clearances_, "    return vec2(min(least.x, least.y), least.y);\n}\n\n",
+            "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return clearances(anchor, "
+            "position, time).x;\n}\n\n",
             "// Nearest and first: of all but those whose numbers are skip.xy.\n",
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",

@@ -168,6 +168,21 @@ class EmitterText {
     std::vector<glm::vec4>* samples_;
 };
 
+const char* rotationText(Placement::Turn turn) {
+    switch (turn) {
+    case Placement::Turn::any:
+        return "    return anyRotation(drawn(seed, bornTurn), drawn(seed, bornTurn + 1u), drawn(seed, "
+               "bornTurn "
+               "+ 2u));\n";
+    case Placement::Turn::yaw:
+        return "    float angle = 3.14159265 * drawn(seed, bornTurn);\n"
+               "    return vec4(0.0, sin(angle), 0.0, cos(angle));\n";
+    case Placement::Turn::none:
+        break;
+    }
+    return "    return vec4(0.0, 0.0, 0.0, 1.0);\n";
+}
+
 }  // namespace
 
 glm::dvec3 middleOf(const Emitter& emitter) {
@@ -201,7 +216,8 @@ std::string generateEmitters(const Scene& scene, const Lifecycle& life,
         "= 0.0;\n",
         lengths,
         "}\n\nvoid emitFrom(int emitter, uint seed, float time, Source source, out Start start)\n{\n",
-        "    start = Start(vec3(0.0), vec3(0.0), vec3(0.0));\n", body, "}\n");
+        "    start = Start(vec3(0.0), vec3(0.0), vec3(0.0));\n", body, "}\n\nvec4 newbornRotation()\n{\n",
+        rotationText(life.turn), "}\n");
 }
 
 std::vector<glm::dvec3> emitterMiddles(const Scene& scene, const Lifecycle& life) {

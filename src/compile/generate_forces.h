@@ -1,5 +1,5 @@
 // The forces that act on a group as straight-line GLSL. Their numbers are uniforms, renewed every frame
-// (simulate/force_parameters.h), so that neither a path nor the mouse nor a slider compiles anything. What
+// (simulate/step.h), so that neither a path nor the mouse nor a slider compiles anything. What
 // does not act on the group is not in its text.
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace shoal {
 
 struct GroupForces {
-    // generated/scene_forces.glsl, of those functions that are needed; empty: nothing acts.
+    // generated/scene_forces.glsl, of those functions that are needed.
     //   vec3 forceAcceleration(vec3 anchor, vec3 position)    m/s^2, of attract and vortexLine
     //   vec3 thrustedVelocity(vec3 velocity, bool whole)      after a substep or half of one
     //   vec3 thrustedOver(vec3 velocity, float time)          after any time, s
-    //   vec3 forceWind()                                      m/s
+    //   vec3 withWind(vec3 velocity)                          m/s, of the fluid; always
     std::string source;
     struct One {
         size_t force = 0;  // its index in the scene

@@ -7,6 +7,7 @@
 #include "compile/corotated.h"
 #include "compile/generate.h"
 #include "compile/glsl_text.h"
+#include "compile/group_state.h"
 #include "compile/muscle_waves.h"
 #include "compile/school_plan.h"
 #include "core/error.h"
@@ -285,6 +286,14 @@ std::string packingText(const Molecule& molecule, const Needs& needs, bool histo
 }
 
 }  // namespace
+
+std::vector<std::string> BufferLayout::defines() const {
+    std::vector<std::string> out = {concat("BLOCK ", block), concat("POSITION_ELEMENTS ", positionElements()),
+                                    concat("STATE_ELEMENTS ", stateElements())};
+    if (history) out.insert(out.end(), {"HISTORY", concat("NO_HISTORY ", glslLiteral(noHistory))});
+    if (life) out.emplace_back("LIFE");
+    return out;
+}
 
 std::vector<glm::vec4> springNumbers(const Molecule& molecule) {
     std::vector<glm::vec4> out;

@@ -51,6 +51,8 @@ struct BufferLayout {
     // Age and life take what the last 4-vectors of positions and of velocities leave free (their w), else the
     // x and y of one more at the end.
     bool lifeApart() const { return life && vertexCount % 4 == 0; }
+    // Returns what a shader that reads or writes it needs (shaders/state/packed.glsl).
+    std::vector<std::string> defines() const;
     // Returns the index of the 4-vector e of molecule m, with `elements` a molecule.
     static size_t index(size_t m, int e, int elements) {
         return m / block * block * size_t(elements) + size_t(e) * block + m % block;

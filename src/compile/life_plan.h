@@ -31,7 +31,7 @@ struct LifePlan {
     std::string source;           // generated/emitters.glsl
     std::vector<glm::dvec3> middles;  // m, of the emitters, without their paths
 
-    bool bears() const { return !cycle.emitters.empty(); }
+    bool emits() const { return !cycle.emitters.empty(); }
 };
 
 }  // namespace shoal

@@ -23,9 +23,7 @@ SplitPoint splitPoint(const glm::dvec3& point) {
 }
 
 bool isFar(const Force& force) {
-    const glm::dvec3* own = nullptr;
-    if (const auto* attract = std::get_if<AttractForce>(&force.shape)) own = &attract->position;
-    if (const auto* line = std::get_if<VortexLineForce>(&force.shape)) own = &line->position;
+    const std::optional<glm::dvec3> own = placeOf(*force.shape);
     if (!own) return false;
     bool far = force.mouse || splitPoint(*own).isFar();
     if (force.path)

@@ -15,8 +15,8 @@ struct SplitPoint {
     bool isFar() const { return lattice != glm::dvec3(0); }
 };
 SplitPoint splitPoint(const glm::dvec3& point);
-// Whether a place of the force has both parts, the lattice point as the last of its parameters: because some
-// of its path would lose by one float, or because the mouse may hold it anywhere.
+// Whether a place of the force has both parts: because some of its path would lose by one float, or because
+// the mouse may hold it anywhere.
 bool isFar(const Force& force);
 
 // The length of life of what has this seed, s (shaders/particles/emit.glsl).

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "compile/corotated.h"
-#include "core/many.h"
+#include "core/error.h"
 
 namespace shoal {
 

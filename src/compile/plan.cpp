@@ -9,8 +9,10 @@
 #include "compile/muscle_limits.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
-#include "core/many.h"
+#include "core/error.h"
 #include "core/random.h"
+#include "scene/field_kinds.h"
+#include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal {
@@ -126,7 +128,7 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
 // The allocators on the CPU know of no death but of age.
 void warnOfBooks(Plan& plan) {
     for (const GroupPlan& group : plan.groups) {
-        if (!group.life || !group.life->bears()) continue;
+        if (!group.life || !group.life->emits()) continue;
         const Lifecycle& life = group.life->cycle;
         const bool booked = life.allocator == Allocator::stack || life.allocator == Allocator::heap;
         if (booked && life.life.y >= longestLife && (life.within || life.afterContact))
@@ -150,7 +152,7 @@ void planLives(const Scene& scene, Plan& plan) {
             layouts.push_back(from == LifePlan::noSource ? BufferLayout{} : plan.groups[from].layout());
             if (from != LifePlan::noSource) plan.groups[from].life->feeds = true;
         }
-        if (!group.life->bears()) continue;
+        if (!group.life->emits()) continue;
         group.life->source = generateEmitters(scene, group.life->cycle, layouts, plan.samples);
         group.life->middles = emitterMiddles(scene, group.life->cycle);
     }
@@ -235,7 +237,7 @@ void warnOfGaps(const Scene& scene, Plan& plan) {
 void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& plan,
                     std::vector<Warning>& warnings) {
     const bool wind = std::any_of(scene.forces.begin(), scene.forces.end(), [&](const Force& force) {
-        return std::holds_alternative<WindForce>(force.shape) && actsOn(force, group.name);
+        return std::holds_alternative<WindForce>(*force.shape) && actsOn(force, group.name);
     });
     if (plan.needs.drag || group.velocity != glm::dvec3(0) || (scene.fields.empty() && !wind)) return;
     warnings.push_back({group.location, concat("\"", plan.name, "\" has no \"drag\", through which ",
@@ -350,10 +352,10 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldCount = scene.fields.size();
     plan.colliderCount = scene.colliders.size();
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        const WavesField* waves = std::get_if<WavesField>(&field.shape);
-        return (waves && waves->trains.size() > 4) || std::holds_alternative<GustField>(field.shape) ||
-               std::holds_alternative<CurlNoiseField>(field.shape) ||
-               std::holds_alternative<GridField>(field.shape);
+        const WavesField* waves = std::get_if<WavesField>(&*field.shape);
+        return (waves && waves->trains.size() > 4) || std::holds_alternative<GustField>(*field.shape) ||
+               std::holds_alternative<CurlNoiseField>(*field.shape) ||
+               std::holds_alternative<GridField>(*field.shape);
     });
     if (any(&Needs::fields)) {
         fields = generateFields(scene.fields, plan.samples);

@@ -114,7 +114,7 @@ struct Plan {
     std::string collideSource;  // generated/colliders.glsl
     std::vector<glm::vec4> fieldParameters;
     std::vector<size_t> fieldWeights;             // of each field: the parameter whose w is its weight
-    std::vector<FieldClock> fieldClocks;          // their parameters are renewed every frame
+    std::vector<ClockSlot> fieldClocks;           // their parameters are renewed every frame
     size_t colliderParameterCount = 0;            // of each group that collides
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses

@@ -1,8 +1,10 @@
 #include "core/cache_folder.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
+#include <utility>
+#include <vector>
 
 namespace shoal {
 
@@ -35,6 +37,25 @@ std::string contentKey(std::string_view bytes) {
     std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(fnv(bytes)),
                   static_cast<unsigned long long>(backwards));
     return digits;
+}
+
+void touchFile(const fs::path& file) {
+    std::error_code code;
+    fs::last_write_time(file, fs::file_time_type::clock::now(), code);
+}
+
+void keepNewest(const fs::path& folder, const char* extension, size_t kept) {
+    std::vector<std::pair<fs::file_time_type, fs::path>> files;
+    std::error_code code;
+    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
+        std::error_code gone;
+        const fs::file_time_type time = entry->last_write_time(gone);
+        if (!gone && entry->path().extension() == extension) files.emplace_back(time, entry->path());
+    }
+    if (files.size() <= kept) return;
+    std::sort(files.begin(), files.end());
+    for (size_t i = 0; i < files.size() - kept; ++i)
+        fs::remove(files[i].second, code);
 }
 
 }  // namespace shoal

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 
@@ -16,5 +17,10 @@ std::string contentKey(std::string_view bytes);
 // FNV-1a of 64 bits: tells a damaged file.
 constexpr uint64_t fnvStart = 14695981039346656037ull;
 uint64_t fnv(std::string_view bytes, uint64_t hash = fnvStart);
+
+// Marks a file as used now, and keeps only the `kept` files of this extension that were used last. Another
+// process may do the same at the same time: what has gone already is no mistake.
+void touchFile(const std::filesystem::path& file);
+void keepNewest(const std::filesystem::path& folder, const char* extension, size_t kept);
 
 }  // namespace shoal

@@ -9,14 +9,6 @@ namespace {
 
 using Kind = Key::Kind;
 
-const void* at(const Key& key, const void* object) {
-    return key.member.look(static_cast<const char*>(object) + key.member.offset);
-}
-
-void* memberOf(const Key& key, void* object) {
-    return static_cast<char*>(object) + key.member.offset;
-}
-
 template <typename T>
 const T& held(const void* value) {
     return *static_cast<const T*>(value);
@@ -24,7 +16,7 @@ const T& held(const void* value) {
 
 template <typename T>
 T& made(const Key& key, void* object) {
-    return *static_cast<T*>(key.member.make(memberOf(key, object)));
+    return *static_cast<T*>(key.member.make(key.place(object)));
 }
 
 // A value is read on its own before an optional member is made, which a file that says nothing leaves empty.
@@ -51,7 +43,7 @@ void checkNumbers(const Key& key, const glm::vec<N, double>& value, Range range,
 
 JsonValue Description::usualValue(const Key& key) const {
     const bool plain = key.kind != Kind::byHand && key.kind != Kind::variant && key.kind != Kind::object;
-    const bool empty = key.kind == Kind::text && held<std::string>(at(key, usual_)).empty();
+    const bool empty = key.kind == Kind::text && held<std::string>(key.value(usual_)).empty();
     return plain && !empty && key.usual.empty() ? writeKey(key, usual_, nullptr, nullptr) : JsonValue();
 }
 
@@ -64,7 +56,7 @@ const Key* Description::find(const std::string& name) const {
 const Condition* Description::unmet(const Key& key, const void* object) const {
     for (const Condition& condition : key.only) {
         const Key& other = *find(condition.key);
-        const void* value = at(other, unmet(other, object) ? usual_ : object);
+        const void* value = other.value(unmet(other, object) ? usual_ : object);
         std::string says;
         if (value && other.kind == Kind::word) says = other.words[size_t(other.member.index(value))];
         if (value && other.kind == Kind::flag) says = held<bool>(value) ? "true" : "false";
@@ -80,34 +72,23 @@ const Condition* Description::unmet(const Key& key, const void* object) const {
 // The numbers of a value.
 static std::vector<double> numbersOf(const Key& key, const void* value) {
     if (!value) return {};
-    switch (key.kind) {
-    case Kind::number:
-        return {held<double>(value)};
-    case Kind::whole:
-        return {double(held<int>(value))};
-    case Kind::vector2:
-    case Kind::span:
-    case Kind::ends:
-        return {held<glm::dvec2>(value).x, held<glm::dvec2>(value).y};
-    case Kind::vector3: {
-        const auto& v = held<glm::dvec3>(value);
-        return {v.x, v.y, v.z};
-    }
-    case Kind::box: {
-        const Box& b = held<Box>(value);
-        return {b.low.x, b.low.y, b.low.z, b.high.x, b.high.y, b.high.z};
-    }
-    default:
-        return {};
-    }
+    if (key.kind == Kind::whole) return {double(held<int>(value))};
+    const bool two = key.kind == Kind::vector2 || key.kind == Kind::span || key.kind == Kind::ends;
+    const size_t count = key.kind == Kind::number    ? 1
+                         : two                       ? 2
+                         : key.kind == Kind::vector3 ? 3
+                         : key.kind == Kind::box     ? 6
+                                                     : 0;
+    const auto* first = static_cast<const double*>(value);
+    return {first, first + count};
 }
 
 Slider sliderOf(const Key& key, const void* object) {
     const Range& range = key.says.range;
     Slider out = key.says.slider;
     double largest = 0;
-    for (const double number : numbersOf(key, at(key, object)))
-        if (std::abs(number) < 1e15) largest = std::max(largest, std::abs(number));
+    for (const double number : numbersOf(key, key.value(object)))
+        if (std::abs(number) < largestNumber) largest = std::max(largest, std::abs(number));
     if (out.least == out.most) {
         const bool place = key.kind == Kind::vector3 || key.kind == Kind::box;
         out.most = place ? 1000 : largest > 0 ? 5 * largest : 1;
@@ -115,14 +96,22 @@ Slider sliderOf(const Key& key, const void* object) {
         out.least = out.steep ? out.most / 1000 : std::isfinite(range.least) ? range.least : -out.most;
         if (std::isfinite(range.most)) out.most = range.most;
     }
-    for (const double number : numbersOf(key, at(key, object))) {
-        if (!(std::abs(number) < 1e15)) continue;
+    for (const double number : numbersOf(key, key.value(object))) {
+        if (!(std::abs(number) < largestNumber)) continue;
         out.least = std::min(out.least, number < 0 ? 4 * number : number);
         out.most = std::max(out.most, 4 * number);
     }
     out.least = std::max(out.least, key.unlessZero ? 0 : range.least);
     out.most = std::min(out.most, range.most);
     return out;
+}
+
+void Description::readFileAny(const JsonValue& root, const std::string& file, void* out,
+                              void* context) const {
+    JsonReader reader(root, file);
+    needFormat(reader, format_);
+    readAny(reader, out, context);
+    reader.finish();
 }
 
 void Description::readAny(JsonReader& reader, void* out, void* context) const {
@@ -136,7 +125,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
         if (key.needed) reader.require(key.name);
         readKey(key, reader, out, context);
     }
-    if (derive_) derive_(out, reader);
+    if (derive_) derive_(out, reader, context);
     if (rule_) rule_(out, reader);
 }
 
@@ -198,7 +187,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
                          [&](glm::dvec3& value) { return r.get(name, value, range); });
     case Kind::ends: {
         const JsonValue* given = r.raw(name);
-        glm::dvec2& value = *static_cast<glm::dvec2*>(memberOf(key, object));
+        glm::dvec2& value = *static_cast<glm::dvec2*>(key.place(object));
         if (given && given->kind == JsonValue::Kind::number)
             r.get(name, value.y, range);
         else
@@ -214,27 +203,27 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         return readValue(key, object, glm::dquat(),
                          [&](glm::dquat& value) { return getRotation(r, name, value); });
     case Kind::word: {
-        int index = key.member.index(at(key, object));
-        if (r.choose(name, key.words, index)) key.member.choose(memberOf(key, object), index);
+        int index = key.member.index(key.value(object));
+        if (r.choose(name, key.words, index)) key.member.choose(key.place(object), index);
         return;
     }
     case Kind::variant: {
         int index = 0;
         r.choose(name, key.words, index);
-        void* alternative = key.member.choose(memberOf(key, object), index);
+        void* alternative = key.member.choose(key.place(object), index);
         return key.objects[size_t(index)]->readAny(r, alternative, context);
     }
     case Kind::object: {
         std::optional<JsonReader> inner = r.object(name);
         if (!inner) return;
-        key.objects[0]->readAny(*inner, key.member.make(memberOf(key, object)), context);
+        key.objects[0]->readAny(*inner, key.member.make(key.place(object)), context);
         return inner->finish();
     }
     case Kind::list:
         if (!r.has(name)) return void(r.raw(name));
-        key.member.clear(key.member.make(memberOf(key, object)));
+        key.member.clear(key.member.make(key.place(object)));
         for (JsonReader& inner : r.objects(name)) {
-            void* element = key.member.append(key.member.make(memberOf(key, object)));
+            void* element = key.member.append(key.member.make(key.place(object)));
             key.objects[0]->readAny(inner, element, context);
             inner.finish();
         }
@@ -246,14 +235,17 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
 
 void Description::readSomeAny(std::initializer_list<const char*> names, JsonReader& reader, void* out,
                               void* context) const {
-    for (const char* name : names)
+    for (const char* name : names) {
+        EXPECTS(find(name));
         readKey(*find(name), reader, out, context);
+    }
 }
 
 JsonValue Description::writeSomeAny(std::initializer_list<const char*> names, const void* object,
                                     const void* context) const {
     JsonValue out = JsonValue::makeObject();
     for (const char* name : names) {
+        EXPECTS(find(name));
         JsonValue value = writeKey(*find(name), object, usual_, context);
         if (value.kind != JsonValue::Kind::null) out.add(name, std::move(value));
     }
@@ -263,8 +255,9 @@ JsonValue Description::writeSomeAny(std::initializer_list<const char*> names, co
 // Whether a number is as where the key is left out, which need not be one that a file can say: for ever.
 bool Description::isUsual(const Key& key, const void* object) const {
     if (key.needed || key.member.optional) return false;
-    if (key.kind == Kind::number) return held<double>(at(key, object)) == held<double>(at(key, usual_));
-    if (key.kind == Kind::span) return held<glm::dvec2>(at(key, object)) == held<glm::dvec2>(at(key, usual_));
+    if (key.kind == Kind::number) return held<double>(key.value(object)) == held<double>(key.value(usual_));
+    if (key.kind == Kind::span)
+        return held<glm::dvec2>(key.value(object)) == held<glm::dvec2>(key.value(usual_));
     return false;
 }
 
@@ -275,8 +268,7 @@ void Description::checkAny(const void* object, const Where& where, double larges
 }
 
 void Description::checkKey(const Key& key, const void* object, const Where& where, double largest) {
-    if (key.kind == Kind::byHand) return;
-    const void* value = at(key, object);
+    const void* value = key.kind == Kind::byHand ? nullptr : key.value(object);
     if (!value) return;
     const Range range = key.says.range;
     switch (key.kind) {
@@ -331,12 +323,7 @@ void Description::checkKey(const Key& key, const void* object, const Where& wher
         for (size_t i = 0; i < key.member.count(value); ++i)
             key.objects[0]->checkAny(key.member.element(value, i), where.in(key.name.c_str(), i), largest);
         return;
-    case Kind::seed:
-    case Kind::longSeed:
-    case Kind::flag:
-    case Kind::text:
-    case Kind::texts:
-    case Kind::byHand:
+    default:
         return;
     }
 }
@@ -345,7 +332,7 @@ void Description::writeAny(const void* object, JsonValue& out, const void* conte
     for (const Key& key : keys_) {
         if (unmet(key, object)) continue;
         if (key.kind == Kind::variant) {
-            const void* variant = at(key, object);
+            const void* variant = key.value(object);
             const Description& held = *key.objects[size_t(key.member.index(variant))];
             out.add(key.name, JsonValue::makeString(held.name()));
             held.writeAny(key.member.held(variant), out, context);
@@ -360,9 +347,9 @@ void Description::writeAny(const void* object, JsonValue& out, const void* conte
 JsonValue Description::writeKey(const Key& key, const void* object, const void* usual, const void* context) {
     if (key.write) return key.write(object, context);
     if (key.kind == Kind::byHand) return {};
-    const void* value = at(key, object);
+    const void* value = key.value(object);
     if (!value) return {};
-    const void* unless = usual ? at(key, usual) : nullptr;
+    const void* unless = usual ? key.value(usual) : nullptr;
     const auto unlessSame = [&]<typename T>(const T& now, auto make) {
         return unless && now == held<T>(unless) ? JsonValue() : make(now);
     };

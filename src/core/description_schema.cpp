@@ -377,6 +377,25 @@ std::string usualText(const Key& key, const Description& of) {
     return out;
 }
 
+std::string kindsOf(const Description& description) {
+    constexpr size_t most = 7;  // keys in a row
+    std::string out = "| word | what it is | keys (default) |\n|---|---|---|\n";
+    for (const Key& variant : description.keys())
+        for (const Description* kind :
+             variant.kind == Kind::variant ? variant.objects : decltype(variant.objects)()) {
+            std::string keys;
+            for (const Key& key : kind->keys()) {
+                const std::string usual = usualText(key, *kind);
+                keys += concat(keys.empty() ? "" : ", ", "`", key.name, "`",
+                               key.says.unit.empty() ? "" : " " + key.says.unit,
+                               usual == "none" ? "" : concat(" (", usual, ")"));
+            }
+            out += concat("| `", kind->name(), "` | ", kind->sentence(), " | ",
+                          kind->keys().size() > most ? "below" : keys, " |\n");
+        }
+    return out;
+}
+
 std::string tableOf(const Description& description) {
     std::string out = "| key | type, unit | default | meaning |\n|---|---|---|---|\n";
     for (const Key& key : description.keys())

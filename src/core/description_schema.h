@@ -16,6 +16,9 @@ std::string schemaFile(const Description& description, const std::string& id, co
 // A table in Markdown, a row a key: name, type and unit, default, meaning.
 std::string tableOf(const Description& description);
 
+// The alternatives of its variant, a row each: the word, what it is, its keys with their defaults.
+std::string kindsOf(const Description& description);
+
 // "vector, m", "0 to 1", "\"none\", \"yaw\" or \"any\""; and what holds where the key is left out, such as
 // "0.5", "required" or "none".
 std::string typeText(const Key& key);

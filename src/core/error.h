@@ -6,6 +6,7 @@
 // else. Nothing half-built survives: every writer finishes under a temporary name first (core/file.h).
 #pragma once
 
+#include <cstdint>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -53,6 +54,11 @@ std::string concat(const Parts&... parts) {
     std::ostringstream out;
     (out << ... << parts);
     return out.str();
+}
+
+// Counts in messages: "1 spring", "2 springs".
+inline std::string many(int64_t count, const char* one, const char* several) {
+    return std::to_string(count) + " " + (count == 1 ? one : several);
 }
 
 // The candidate nearest to `word` by edit distance, or empty when none is near enough to be a misspelling.

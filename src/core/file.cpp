@@ -7,9 +7,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "core/error.h"
-#include "core/sandbox.h"
-
 namespace shoal {
 
 namespace fs = std::filesystem;

@@ -1,4 +1,5 @@
-// Reading and writing whole files, with errors that say what to do.
+// Reads and writes whole files, with errors that say what to do. Sources: file.cpp; part_file.cpp for files
+// that are not whole yet; sandbox.cpp for which files may be opened.
 #pragma once
 
 #include <sys/types.h>
@@ -13,7 +14,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "core/part_file.h"
 
 namespace shoal {
 
@@ -34,6 +34,19 @@ void checkWritable(const std::filesystem::path& path);
 // "a folder", "a FIFO", "a socket" or "a device", of what is no regular file.
 std::string kindOf(mode_t mode);
 
+// Which files may be opened: any, until a command asks to stay within some folders (`--sandbox`). That is a
+// setting of the process, asked where files are opened, so that no reader can forget it.
+//
+// From now on nothing outside these folders is opened; none: any file is again. What a link in them points to
+// counts as where it really is.
+void openOnlyWithin(const std::vector<std::filesystem::path>& folders);
+
+bool mayOpen(const std::filesystem::path& path);  // which need not exist
+// Error, located at the file, where it may not be opened.
+void refuseOutside(const std::filesystem::path& path);
+
+constexpr const char* outsideSandbox = "lies outside the scene's folder and the shipped data (--sandbox)";
+
 struct CloseFile {
     void operator()(std::FILE* file) const { std::fclose(file); }
 };
@@ -43,7 +56,7 @@ using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 class FileReader {
   public:
     // Error: no such file, unreadable, or no regular file: a FIFO would be waited for, and a device has no
-    // end; or it may not be opened (core/sandbox.h).
+    // end; or it may not be opened (refuseOutside).
     explicit FileReader(const std::filesystem::path& path);
     // The bytes that were there: fewer than asked for only at the end. Error: cannot be read.
     size_t read(void* data, size_t bytes);
@@ -53,6 +66,41 @@ class FileReader {
     Location location_;
     FilePointer file_;
 };
+
+// A file that is not whole yet, beside the one that it becomes: ".shoal-<process>-<name>".
+//
+// It goes with its object, and with a signal that ends the program (removePartFiles). What a killed process
+// left goes when another one first writes into that folder; a lock tells it from what is still written.
+class PartFile {
+  public:
+    // Makes missing folders. Through a link, into what it points to. Error: cannot be created, or what is
+    // there is no regular file, which cannot be replaced.
+    explicit PartFile(const std::filesystem::path& target);
+    ~PartFile();
+    PartFile(const PartFile&) = delete;
+    PartFile& operator=(const PartFile&) = delete;
+
+    const std::filesystem::path& path() const { return path_; }  // ends as the target does
+    int file() const { return file_; }                           // open for writing, as long as this lives
+    void replaceTarget();                                        // Error: cannot be renamed
+
+  private:
+    std::filesystem::path given_, target_, path_;
+    int file_ = -1, slot_ = -1;
+};
+
+// While it lives, no other process gets the same: for runs whose many files would mix.
+class SoleWriter {
+  public:
+    // Error: another process has it, or PartFile's.
+    explicit SoleWriter(const std::filesystem::path& target);
+
+  private:
+    PartFile part_;
+};
+
+// Removes all part files of this process; safe in a signal's handler.
+void removePartFiles() noexcept;
 
 // Without finish() nothing stays, and the old file is kept. What is no file but takes bytes (/dev/null, a
 // FIFO that somebody reads) is never replaced: they go there as they come.

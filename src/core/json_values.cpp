@@ -85,10 +85,6 @@ bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range 
     return true;
 }
 
-bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out) {
-    return reader.get(key, out, Range::atLeast(0));
-}
-
 JsonValue writeBox(const Box& box) {
     return JsonValue::makeObject()
         .add("low", JsonValue::makeVector(box.low))

@@ -35,7 +35,4 @@ JsonValue writeBox(const Box& box);
 bool getSpan(JsonReader& reader, const std::string& key, glm::dvec2& out, Range range);
 void checkSpan(const glm::dvec2& span, const Location& where);
 
-// Linear RGB: three numbers, at least 0.
-bool getColor(JsonReader& reader, const std::string& key, glm::dvec3& out);
-
 }  // namespace shoal

@@ -1,4 +1,4 @@
-#include "core/part_file.h"
+#include "core/file.h"
 
 #include <fcntl.h>
 #include <sys/file.h>
@@ -14,9 +14,6 @@
 #include <mutex>
 #include <optional>
 #include <set>
-
-#include "core/error.h"
-#include "core/file.h"
 
 namespace shoal {
 

@@ -62,9 +62,4 @@ uint32_t hash(uint32_t first, uint32_t second, uint32_t third, More... more) {
     return hash(hash(first, second), third, static_cast<uint32_t>(more)...);
 }
 
-// Uniform in [0, 1) from a hash.
-inline double uniformFrom(uint32_t bits) {
-    return bits / 4294967296.0;
-}
-
 }  // namespace shoal

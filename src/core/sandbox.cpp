@@ -1,8 +1,6 @@
-#include "core/sandbox.h"
+#include "core/file.h"
 
 #include <algorithm>
-
-#include "core/error.h"
 
 namespace shoal {
 

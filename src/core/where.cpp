@@ -39,6 +39,12 @@ bool Where::given(const std::string& key) const {
     return own && own->find(key);
 }
 
+double Where::number(const std::string& key, double fallback) const {
+    const JsonValue* own = value();
+    const JsonValue* inner = own ? own->find(key) : nullptr;
+    return inner ? inner->number : fallback;
+}
+
 void Where::require(const std::string& key) const {
     if (reader_) return reader_->require(key);
     if (root() && !given(key)) throw Error(here(), "missing key \"" + key + "\"");
@@ -47,6 +53,17 @@ void Where::require(const std::string& key) const {
 void needAtMost(const Where& where, const std::string& key, size_t count, size_t most) {
     if (count > most)
         throw Error(where.at(key), concat("expected at most ", most, " ", key, ", found ", count));
+}
+
+void needFormat(JsonReader& root, const std::string& expected) {
+    std::string format;
+    root.need("format", format);
+    if (format == expected) return;
+    const size_t number = expected.rfind('-') + 1;
+    const bool kin = format.compare(0, number, expected, 0, number) == 0 && format.size() > number &&
+                     format.find_first_not_of("0123456789", number) == std::string::npos;
+    throw Error(root.at("format"), concat("expected the format \"", expected, "\", found \"", format, "\"",
+                                          kin ? ": the file is of a newer version of Shoal" : ""));
 }
 
 }  // namespace shoal

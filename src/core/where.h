@@ -1,4 +1,4 @@
-// Where the keys of an object stand, and the limits of what they say.
+// Where the keys of an object stand, the limits of what they say, and the version of a file.
 #pragma once
 
 #include <string>
@@ -18,8 +18,9 @@ class Where {
 
     Location at(const std::string& key) const;
     Location here() const;
-    bool given(const std::string& key) const;    // the file has the key; of what was made in code: false
-    void require(const std::string& key) const;  // Error: the file has it not
+    bool given(const std::string& key) const;  // the file has the key; of what was made in code: false
+    double number(const std::string& key, double fallback) const;  // that the file gives
+    void require(const std::string& key) const;                    // Error: the file has it not
 
   private:
     static constexpr size_t none = size_t(-1);
@@ -40,5 +41,9 @@ void needWithin(const Location& where, double number, Range range);
 void needWithin(const Location& where, int number, Range range);
 // Error: too many.
 void needAtMost(const Where& where, const std::string& key, size_t count, size_t most);
+
+// The key "format", such as "shoal-scene-1". Error: missing or another, with the one that is read; that of a
+// newer version is told as such.
+void needFormat(JsonReader& root, const std::string& expected);
 
 }  // namespace shoal

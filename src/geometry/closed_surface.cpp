@@ -1,10 +1,9 @@
-#include "geometry/closed_surface.h"
+#include "geometry/mesh.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "core/error.h"
-#include "core/many.h"
 
 namespace shoal {
 

@@ -1,20 +1,16 @@
-// Everything inside is in units of the mesh's longest side about its middle, so that tiny, huge and far
-// meshes are alike to Embree's floats.
+// Everything inside is in the hierarchy's units.
 #include "geometry/closest_point.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "core/error.h"
 #include "geometry/embree.h"
 
 namespace shoal {
 
 namespace {
 
-// Bounds the rounding of floats in [-1, 1], with room: the traversal looks this much further.
-constexpr double looseness = 1e-6;
 // Triangles are as near as one another within this.
 constexpr double alike = 1e-12;
 
@@ -57,20 +53,10 @@ float above(double distance) {
 
 }  // namespace
 
-struct ClosestPoints::Tree {
-    glm::dvec3 middle{0};
-    double size = 1;  // m, of the unit
+struct ClosestPoints::Tree : Hierarchy {
+    using Hierarchy::Hierarchy;
     std::vector<Corners> triangles;
     std::vector<glm::dvec3> normals;  // unit, or 0 without an area
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
-
-    glm::dvec3 toUnits(const glm::dvec3& x) const { return (x - middle) / size; }
-
-    ~Tree() {
-        if (scene) rtcReleaseScene(scene);
-        if (device) rtcReleaseDevice(device);
-    }
 };
 
 namespace {
@@ -106,13 +92,8 @@ bool considerTriangle(RTCPointQueryFunctionArguments* found) {
 
 }  // namespace
 
-ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>()) {
+ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>(mesh)) {
     Tree& tree = *tree_;
-    tree.middle = (mesh.low + mesh.high) / 2.0;
-    const glm::dvec3 extent = mesh.high - mesh.low;
-    tree.size = std::max({extent.x, extent.y, extent.z, std::numeric_limits<double>::min()});
-    tree.device = rtcNewDevice(nullptr);
-    if (!tree.device) throw Error("Embree does not start");
     RTCGeometry geometry = rtcNewGeometry(tree.device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* corners =
         static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -121,7 +102,7 @@ ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>())
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), mesh.triangles.size()));
     if (!corners || !indices) {
         rtcReleaseGeometry(geometry);
-        throw Error(concat("no memory for the hierarchy of ", mesh.triangles.size(), " triangles"));
+        throw tree.noMemory();
     }
     for (const glm::dvec3& p : mesh.weldedPositions)
         for (int i = 0; i < 3; ++i)
@@ -138,13 +119,7 @@ ClosestPoints::ClosestPoints(const Mesh& mesh) : tree_(std::make_unique<Tree>())
         const double length = glm::length(normal);
         tree.normals.push_back(length > 0 ? normal / length : glm::dvec3(0));
     }
-    rtcCommitGeometry(geometry);
-    tree.scene = rtcNewScene(tree.device);
-    rtcAttachGeometry(tree.scene, geometry);
-    rtcReleaseGeometry(geometry);
-    rtcCommitScene(tree.scene);
-    if (rtcGetDeviceError(tree.device) != RTC_ERROR_NONE)
-        throw Error(concat("no memory for the hierarchy of ", mesh.triangles.size(), " triangles"));
+    tree.build(geometry);
 }
 
 ClosestPoints::~ClosestPoints() = default;
@@ -172,14 +147,7 @@ double ClosestPoints::across(const glm::dvec3& from, const glm::dvec3& direction
     bool seen[2] = {false, false};
     float reached = float(looseness);
     for (int wall = 0; wall < mostWalls; ++wall) {
-        RTCRayHit ray{};
-        ray.ray.org_x = start.x, ray.ray.org_y = start.y, ray.ray.org_z = start.z;
-        ray.ray.dir_x = way.x, ray.ray.dir_y = way.y, ray.ray.dir_z = way.z;
-        ray.ray.tnear = reached;
-        ray.ray.tfar = std::numeric_limits<float>::infinity();
-        ray.ray.mask = ~0u;
-        ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-        firstHit(tree_->scene, ray);
+        const RTCRayHit ray = tree_->firstHit(start, way, reached);
         if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID) {
             return passed == 1 ? out[1] : passed == -1 ? out[0] : never;
         }

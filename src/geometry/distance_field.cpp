@@ -11,8 +11,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "geometry/closest_point.h"
-#include "geometry/distance_field_error.h"
-#include "geometry/eikonal.h"
+#include "geometry/sample_grid.h"
 
 namespace shoal {
 
@@ -231,16 +230,12 @@ FieldValue valueAt(const DistanceField& field, const glm::dvec3& x) {
     }
     const glm::ivec3 c = glm::min(glm::ivec3(p), grid.size - 2);
     const glm::dvec3 f = p - glm::dvec3(c);
-    double corner[2][2][2];  // z, y, x
-    for (int i = 0; i < 8; ++i)
-        corner[i >> 2][(i >> 1) & 1][i & 1] =
-            double(field.distances[grid.index(c.x + (i & 1), c.y + ((i >> 1) & 1), c.z + (i >> 2))]);
     double value = 0;
     glm::dvec3 gradient(0);
     for (int i = 0; i < 8; ++i) {
         const glm::ivec3 side(i & 1, (i >> 1) & 1, i >> 2);
         const glm::dvec3 w = glm::mix(1.0 - f, f, glm::dvec3(side)), s = glm::dvec3(2 * side - 1);
-        const double d = corner[side.z][side.y][side.x];
+        const double d = double(field.distances[grid.index(c.x + side.x, c.y + side.y, c.z + side.z)]);
         value += d * w.x * w.y * w.z;
         gradient += d * glm::dvec3(s.x * w.y * w.z, w.x * s.y * w.z, w.x * w.y * s.z);
     }

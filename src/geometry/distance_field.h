@@ -1,4 +1,5 @@
-// Signed distances to a model on a grid: baked from its triangles, read by colliders.
+// Signed distances to a model on a grid: baked from its triangles (distance_field.cpp), measured against
+// exact distances (distance_field_error.cpp), kept on disk (distance_field_cache.cpp), read by colliders.
 #pragma once
 
 #include <functional>
@@ -6,11 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "geometry/closed_surface.h"
+#include "core/error.h"
 #include "geometry/mesh.h"
-#include "geometry/winding_numbers.h"
+#include "geometry/sample_grid.h"
 
 namespace shoal {
+
+class ClosestPoints;
 
 // Asks for a field. `resolution` and `error` exclude each other; with neither, defaultResolution holds.
 struct FieldRequest {
@@ -60,6 +63,12 @@ using FieldProgress = std::function<void(double)>;
 DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request,
                                 const FieldProgress& progress = {}, int threads = 0);
 
+// Measures a field in the middles of at most 20,000 cells, evenly chosen among those within a cell of the
+// surface, or of where vertices of that thickness rest. What is inside and nearest to a hidden wall has no
+// exact distance here and is left out.
+FieldError measureError(const DistanceField& field, const Mesh& mesh, const ClosestPoints& closest,
+                        double thickness, int threads);
+
 // Holds the field's value at a point: trilinear between samples inside the grid, a lower bound beyond it; and
 // its gradient (1 where the field is a distance), never 0. distanceSurface of shaders/step/surfaces.glsl has
 // the same definition.
@@ -74,5 +83,24 @@ int finestResolution(const Mesh& mesh, const FieldRequest& request, bool closed)
 
 // Warns of a model that is not closed, and why; of a shell too thin or needless; of thickened parts.
 std::vector<std::string> fieldWarnings(const DistanceField& field, const FieldRequest& request);
+
+// Baked fields are kept on disk, so that a model is baked once. They go by the content of the mesh, the
+// request and the version of the baking, so that nothing is ever out of date.
+//
+// One file a field, <folder>/<key>.shoal-field; numbers as this machine has them in memory: a head (see the
+// source), then the distances as floats.
+
+constexpr size_t keptFields = 32;  // beyond that the oldest are removed
+
+// Where fields are kept (empty: nowhere) and who hears of the baking.
+struct FieldBaking {
+    std::string cache;
+    FieldProgress progress;
+};
+
+// From the cache, else baked and kept. A damaged or foreign file is baked anew, with a warning; so is one
+// that cannot be written. Error: as bakeDistanceField.
+DistanceField distanceFieldOf(const Mesh& mesh, const FieldRequest& request, const FieldBaking& baking,
+                              std::vector<Warning>& warnings);
 
 }  // namespace shoal

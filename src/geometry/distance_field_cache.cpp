@@ -1,9 +1,7 @@
-#include "geometry/distance_field_cache.h"
+#include "geometry/distance_field.h"
 
-#include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <utility>
 
 #include "core/cache_folder.h"
 #include "core/file.h"
@@ -115,7 +113,7 @@ bool readCached(const fs::path& path, const std::string& key, DistanceField& fie
     std::string why = "the cached field is damaged";
     try {
         if (parse(readFile(path), key, field)) {
-            fs::last_write_time(path, fs::file_time_type::clock::now(), code);  // what is used stays longest
+            touchFile(path);
             return true;
         }
     } catch (const Error& error) {
@@ -123,21 +121,6 @@ bool readCached(const fs::path& path, const std::string& key, DistanceField& fie
     }
     warnings.push_back({{path.string(), 0, 0, {}}, why + "; baked anew"});
     return false;
-}
-
-// Another process may do the same at the same time: what has gone already is no mistake.
-void removeOldest(const fs::path& folder) {
-    std::vector<std::pair<fs::file_time_type, fs::path>> fields;
-    std::error_code code;
-    for (fs::directory_iterator entry(folder, code), end; !code && entry != end; entry.increment(code)) {
-        std::error_code gone;
-        const fs::file_time_type time = entry->last_write_time(gone);
-        if (!gone && entry->path().extension() == extension) fields.emplace_back(time, entry->path());
-    }
-    if (fields.size() <= keptFields) return;
-    std::sort(fields.begin(), fields.end());
-    for (size_t i = 0; i < fields.size() - keptFields; ++i)
-        fs::remove(fields[i].second, code);
 }
 
 void keep(const fs::path& path, const std::string& key, const DistanceField& field,
@@ -149,7 +132,7 @@ void keep(const fs::path& path, const std::string& key, const DistanceField& fie
         file.write(&head, sizeof head);
         file.write(field.distances.data(), field.distances.size() * sizeof(float));
         file.finish();
-        removeOldest(path.parent_path());
+        keepNewest(path.parent_path(), extension, keptFields);
     } catch (const Error& error) {
         warnings.push_back({error.location(), error.message() + "; fields are baked at every start"});
     }

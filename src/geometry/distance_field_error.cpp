@@ -1,10 +1,11 @@
-#include "geometry/distance_field_error.h"
+#include "geometry/distance_field.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "core/parallel.h"
+#include "geometry/closest_point.h"
 
 namespace shoal {
 

@@ -1,4 +1,4 @@
-#include "geometry/eikonal.h"
+#include "geometry/sample_grid.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,6 @@
 #include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
-#include "core/sandbox.h"
 
 namespace shoal {
 

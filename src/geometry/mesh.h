@@ -1,4 +1,5 @@
-// A triangle mesh as loaded from a model file: welded by position, node transforms applied.
+// A triangle mesh as loaded from a model file (load_model.cpp): welded by position (weld.cpp), node
+// transforms applied; whether it encloses a volume (closed_surface.cpp), and how thick it is (thickness.cpp).
 #pragma once
 
 #include <string>
@@ -38,5 +39,51 @@ struct Mesh {
 
     glm::dvec3 low{0}, high{0};  // bounding box
 };
+
+// All triangles of the file with node transforms applied, one Mesh::Object per node that has triangles.
+// Polygons are cut into triangles; lines and points are ignored. Vertex colours become linear: OBJ and PLY
+// files hold them in sRGB by custom, glTF and the others linear.
+// The file is read in a child process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty.
+// Error: no such file, not readable as a model within limits of time and memory, a position that is not
+// finite or beyond 1e30 m, no triangles.
+Mesh loadMesh(const std::string& file);
+
+// Fills what follows from positions and triangles: missing normals (zero or an empty array), the weld
+// by position (within 1e-6 of the bounding box's diagonal), welded positions and normals, the box.
+void completeMesh(Mesh& mesh);
+
+// Whether a mesh encloses a volume, and where it does not.
+//
+// An edge is sound when as many triangles pass it one way as the other: then every point off the surface has
+// a whole winding number, also where shells touch, overlap or share edges. Corners are compared after
+// welding.
+struct SurfaceReport {
+    size_t triangles = 0, degenerate = 0;  // degenerate: two corners in one place; they are left out
+    size_t borders = 0;                    // edges of one triangle
+    size_t turned = 0;                     // edges whose triangles disagree about the outside
+    size_t branching = 0;                  // edges of three or more triangles that do not cancel
+    glm::dvec3 where{0};                   // the middle of the first unsound edge
+    std::string object;                    // whose triangle it is
+    double area = 0, volume = 0;           // m^2; m^3, negative when turned inside out
+
+    size_t unsound() const { return borders + turned + branching; }
+    // On the average thinner than a millionth of its size, a surface encloses nothing: a sheet with two
+    // faces.
+    bool hollow = false;
+    bool closed() const { return unsound() == 0 && !hollow; }
+};
+
+SurfaceReport examineSurface(const Mesh& mesh);
+
+// "3 border edges, the first at (0.1, 2, -1) of \"rim\"": why the surface is not closed.
+std::string whyOpen(const SurfaceReport& report);
+
+// Local thickness in metres of each welded vertex, after the shape diameter function [Shapira 2008]: eight
+// rays go inward within 30 degrees of the reversed normal, each to the first surface. Those that enter
+// something there started outside and do not count. The least of the middle ray's length and the median is
+// taken: exact for slabs, within a few per cent for cylinders, about a diameter at the tip of a twig.
+// Infinite where no ray finds a way out (open surfaces) and for vertices that are not `wanted` (one flag
+// each; empty: all). O((V + T) log T).
+std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wanted = {});
 
 }  // namespace shoal

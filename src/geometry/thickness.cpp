@@ -1,14 +1,12 @@
-// A bounding volume hierarchy over the triangles, built by median split along the widest axis of the
-// centroids. Nodes lie in one array: a node's first child follows it, the second is named by `second`.
-#include "geometry/thickness.h"
-
+// Embree finds the triangles, in single precision and generously; the hits are ours, in double.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
-#include <utility>
+
+#include "geometry/embree.h"
+#include "geometry/mesh.h"
 
 namespace shoal {
 
@@ -16,145 +14,85 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-class TriangleTree {
+// One ray at a time.
+class ExitSearch {
   public:
-    explicit TriangleTree(const Mesh& mesh) : mesh_(mesh), order_(mesh.triangles.size()) {
-        std::iota(order_.begin(), order_.end(), 0);
-        centers_.reserve(order_.size());
-        for (const glm::ivec3& t : mesh.triangles)
-            centers_.push_back((at(t.x) + at(t.y) + at(t.z)) / 3.0);
-        nodes_.reserve(order_.size());
-        if (!order_.empty()) build(0, order_.size());
-        for (const int t : order_)
-            faces_.push_back(face(mesh.triangles[size_t(t)]));
+    // Hits closer than `least` are those of the triangles that a ray starts on.
+    ExitSearch(const Mesh& mesh, double least) : hierarchy_(mesh), least_(least) {
+        for (const glm::ivec3& t : mesh.triangles) {
+            const glm::dvec3& a = mesh.positions[size_t(t.x)];
+            faces_.push_back({a, mesh.positions[size_t(t.y)] - a, mesh.positions[size_t(t.z)] - a});
+        }
+        RTCGeometry geometry = rtcNewGeometry(hierarchy_.device, RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, unsigned(faces_.size()));
+        rtcSetGeometryUserData(geometry, this);
+        rtcSetGeometryBoundsFunction(geometry, bound, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, meet);
+        hierarchy_.build(geometry);
     }
 
-    // Distance from `from` along the unit `direction` to the first triangle further than `least`;
-    // infinite when there is none or when the ray meets its front, so that it started outside.
-    double exit(const glm::dvec3& from, const glm::dvec3& direction, double least) const {
-        if (nodes_.empty()) return infinity;
-        glm::dvec3 inverse;  // finite, so that no face that the ray runs along turns 0 * infinity into NaN
-        for (int i = 0; i < 3; ++i)
-            inverse[i] = direction[i] != 0 ? 1 / direction[i] : 1e300;
-        Hit hit;
-        struct Entry {
-            size_t node;
-            double distance;
-        };
-        std::array<Entry, 64> stack;
-        size_t depth = 0;
-        stack[depth++] = {0, enter(nodes_[0], from, inverse)};
-        while (depth > 0) {
-            const Entry entry = stack[--depth];
-            if (entry.distance >= hit.distance) continue;
-            const Node& node = nodes_[entry.node];
-            if (node.count > 0) {
-                for (size_t i = node.first; i < node.first + node.count; ++i)
-                    meet(faces_[i], from, direction, least, hit);
-                continue;
-            }
-            Entry close{entry.node + 1, enter(nodes_[entry.node + 1], from, inverse)};
-            Entry far{node.second, enter(nodes_[node.second], from, inverse)};
-            if (far.distance < close.distance) std::swap(close, far);
-            if (far.distance < hit.distance) stack[depth++] = far;
-            if (close.distance < hit.distance) stack[depth++] = close;
-        }
-        return hit.leaving ? hit.distance : infinity;
+    // Distance from `from` along the unit `direction` to the first triangle; infinite when there is none or
+    // when the ray meets its front, so that it started outside.
+    double exit(const glm::dvec3& from, const glm::dvec3& direction) {
+        from_ = from, direction_ = direction;
+        distance_ = infinity, leaving_ = false;
+        hierarchy_.firstHit(hierarchy_.toUnits(from), direction, 0);
+        return leaving_ ? distance_ : infinity;
     }
 
   private:
-    struct Node {
-        glm::dvec3 low{infinity}, high{-infinity};
-        size_t first = 0, count = 0;  // of a leaf's triangles; an inner node counts 0
-        size_t second = 0;
-    };
     struct Face {
         glm::dvec3 a, ab, ac;
     };
-    struct Hit {
-        double distance = infinity;
-        bool leaving = false;
-    };
 
-    const glm::dvec3& at(int vertex) const { return mesh_.positions[size_t(vertex)]; }
-    Face face(const glm::ivec3& t) const { return {at(t.x), at(t.y) - at(t.x), at(t.z) - at(t.x)}; }
-
-    // Halving keeps the depth at log2 of the count, far below the stack of exit().
-    void build(size_t begin, size_t end) {
-        const size_t index = nodes_.size();
-        nodes_.emplace_back();
-        Node node;
-        glm::dvec3 low(infinity), high(-infinity);
-        for (size_t i = begin; i < end; ++i) {
-            const glm::ivec3& t = mesh_.triangles[size_t(order_[i])];
-            for (int corner = 0; corner < 3; ++corner) {
-                node.low = glm::min(node.low, at(t[corner]));
-                node.high = glm::max(node.high, at(t[corner]));
-            }
-            low = glm::min(low, centers_[size_t(order_[i])]);
-            high = glm::max(high, centers_[size_t(order_[i])]);
-        }
-        if (end - begin <= 4) {
-            node.first = begin;
-            node.count = end - begin;
-        } else {
-            const glm::dvec3 size = high - low;
-            const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-            const size_t middle = begin + (end - begin) / 2;
-            const auto first = order_.begin();
-            std::nth_element(first + static_cast<std::ptrdiff_t>(begin),
-                             first + static_cast<std::ptrdiff_t>(middle),
-                             first + static_cast<std::ptrdiff_t>(end), [&](int a, int b) {
-                                 const double ca = centers_[size_t(a)][axis], cb = centers_[size_t(b)][axis];
-                                 return ca != cb ? ca < cb : a < b;
-                             });
-            build(begin, middle);
-            node.second = nodes_.size();
-            build(middle, end);
-        }
-        nodes_[index] = node;
+    static void bound(const RTCBoundsFunctionArguments* asked) {
+        const ExitSearch& self = *static_cast<const ExitSearch*>(asked->geometryUserPtr);
+        const Face& face = self.faces_[asked->primID];
+        const glm::dvec3 a = self.hierarchy_.toUnits(face.a), b = self.hierarchy_.toUnits(face.a + face.ab),
+                         c = self.hierarchy_.toUnits(face.a + face.ac);
+        const glm::vec3 low = glm::min(a, glm::min(b, c)) - looseness,
+                        high = glm::max(a, glm::max(b, c)) + looseness;
+        *asked->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
     }
 
-    // Where the ray enters the node's box, infinity when it misses.
-    static double enter(const Node& node, const glm::dvec3& from, const glm::dvec3& inverse) {
-        double enterAt = 0, leaveAt = infinity;
-        for (int i = 0; i < 3; ++i) {
-            const double a = (node.low[i] - from[i]) * inverse[i], b = (node.high[i] - from[i]) * inverse[i];
-            enterAt = std::max(enterAt, std::min(a, b));
-            leaveAt = std::min(leaveAt, std::max(a, b));
-        }
-        return enterAt <= leaveAt * (1 + 1e-12) ? enterAt : infinity;
+    static void meet(const RTCIntersectFunctionNArguments* asked) {
+        ExitSearch& self = *static_cast<ExitSearch*>(asked->geometryUserPtr);
+        if (!self.meets(self.faces_[asked->primID])) return;
+        RTCRay& ray = reinterpret_cast<RTCRayHit*>(asked->rayhit)->ray;
+        ray.tfar = std::min(ray.tfar, float(self.distance_ / self.hierarchy_.size + 4 * looseness));
     }
 
-    // Moeller and Trumbore's test.
-    static void meet(const Face& f, const glm::dvec3& from, const glm::dvec3& direction, double least,
-                     Hit& hit) {
-        const glm::dvec3 p = glm::cross(direction, f.ac);
+    // Moeller and Trumbore's test: true when no hit so far is nearer. Of two in one place the way out counts,
+    // in whichever order Embree finds them.
+    bool meets(const Face& f) {
+        const glm::dvec3 p = glm::cross(direction_, f.ac);
         const double determinant = glm::dot(f.ab, p);  // below 0 when the ray leaves through the back
-        if (determinant == 0) return;
-        const glm::dvec3 t = from - f.a;
+        if (determinant == 0) return false;
+        const glm::dvec3 t = from_ - f.a;
         const double u = glm::dot(t, p) / determinant;
-        if (!(u >= -1e-9 && u <= 1 + 1e-9)) return;
+        if (!(u >= -1e-9 && u <= 1 + 1e-9)) return false;
         const glm::dvec3 q = glm::cross(t, f.ab);
-        const double v = glm::dot(direction, q) / determinant;
-        if (!(v >= -1e-9 && u + v <= 1 + 1e-9)) return;
+        const double v = glm::dot(direction_, q) / determinant;
+        if (!(v >= -1e-9 && u + v <= 1 + 1e-9)) return false;
         const double distance = glm::dot(f.ac, q) / determinant;
-        if (distance > least && distance < hit.distance) hit = {distance, determinant < 0};
+        if (!(distance > least_ && distance <= distance_)) return false;
+        leaving_ = determinant < 0 || (distance == distance_ && leaving_);
+        distance_ = distance;
+        return true;
     }
 
-    const Mesh& mesh_;
-    std::vector<int> order_;
-    std::vector<glm::dvec3> centers_;
-    std::vector<Node> nodes_;
-    std::vector<Face> faces_;  // in `order_`
+    Hierarchy hierarchy_;
+    double least_;  // m
+    std::vector<Face> faces_;
+    glm::dvec3 from_{0}, direction_{0};  // of the ray
+    double distance_ = infinity;         // m: the nearest hit so far
+    bool leaving_ = false;               // through that triangle's back
 };
 
 }  // namespace
 
 std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wanted) {
-    const TriangleTree tree(mesh);
-    // A vertex lies on its own triangles: hits closer than this are those.
-    const double least = 1e-6 * glm::distance(mesh.low, mesh.high);
+    ExitSearch search(mesh, 1e-6 * glm::distance(mesh.low, mesh.high));
 
     // In a frame with z inward: the middle, three at 15 degrees, four at 30.
     std::array<glm::dvec3, 8> fan = {glm::dvec3(0, 0, 1)};
@@ -173,7 +111,7 @@ std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wa
         std::array<double, fan.size()> lengths;
         for (size_t i = 0; i < fan.size(); ++i)
             lengths[i] =
-                tree.exit(mesh.weldedPositions[v], fan[i].x * s + fan[i].y * t + fan[i].z * inward, least);
+                search.exit(mesh.weldedPositions[v], fan[i].x * s + fan[i].y * t + fan[i].z * inward);
         const double middle = lengths[0];
         std::sort(lengths.begin(), lengths.end());
         const auto found = std::lower_bound(lengths.begin(), lengths.end(), infinity) - lengths.begin();

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <unordered_map>
 
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 
 namespace shoal {
 

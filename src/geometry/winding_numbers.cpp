@@ -1,4 +1,4 @@
-#include "geometry/winding_numbers.h"
+#include "geometry/sample_grid.h"
 
 #include <algorithm>
 #include <array>

@@ -1,9 +1,6 @@
 #include "gpu/buffer.h"
 
 #include "core/contract.h"
-#include "core/error.h"
-#include "gpu/barrier.h"
-#include "gpu/debug_group.h"
 
 namespace shoal::gpu {
 
@@ -79,6 +76,29 @@ void Buffer::bindStorage(int binding, size_t offset, size_t bytes) const {
     EXPECTS(offset % static_cast<size_t>(info_->storageBufferAlignment) == 0 && "see ContextInfo");
     glBindBufferRange(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(binding), id(),
                       static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+}
+
+static GLbitfield bit(Barrier reader) {
+    switch (reader) {
+    case Barrier::textureFetch:
+        return GL_TEXTURE_FETCH_BARRIER_BIT;
+    case Barrier::storage:
+        return GL_SHADER_STORAGE_BARRIER_BIT;
+    case Barrier::draw:
+        return GL_COMMAND_BARRIER_BIT;
+    case Barrier::command:
+        return GL_COMMAND_BARRIER_BIT;
+    default:
+        return GL_BUFFER_UPDATE_BARRIER_BIT;
+    }
+}
+
+void barrier(std::initializer_list<Barrier> readers) {
+    GLbitfield bits = 0;
+    for (const Barrier reader : readers)
+        bits |= bit(reader);
+    EXPECTS(glMemoryBarrier != nullptr && "needs OpenGL 4.3");
+    glMemoryBarrier(bits);
 }
 
 VertexArray::VertexArray(Context& context, const char* label) {

@@ -3,12 +3,13 @@
 #pragma once
 
 #include <cstddef>
+#include <initializer_list>
 #include <span>
 #include <string>
 
 #include "core/error.h"
 #include "gpu/context.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 
 namespace shoal::gpu {
 
@@ -53,6 +54,50 @@ class Buffer {
     const ContextInfo* info_ = nullptr;  // the context's, which outlives the buffer and does not move
     Use use_ = Use::vertex;
     size_t bytes_ = 0;
+};
+
+// Makes what shaders wrote into storage buffers visible to later commands, which OpenGL does not do by
+// itself. Needs OpenGL 4.3, like the shaders that write.
+enum class Barrier {
+    textureFetch,  // reading through samplers, buffer textures among them
+    storage,       // reading and writing storage buffers
+    command,       // Program::dispatchIndirect
+    draw,          // indirect draws
+    bufferUpdate,  // Buffer::update, download and copyTo; these ask for it themselves
+};
+
+// Before the command that reads, naming how it reads.
+void barrier(std::initializer_list<Barrier> readers);
+
+// A buffer read as texels: texelFetch(samplerBuffer, i) is bytes 16 i to 16 i + 15 as four floats; with the
+// other formats a usamplerBuffer reads whole numbers. Where a shader cannot have a storage buffer, or reads
+// better through the texture cache (buffer_texture.cpp).
+//
+// Names the format of a texel: samplerBuffer reads the first, usamplerBuffer the others.
+enum class Texel { float4, uint4, uint2, uint1 };
+
+class BufferTexture {
+  public:
+    BufferTexture() = default;
+    // Borrows the buffer, which must outlive it. `offset` and `bytes` are multiples of a texel's; bytes 0: up
+    // to the end. A part of the buffer needs OpenGL 4.3, and an offset that is a multiple of the context's
+    // textureBufferAlignment (a contract). Error: more texels than the context allows; says how many.
+    BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset = 0,
+                  size_t bytes = 0, Texel texel = Texel::float4);
+    BufferTexture(Context& context, const Buffer& buffer, Texel texel, const char* label)
+        : BufferTexture(context, buffer, label, 0, 0, texel) {}
+    // Throws the Error of too many texels before there is a buffer.
+    static void checkTexels(const ContextInfo& info, size_t texels, const char* label);
+
+    void bind(int unit) const;
+
+    GLuint id() const { return handle_.id(); }
+    size_t texels() const { return texels_; }
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    Handle<deleteTexture> handle_;
+    size_t texels_ = 0;
 };
 
 // Borrows its buffers, which must outlive it. One without attributes is what a draw needs that makes its

@@ -1,8 +1,7 @@
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 
 #include "core/contract.h"
 #include "core/error.h"
-#include "gpu/debug_group.h"
 
 namespace shoal::gpu {
 

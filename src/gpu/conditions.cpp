@@ -1,4 +1,4 @@
-#include "gpu/conditions.h"
+#include "gpu/shader_source.h"
 
 #include <algorithm>
 #include <cctype>

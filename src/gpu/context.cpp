@@ -243,9 +243,6 @@ const ContextInfo& Context::info() const {
 Traffic& Context::traffic() {
     return state_->traffic;
 }
-const Traffic& Context::traffic() const {
-    return state_->traffic;
-}
 const std::set<std::string>& Context::shaderFiles() const {
     return state_->shaderFiles;
 }

@@ -6,7 +6,7 @@
 //     fail; asked through the context's own loader it finds every pointer.
 //   * the functions of OpenGL 1.0 and 1.1 (glClear, glDrawArrays, …). GLEW never loads those; they are plain
 //     symbols.
-// This file defines both, and forwards each call to the loader of the current context (gpu/loader.h). A
+// This file defines both, and forwards each call to the loader of the current context (gpu/platform.h). A
 // symbol that the executable defines goes before the one in a shared library, so GLEW's calls arrive here as
 // well. When no context of ours is current, or in a window for the functions of GLX itself, the call goes on
 // to the next definition, which is the system's libGL.
@@ -21,7 +21,7 @@
 #include <cstring>
 
 #include "gpu/gl.h"
-#include "gpu/loader.h"
+#include "gpu/platform.h"
 
 namespace {
 

@@ -4,7 +4,6 @@
 
 #include "core/contract.h"
 #include "core/error.h"
-#include "gpu/debug_group.h"
 
 namespace shoal::gpu {
 
@@ -144,19 +143,11 @@ void Framebuffer::bindDefault(int width, int height) {
     glViewport(0, 0, width, height);
 }
 
-void Framebuffer::blitTo(const Framebuffer& other) const {
+void Framebuffer::blit(const Framebuffer& other, GLbitfield what) const {
     EXPECTS(width_ == other.width_ && height_ == other.height_);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-    glBindFramebuffer(GL_FRAMEBUFFER, other.id());
-}
-
-void Framebuffer::blitDepthTo(const Framebuffer& other) const {
-    EXPECTS(width_ == other.width_ && height_ == other.height_);
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, other.id());
-    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, other.id());
 }
 

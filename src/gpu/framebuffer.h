@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "gpu/context.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 #include "gpu/texture.h"
 
 namespace shoal::gpu {
@@ -28,9 +28,9 @@ class Framebuffer {
     static void bindDefault(int width, int height);
 
     // Copies the first colour, resolving samples. Sizes must be equal.
-    void blitTo(const Framebuffer& other) const;
+    void blitTo(const Framebuffer& other) const { blit(other, GL_COLOR_BUFFER_BIT); }
     // Copies the depth, one sample of each pixel. Sizes and formats must be equal.
-    void blitDepthTo(const Framebuffer& other) const;
+    void blitDepthTo(const Framebuffer& other) const { blit(other, GL_DEPTH_BUFFER_BIT); }
     void blitToDefault(int width, int height) const;  // LINEAR where the sizes differ and there is 1 sample
 
     GLuint id() const { return handle_.id(); }
@@ -40,6 +40,7 @@ class Framebuffer {
     explicit operator bool() const { return bool(handle_); }
 
   private:
+    void blit(const Framebuffer& other, GLbitfield what) const;
     void checkComplete(const std::string& attachments) const;
 
     Handle<deleteFramebuffer> handle_;

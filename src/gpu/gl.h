@@ -1,4 +1,66 @@
-// The one place that includes an OpenGL header: GLEW 2.2, core profile, 3.3 is the floor.
+// The one place that includes an OpenGL header: GLEW 2.2, core profile, 3.3 is the floor. It adds owners of
+// OpenGL's objects, and names of objects and calls for debuggers.
 #pragma once
 
+#include <utility>
+
 #include <GL/glew.h>
+
+namespace shoal::gpu {
+
+class Context;
+struct ContextInfo;
+
+void deleteTexture(GLuint id);
+void deleteFramebuffer(GLuint id);
+void deleteRenderbuffer(GLuint id);
+void deleteBuffer(GLuint id);
+void deleteVertexArray(GLuint id);
+void deleteShader(GLuint id);
+void deleteProgram(GLuint id);
+void deleteQuery(GLuint id);
+
+// Owns an object: moves, never copies, deletes at the end.
+template <void (*remove)(GLuint)>
+class Handle {
+  public:
+    Handle() = default;
+    explicit Handle(GLuint id) : id_(id) {}
+    ~Handle() { reset(); }
+    Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0u)) {}
+    Handle& operator=(Handle&& other) noexcept {
+        if (this != &other) {
+            reset();
+            id_ = std::exchange(other.id_, 0u);
+        }
+        return *this;
+    }
+    GLuint id() const { return id_; }
+    explicit operator bool() const { return id_ != 0; }
+    void reset() {
+        if (id_ != 0) remove(id_);
+        id_ = 0;
+    }
+
+  private:
+    GLuint id_ = 0;
+};
+
+// A named bracket around OpenGL calls, which debuggers and profilers show. Nothing below OpenGL 4.3.
+class DebugGroup {
+  public:
+    DebugGroup(const ContextInfo& info, const char* name);
+    DebugGroup(const Context& context, const char* name);
+    ~DebugGroup();
+    DebugGroup(const DebugGroup&) = delete;
+    DebugGroup& operator=(const DebugGroup&) = delete;
+
+  private:
+    bool open_ = false;
+};
+
+// The name of an object in debuggers, cut where it is long; `type` such as GL_TEXTURE. Nothing below 4.3 or
+// for an empty name.
+void labelObject(const Context& context, GLenum type, GLuint id, const char* label);
+
+}  // namespace shoal::gpu

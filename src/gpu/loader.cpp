@@ -1,4 +1,4 @@
-#include "gpu/loader.h"
+#include "gpu/platform.h"
 
 namespace shoal::gpu {
 

@@ -14,8 +14,7 @@
 #include <vector>
 
 #include "gpu/context.h"
-#include "gpu/debug_group.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 
 namespace shoal::gpu {
 

@@ -1,13 +1,25 @@
-// Declares the common interface of the three ways to a context; used inside `gpu` only.
+// Declares the common interface of the three ways to a context, and where OpenGL's functions come from at the
+// moment (loader.cpp); used inside `gpu` only.
 #pragma once
 
 #include <memory>
 #include <string>
 
 #include "gpu/context.h"
-#include "gpu/loader.h"
 
 namespace shoal::gpu {
+
+using Procedure = void (*)();
+using Loader = Procedure (*)(const char* name);
+
+struct CurrentLoader {
+    Loader load = nullptr;    // null: no context of ours is current
+    bool isWindow = false;    // GLX or EGL below GLFW: the process's own libGL serves it
+    unsigned generation = 1;  // counts the changes, so that pointers found earlier can be thrown away
+};
+
+const CurrentLoader& currentLoader();
+void setCurrentLoader(Loader load, bool isWindow);
 
 class Platform {
   public:

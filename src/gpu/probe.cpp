@@ -1,4 +1,4 @@
-#include "gpu/probe.h"
+#include "gpu/context.h"
 
 #include <exception>
 

@@ -5,7 +5,6 @@
 #include "core/contract.h"
 #include "core/error.h"
 #include "core/printable.h"
-#include "gpu/debug_group.h"
 #include "gpu/program_cache.h"
 #include "gpu/shader_source.h"
 
@@ -221,9 +220,6 @@ void Program::set(const char* name, const glm::mat3& value) const {
 void Program::set(const char* name, const glm::mat4& value) const {
     glUniformMatrix4fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
-void Program::set(const char* name, std::span<const float> values) const {
-    glUniform1fv(location(name), static_cast<GLsizei>(values.size()), values.data());
-}
 void Program::set(const char* name, std::span<const glm::ivec4> values) const {
     if (values.empty()) return;
     glUniform4iv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
@@ -259,6 +255,10 @@ void Program::storage(const char* block, int binding, const Buffer& buffer, size
     EXPECTS((declared->second == binding || declared->second == dropped) &&
             "the shader's layout has another binding");
     buffer.bindStorage(binding, offset, bytes);
+}
+
+void Program::storage(const char* block, int binding, const Buffer& buffer) const {
+    storage(block, binding, buffer, 0, buffer.bytes());
 }
 
 void Program::dispatch(int groupsX) const {

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "gpu/buffer.h"
-#include "gpu/buffer_texture.h"
 #include "gpu/context.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 #include "gpu/texture.h"
 
 namespace shoal::gpu {
@@ -52,7 +51,6 @@ class Program {
     void set(const char* name, const glm::vec4& value) const;
     void set(const char* name, const glm::mat3& value) const;
     void set(const char* name, const glm::mat4& value) const;
-    void set(const char* name, std::span<const float> values) const;
     void set(const char* name, std::span<const glm::vec4> values) const;
     void set(const char* name, std::span<const glm::ivec4> values) const;
 
@@ -64,6 +62,7 @@ class Program {
     // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a
     // contract).
     void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
+    void storage(const char* block, int binding, const Buffer& buffer) const;  // all of it
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).

@@ -84,8 +84,7 @@ bool ProgramCache::load(const std::string& key, GLuint program) {
     if (!active_) return false;
     if (fill(key, program)) {
         ++hits_;
-        std::error_code code;  // what is used stays longest
-        fs::last_write_time(file(key), fs::file_time_type::clock::now(), code);
+        touchFile(file(key));
         return true;
     }
     ++misses_;
@@ -135,27 +134,12 @@ void ProgramCache::store(const std::string& key, GLuint program) {
     const std::string front(reinterpret_cast<const char*>(&header), sizeof header);
     try {
         writeFile(file(key), front + binary);
-        removeOldest();
+        keepNewest(folder_, extension,
+                   std::clamp(size_t(hits_) + size_t(misses_), keptPrograms, mostPrograms));
     } catch (const Error& error) {
         writable_ = false;
         warnings_.push_back({error.location(), error.message() + "; programs are compiled at every start"});
     }
-}
-
-// Another process may do the same at the same time: what has gone already is no mistake.
-void ProgramCache::removeOldest() const {
-    std::vector<std::pair<fs::file_time_type, fs::path>> programs;
-    std::error_code code;
-    for (fs::directory_iterator entry(folder_, code), end; !code && entry != end; entry.increment(code)) {
-        std::error_code gone;
-        const fs::file_time_type time = entry->last_write_time(gone);
-        if (!gone && entry->path().extension() == extension) programs.emplace_back(time, entry->path());
-    }
-    const size_t kept = std::clamp(size_t(hits_) + size_t(misses_), keptPrograms, mostPrograms);
-    if (programs.size() <= kept) return;
-    std::sort(programs.begin(), programs.end());
-    for (size_t i = 0; i < programs.size() - kept; ++i)
-        fs::remove(programs[i].second, code);
 }
 
 }  // namespace shoal::gpu

@@ -47,7 +47,6 @@ class ProgramCache {
   private:
     std::filesystem::path file(const std::string& key) const;
     bool fill(const std::string& key, GLuint program);
-    void removeOldest() const;
 
     std::filesystem::path folder_;
     bool active_ = false, writable_ = true;

@@ -1,4 +1,5 @@
-// Shader files with includes, and a line table. Pure text: no OpenGL, testable without a context.
+// Shader files with includes, and a line table; conditions taken out (conditions.cpp). Pure text: no OpenGL,
+// testable without a context.
 //
 // Shader files have no #version line: `header` goes in front, then one #define a line, then the file with
 // every #include "folder/file.glsl" replaced by that file, once each, from the root of the shaders. #include
@@ -48,5 +49,16 @@ const char* header300es();  // #version 300 es, and the precisions that it deman
 std::set<std::string, std::less<>> declaredUniforms(std::string_view text);
 // Returns the names of storage buffers likewise.
 std::set<std::string, std::less<>> declaredBuffers(std::string_view text);
+
+// Takes the branches that #if, #ifdef and #else leave out of a shader's text, so that people read, and
+// drivers compile, only what is used.
+//
+// Understood: #define NAME [value], #undef NAME, #ifdef, #ifndef, #else, #endif and #if with defined(NAME),
+// !,
+// && and || without brackets. A name counts as defined from its #define on. Defines without a value go, too;
+// all else stays.
+//
+// Lines keep their origin. Error, located: a condition of another form, or one that does not end.
+void resolveConditions(ShaderSource& source);
 
 }  // namespace shoal::gpu

@@ -5,7 +5,6 @@
 #include "core/contract.h"
 #include "core/error.h"
 #include "gpu/buffer.h"
-#include "gpu/debug_group.h"
 
 namespace shoal::gpu {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "gpu/context.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 
 namespace shoal::gpu {
 

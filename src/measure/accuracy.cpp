@@ -3,19 +3,13 @@
 #include "measure/accuracy.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <set>
 
-#include "measure/accuracy_times.h"
-#include "measure/pareto.h"
-#include "measure/pin_threads.h"
-
+#include "scene/field_kinds.h"
 namespace shoal::measure {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double firstTolerance = 1e-5;  // of the reference, until errors come nearer
 constexpr double shareOfError = 0.01;    // of the smallest error: the reference's
@@ -137,7 +131,7 @@ class Sweep {
     static double secondsOfStep(MethodRunner& runner, const FrameCost& cost) {
         constexpr Step other{8, 1};
         runner.set(other);
-        const double seconds = std::chrono::duration<double>(runner.warmUp()).count();
+        const double seconds = runner.warmUp();
         return std::max(0.0, seconds - cost.of(other));
     }
 
@@ -340,14 +334,11 @@ class Sweep {
         }
         markFront(out_.points);
         device_.context->checkErrors("measure");
-        out_.seconds = since(start_);
+        out_.seconds = secondsSince(start_);
         return std::move(out_);
     }
 
-    static double since(Clock::time_point start) {
-        return std::chrono::duration<double>(Clock::now() - start).count();
-    }
-    double measured() const { return since(measuring_); }
+    double measured() const { return secondsSince(measuring_); }
     double shareDone() const { return std::min(1.0, done_ / std::max(expected_, 1e-9)); }
     void tell(double seconds) {
         done_ += seconds;
@@ -382,7 +373,7 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
     const bool dragged = std::any_of(scene.groups.begin(), scene.groups.end(),
                                      [](const Group& group) { return group.drag.any(); });
     const bool varies = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        return field.box || !std::holds_alternative<UniformField>(field.shape);
+        return field.box || !std::holds_alternative<UniformField>(*field.shape);
     });
     if (!dragged || !varies) return {FieldSampling::vertexSubstep};
     return {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame};

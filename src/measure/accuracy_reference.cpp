@@ -2,20 +2,18 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>
 
 #include "compile/surface_pair.h"
+#include "measure/timing.h"
 #include "reference/forces.h"
 
 namespace shoal::measure {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
     const Group& group = scene.groups[plan.index];
@@ -50,7 +48,7 @@ double measureStep(const reference::Problem& problem, const reference::State& st
     constexpr int64_t steps = 16;
     const Clock::time_point begin = Clock::now();
     reference::integrate(problem, start, h * steps, steps);
-    return std::chrono::duration<double>(Clock::now() - begin).count() / steps;
+    return secondsSince(begin) / steps;
 }
 
 // Work for each index below `count`, on so many threads. The first exception of a worker is the caller's.

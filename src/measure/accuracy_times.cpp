@@ -1,16 +1,12 @@
-#include "measure/accuracy_times.h"
+#include "measure/method_runner.h"
 
 #include <algorithm>
 #include <chrono>
 #include <numeric>
 
-#include "measure/visits.h"
-
 namespace shoal::measure {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double slowFrameSeconds = 0.1;  // above: single frames are timed
 constexpr double sampleSeconds = 0.002;   // shorter samples are mostly noise
@@ -31,7 +27,7 @@ double sample(const Contender& one) {
     for (int i = 0; i < frames; ++i)
         runner.frame();
     runner.finish();
-    return std::chrono::duration<double>(Clock::now() - start).count() / frames;
+    return secondsSince(start) / frames;
 }
 
 }  // namespace

@@ -1,20 +1,15 @@
 #include "measure/calibrate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "measure/accuracy.h"
-#include "measure/calibration_store.h"
-#include "measure/pin_threads.h"
-#include "measure/statistics.h"
+#include "measure/timing.h"
 
 namespace shoal::measure {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 // A sampling other than the exact one is tried for solvers within this factor of the best: reading fields
 // less often does not save more.
@@ -366,7 +361,7 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
     const std::string key = options.folder.empty() ? "" : calibrationKey(plainPlan(scene), options, device);
     if (std::optional<Calibration> kept = loadCalibration(options.folder, key)) return *kept;
     Calibration out = Search(scene, options, device).run();
-    out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+    out.seconds = secondsSince(start);
     keepCalibration(options.folder, key, out);
     return out;
 }

@@ -1,22 +1,40 @@
 // The cheapest method, step and field sampling whose error on a scene is below a given one, found by
 // measuring: a few molecules against the reference, candidates in the order of what their substeps cost,
 // each bisected to the fewest substeps that do, and given up where it cannot beat the best any more, timed
-// again in turn. What gets there has to hold over a sample of some hundred molecules (sample.h), else it
-// takes more substeps: what is claimed is claimed of that sample.
+// again in turn. What gets there has to hold over a sample of some hundred molecules, else it takes more
+// substeps: what is claimed is claimed of that sample.
 //
-// The result is kept as a file under a hash of everything that it depends on: the scene as compiled (with its
-// molecules), the error, what the search was narrowed to, the shaders, the kernels, the driver, the
-// processor, the version.
+// The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
+// on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,
+// the kernels, the driver, the processor, the version.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "compile/plan.h"
+#include "core/json.h"
+#include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
-#include "measure/sample.h"
 
 namespace shoal::measure {
+
+// Molecules of each group: if one of a hundred fails, so many show it with a probability of 95 %.
+constexpr int sampleMolecules = 300;
+
+// The errors of a method over the sample. An error is relative: accuracy_reference.h.
+struct SampleError {
+    double rms = 0, worst = 0;
+    int measured = 0;  // molecules, to a third of the error wanted or nearer: those of the RMS
+    int compared = 0;  // those, and what could be told to three times that error
+    int untold = 0;    // the others: chaotic, too stiff, or no time was left for their reference
+    int above = 0;     // of those measured: above the error wanted
+
+    // Below the error for 99 of 100 molecules and in the RMS; ten times that for none.
+    bool holds(double error) const;
+};
 
 struct CalibrationOptions {
     double error = 1e-3;  // relative: see accuracy_reference.h
@@ -62,5 +80,65 @@ Calibration calibrate(const Scene& scene, const CalibrationOptions& options, con
 
 // The scene with what was found.
 void apply(const Calibration& calibration, Scene& scene);
+
+// The files of results.
+
+// 16 hexadecimal digits of everything that a calibration depends on. `plan`: of the scene, with a solver that
+// takes every step.
+std::string calibrationKey(const Plan& plan, const CalibrationOptions& options, const AccuracyDevice& device);
+
+// Nothing where there is none, or none that can be read: it is measured anew.
+std::optional<Calibration> loadCalibration(const std::string& folder, const std::string& key);
+// Does nothing without a folder. A disk that is full, or a folder that cannot be made, is no mistake of the
+// user's: the next run measures again.
+void keepCalibration(const std::string& folder, const std::string& key, const Calibration& calibration);
+
+JsonValue asJson(const Calibration& calibration);
+
+// Where the molecules of a sample ought to end: the first ones by the double-precision reference, the others
+// by a method on the device whose step has been halved until their ends stay where they are. So an error can
+// be claimed of hundreds of molecules, of which a few may do what no other does.
+class MoleculeSample {
+  public:
+    // `error`: what is wanted; `core`: of the first molecules of the scene's groups. Borrows all of them.
+    MoleculeSample(const Scene& scene, double error, int frames, const ExactEnds& core,
+                   const AccuracyDevice& device);
+
+    // Finds the method that the others are held against. What it does not settle has the reference, as far as
+    // time allows.
+    void settle();
+    // "4 by the reference, 296 by leapfrog with 128 substeps"
+    std::string how() const;
+
+    // A molecule that comes out far off is held against the reference, where these are few.
+    SampleError errorOf(const std::vector<Snapshot>& ends);
+
+  private:
+    struct One {
+        size_t group = 0;
+        int index = 0;                   // in the group
+        double size = 1;                 // m
+        double change = 1e30;            // of its end when the step was halved; 0: the reference has it
+        std::unique_ptr<ExactEnds> own;  // its reference
+        std::optional<size_t> inCore;    // its place there
+        bool given = false;              // asked for a reference, which it has or cannot have
+    };
+    bool settleBy(SolverKind kind);
+    std::vector<double> distances(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) const;
+    void ask(One& one);
+    bool told(const One& one) const;
+    bool settled() const;
+
+    const Scene& scene_;
+    double error_;
+    int frames_;
+    const ExactEnds& core_;
+    const AccuracyDevice& device_;
+    std::unique_ptr<MethodRunner> runner_;  // whose plan and starts the references are of
+    std::vector<Snapshot> starts_, ends_;   // ends_: of the method that settled them
+    std::string by_;
+    std::vector<One> molecules_;
+    int asked_ = 0;
+};
 
 }  // namespace shoal::measure

@@ -1,4 +1,4 @@
-#include "measure/calibration_store.h"
+#include "measure/calibrate.h"
 
 #include <algorithm>
 #include <cstdio>

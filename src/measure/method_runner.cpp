@@ -1,13 +1,10 @@
 #include "measure/method_runner.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "gpu/gl.h"
 
 namespace shoal::measure {
-
-using Clock = std::chrono::steady_clock;
 
 std::string name(const Method& method) {
     return concat(name(method.solver), ", ", name(method.sampling));
@@ -64,14 +61,14 @@ void MethodRunner::finish() const {
     glFinish();
 }
 
-Clock::duration MethodRunner::warmUp() {
+double MethodRunner::warmUp() {
     const Clock::time_point start = Clock::now();
     restart();
     frame();
     finish();
     restart();
     finish();
-    return Clock::now() - start;
+    return secondsSince(start);
 }
 
 void MethodRunner::run(int frames) {
@@ -90,7 +87,7 @@ double MethodRunner::secondsOfFrame(Step step) {
         const Clock::time_point start = Clock::now();
         frame();
         finish();
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const double seconds = secondsSince(start);
         if (i > 0) least = std::min(least, seconds);
     }
     return least;

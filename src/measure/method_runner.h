@@ -2,14 +2,16 @@
 // simulation serves them all.
 #pragma once
 
-#include <chrono>
 #include <compare>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
+#include "measure/timing.h"
 #include "scene/scene.h"
 #include "simulate/simulation.h"
 
@@ -56,8 +58,8 @@ class MethodRunner {
     void frame() { simulation_->frame(); }  // 1 / (frameRate * split) seconds
     void finish() const;                    // waits until the frames are done
     // One frame of the step that is set, and back to the start: programs may be built again where it is new.
-    // The time that it took.
-    std::chrono::steady_clock::duration warmUp();
+    // Returns the seconds that it took.
+    double warmUp();
     // A whole run from the start: `frames` of the scene's own.
     void run(int frames);
     // Seconds that one frame at this step takes: the shorter of two after one that is not timed.
@@ -83,5 +85,35 @@ struct FrameCost {
     double of(const Step& step) const { return base + each * step.substeps; }
 };
 FrameCost frameCost(MethodRunner& runner);
+
+// Times of many methods and steps, in turn, round after round, so that a machine whose speed drifts drifts
+// for all alike.
+struct Contender {
+    MethodRunner* runner = nullptr;
+    Step step;
+    double secondsOfFrame = 0;  // about
+    double secondsOfStep = 0;   // that setting the step takes: some methods build their program again
+};
+
+// Seconds that one visit of a contender takes: its step is set, and one frame from the start is run and
+// waited for, untimed, because it may build programs; back to the start, and a wait; then its first 2 to 32
+// frames are timed, between two waits, or the first one alone where frames are long.
+double secondsOfVisit(const Contender& one);
+
+// Estimates the seconds of all samples: the least number of each, and more while they fit into half a minute.
+double leastSeconds(const std::vector<Contender>& contenders);
+
+// Flags the contenders that fit when each takes its seconds, cheapest first. Nothing bounds them: all.
+std::vector<bool> thoseThatFit(const std::vector<double>& cost, std::optional<double> seconds);
+
+// Visits in turn, round after round; `visit(i)` is left out where it would end after `seconds`, by `now` (s)
+// and by the dearest of its own visits before.
+void visitInTurn(const std::vector<double>& cost, std::optional<double> seconds,
+                 const std::function<double()>& now, const std::function<void(size_t)>& visit);
+
+// Seconds a frame. With `seconds`, what does not fit goes without samples, the dearest first.
+// `tell`: seconds that are done.
+std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::optional<double> seconds,
+                               const std::function<void(double)>& tell);
 
 }  // namespace shoal::measure

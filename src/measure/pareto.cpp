@@ -1,4 +1,4 @@
-#include "measure/pareto.h"
+#include "measure/accuracy.h"
 
 #include <algorithm>
 #include <cmath>

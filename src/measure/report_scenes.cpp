@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "core/random.h"
+#include "scene/field_kinds.h"
 
 namespace shoal::measure {
 

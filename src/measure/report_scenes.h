@@ -1,5 +1,7 @@
-// The scenes of the accuracy report: three molecules, four motions, four stiffnesses. Their numbers are those
-// of a prototype with z up; here (x, z, -y).
+// The scenes of the accuracy report, and its tables.
+//
+// Three molecules, four motions, four stiffnesses. Their numbers are those of a prototype with z up; here
+// (x, z, -y).
 //
 // Molecules have masses of 1 and springs of stiffness k with a damping of 0.05 sqrt(k), are centred on the
 // origin and start turned by 0.7 rad about (1, 2, 3); the others of a group are turned at random, so that
@@ -14,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "measure/accuracy.h"
+#include "measure/calibrate.h"
 #include "scene/scene.h"
 
 namespace shoal::measure {
@@ -40,5 +44,22 @@ inline constexpr double reportStiffnesses[] = {1e2, 1e4, 1e6, 1e8};
 
 // Molecule by molecule, motion by motion, by growing stiffness; `count` molecules in each.
 std::vector<ReportScene> reportScenes(int count);
+
+// One scene of the report, measured.
+struct ReportEntry {
+    std::string molecule, motion;
+    double stiffness = 0;
+    AccuracyReport accuracy;            // points, chaotic
+    std::optional<Calibration> chosen;  // without candidates
+};
+
+// The tables, in Markdown.
+// Which solver is cheapest at `error` and how many times as fast as euler; a row a motion and molecule, a
+// column a stiffness.
+std::string speedUpTable(const std::vector<ReportEntry>& entries, double error);
+// Nanoseconds per vertex and simulated second of every solver at `error`; a row a scene.
+std::string costTable(const std::vector<ReportEntry>& entries, double error);
+// The method and substeps that the calibration chooses for its error.
+std::string chosenTable(const std::vector<ReportEntry>& entries);
 
 }  // namespace shoal::measure

@@ -1,14 +1,11 @@
-#include "measure/sample.h"
+#include "measure/calibrate.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace shoal::measure {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr double nearEnough = 0.3, roughlyNear = 3;  // of the error wanted: a change when the step is halved
 constexpr double floatNoise = 1e-4;                  // below it two runs in float agree
@@ -93,7 +90,7 @@ bool MoleculeSample::settleBy(SolverKind kind) {
         by.set({substeps, 1});
         by.run(frames_);
         const std::vector<Snapshot> fine = by.snapshots();
-        const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+        const double seconds = secondsSince(start);
         if (!coarse.empty() && core_.errorOf(fine).worst <= std::max(error_, floatNoise)) {
             const std::vector<double> change = distances(coarse, fine);
             const auto sum = [&](const auto& of) {

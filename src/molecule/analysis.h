@@ -1,4 +1,5 @@
-// Analyses a molecule's springs: its frequencies, the motions that nothing resists, the stable steps.
+// Analyses a molecule's springs: its frequencies, the motions that nothing resists, the stable steps
+// (analysis.cpp), and its motions one by one (modes.cpp).
 //
 // Linearised about the drawn shape: M x'' + C x' + K x = 0 with K = sum of k n n^T and C = sum of c n n^T
 // over the springs. Prestress (a restLength other than the drawn distance) is left out of K; check() warns of
@@ -30,5 +31,15 @@ struct Analysis {
 
 // `pinned`: pins hold; otherwise as after their release. The molecule must be valid (see molecule_file.h).
 Analysis analyse(const Molecule& molecule, bool pinned);
+
+// A motion that the springs allow.
+struct Mode {
+    double frequency = 0;           // rad/s; 0: no spring resists it to first order
+    std::vector<glm::dvec3> shape;  // of every vertex: how it moves; the largest has length 1
+};
+
+// The slowest ones first, at most `most`, without the rigid motions; linearised as above.
+// Empty above 300 vertices. `pinned`: pins hold. The molecule must be valid (see molecule_file.h).
+std::vector<Mode> modesOf(const Molecule& molecule, bool pinned, size_t most);
 
 }  // namespace shoal

@@ -1,11 +1,11 @@
-#include "molecule/bind_skin.h"
+#include "molecule/skin.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <tuple>
 
-#include <Eigen/Dense>
+#include "molecule/linearised.h"
 
 namespace shoal {
 
@@ -21,9 +21,6 @@ constexpr double exact = 1e-7;    // of the molecule's size
 constexpr double leastNormal = 0.1;
 constexpr double mostLift = 0.1;  // of the size: further off, a normal that turns swings the skin about
 
-Vector3d toEigen(const glm::dvec3& v) {
-    return {v.x, v.y, v.z};
-}
 glm::dvec3 unit(const glm::dvec3& v) {
     const double length = glm::length(v);
     return length > 0 ? v / length : glm::dvec3(0);

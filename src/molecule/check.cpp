@@ -1,12 +1,11 @@
-#include "molecule/findings.h"
+#include "molecule/check.h"
 
 #include <algorithm>
 #include <map>
 #include <numeric>
 
-#include "core/many.h"
+#include "core/error.h"
 #include "molecule/analysis.h"
-#include "molecule/check.h"
 
 namespace shoal {
 

@@ -1,13 +1,12 @@
 #include "molecule/draft.h"
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 #include "core/json_edit.h"
-#include "molecule/bind_skin.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 
@@ -22,12 +21,8 @@ std::vector<int> upTo(size_t count) {
 // The value that most have; `otherwise` where there are none.
 template <typename Element>
 double usual(const std::vector<Element>& elements, double Element::*number, double otherwise) {
-    std::map<double, int> counts;
-    for (const Element& element : elements)
-        ++counts[element.*number];
-    const auto most = std::max_element(counts.begin(), counts.end(),
-                                       [](const auto& a, const auto& b) { return a.second < b.second; });
-    return most == counts.end() ? otherwise : most->first;
+    const auto [value, count] = commonest(elements, number);
+    return count > 0 ? value : otherwise;
 }
 
 template <typename T>

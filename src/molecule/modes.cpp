@@ -1,4 +1,4 @@
-#include "molecule/modes.h"
+#include "molecule/analysis.h"
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,6 @@
 #include <glm/glm.hpp>
 
 #include "core/error.h"
-#include "molecule/skin.h"
 
 namespace shoal {
 
@@ -40,6 +39,35 @@ struct Spring {
 
 struct Triangle {
     int a = 0, b = 0, c = 0;  // anticlockwise seen from the front
+};
+
+// Binds a skin vertex to one simulated vertex.
+struct SkinWeight {
+    int vertex = 0;
+    double weight = 0;  // may be negative
+};
+
+// A vertex of the skin lies at  sum of weight_k x_k + offset n,  n the unit normal of sum of weight_k n_k,
+// with x and n of the simulated vertices. Weights add up to 1 and reproduce the position in the rest shape,
+// so that every affine motion of the molecule carries the skin exactly.
+struct SkinVertex {
+    glm::dvec3 position{0};  // m, in the rest shape; follows from the weights (placeSkin), not in the file
+    glm::dvec2 uv{0};
+    std::vector<SkinWeight> weights;  // 1 to Skin::mostWeights
+    double offset = 0;                // m, along the molecule's normal
+};
+
+struct SkinTriangle {
+    int a = 0, b = 0, c = 0;  // anticlockwise seen from the front
+};
+
+// A finer mesh that is drawn in place of a molecule's triangles, and moves with its few simulated vertices.
+// It costs the simulation nothing.
+struct Skin {
+    static constexpr int mostWeights = 8;
+    std::vector<SkinVertex> vertices;
+    std::vector<SkinTriangle> triangles;
+    bool empty() const { return triangles.empty(); }
 };
 
 // How a molecule meets what is drawn behind it, with L the light that it sends, C its colour, o its opacity:

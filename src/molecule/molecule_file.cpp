@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
-#include <map>
 #include <set>
 #include <utility>
 
+#include "core/describe.h"
 #include "core/description_schema.h"
 #include "core/file.h"
-#include "core/file_format.h"
+#include "core/where.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
-#include "molecule/rules.h"
-#include "molecule/skin_file.h"
 
 namespace shoal {
 
@@ -28,25 +26,6 @@ const Range coefficientLimits = Range::between(0, 1e15);  // N/m, and N s/m
 
 // ---- Values of elements that do not give their own
 
-// The value that most elements share, when at least two do.
-class Common {
-  public:
-    void count(double value) { ++counts_[value]; }
-    std::optional<double> value() const {
-        std::optional<double> best;
-        int most = 1;
-        for (const auto& [value, count] : counts_) {
-            if (count <= most) continue;
-            best = value;
-            most = count;
-        }
-        return best;
-    }
-
-  private:
-    std::map<double, int> counts_;
-};
-
 struct Defaults {
     std::optional<double> mass, stiffness, damping;
     bool spelled = false;  // every element says its own
@@ -54,16 +33,13 @@ struct Defaults {
     Defaults() = default;
     Defaults(const Molecule& molecule, bool all) : spelled(all) {
         if (all) return;
-        Common masses, stiffnesses, dampings;
-        for (const Vertex& vertex : molecule.vertices)
-            masses.count(vertex.mass);
-        for (const Spring& spring : molecule.springs) {
-            stiffnesses.count(spring.stiffness);
-            dampings.count(spring.damping);
-        }
-        mass = masses.value();
-        stiffness = stiffnesses.value();
-        damping = dampings.value();
+        const auto shared = [](const auto& elements, auto number) -> std::optional<double> {
+            const auto [value, count] = commonest(elements, number);
+            return count > 1 ? std::optional(value) : std::nullopt;
+        };
+        mass = shared(molecule.vertices, &Vertex::mass);
+        stiffness = shared(molecule.springs, &Spring::stiffness);
+        damping = shared(molecule.springs, &Spring::damping);
     }
 };
 
@@ -329,23 +305,17 @@ const Description& describe(const Material*) {
     return it;
 }
 
-static const Description& describeMolecule() {
+const Description& describe(const Molecule*) {
     using M = Molecule;
     static const auto readSkinOf = [](JsonReader& r, M& molecule, void*) { readSkin(r, molecule); };
     static const auto writeSkinOf = [](const M& molecule, const void*) {
         return molecule.skin.vertices.empty() ? JsonValue() : skinJson(molecule.skin);
     };
-    static const auto writeMaterial = [](const M& molecule, const void*) {
-        return describe(&molecule.material).write(molecule.material);
-    };
     static const char* const triples = R"({"type": "array", "maxItems": 1048576, "items":
         {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}})";
     static const Description it =
         Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
-            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
-            .told("format", R"({"const": "shoal-molecule-1"})",
-                  {"`\"shoal-molecule-1\"`", "The format of the file and its version."})
-            .needed()
+            .format("shoal-molecule-1")
             .key("name", &M::name, {"", "Its name, and that of groups that have none."})
             .byHand<Defaults>(
                 "defaults", writeJson(schemaOf(describe(static_cast<const Defaults*>(nullptr)))),
@@ -363,15 +333,10 @@ static const Description& describeMolecule() {
                      "A finer mesh that is drawn instead of the triangles and moves with the vertices."},
                     readSkinOf, writeSkinOf)
             .key("material", &M::material, {"", "How it looks."})
-            .writes(writeMaterial)
             .derive(findPlaces)
             .rule(checkParts, R"({"properties": {"vertices": {"minItems": 1, "maxItems": 65536},
                                                  "springs": {"maxItems": 1048576}}})");
     return it;
-}
-
-const Description& describe(const Molecule*) {
-    return describeMolecule();
 }
 
 const Description& describeDefaults() {
@@ -400,15 +365,12 @@ void checkMolecule(const Molecule& molecule, const Where& where) {
 // ---- Files
 
 Molecule parseMolecule(const std::string& text, const std::string& file) {
-    const JsonValue value = parseJson(text, file);
-    JsonReader root(value, file);
-    needFormat(root, "shoal-molecule-1");
+    const JsonValue root = parseJson(text, file);
     Molecule molecule;
     molecule.file = file;
-    root.get("comment", molecule.comment);
     Defaults defaults;
-    describe(&molecule).read(root, molecule, &defaults);
-    root.finish();
+    describe(&molecule).readFile(root, file, molecule, &defaults);
+    if (const JsonValue* comment = root.find("comment")) molecule.comment = comment->text;
     return molecule;
 }
 

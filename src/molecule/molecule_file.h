@@ -23,6 +23,8 @@ namespace shoal {
 constexpr int maxMoleculeVertices = 65536;
 constexpr int maxMoleculeSprings = 1 << 20;
 constexpr int maxMoleculeTriangles = 1 << 20;
+constexpr int maxSkinVertices = 1 << 18;
+constexpr int maxSkinTriangles = 1 << 19;
 
 // Error: located, for whatever is missing, mistyped, out of range, repeated or unknown.
 Molecule readMolecule(const std::string& file);

@@ -1,7 +1,5 @@
 #include "molecule/skin.h"
 
-#include "molecule/molecule.h"
-
 namespace shoal {
 
 namespace {
@@ -20,8 +18,9 @@ glm::dvec3 sum(const std::vector<SkinWeight>& weights, const std::vector<glm::dv
 
 }  // namespace
 
-std::vector<glm::dvec3> vertexNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions) {
-    std::vector<glm::dvec3> out(positions.size(), glm::dvec3(0));
+void sumNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
+                std::vector<glm::dvec3>& out) {
+    out.assign(positions.size(), glm::dvec3(0));
     for (const Triangle& t : molecule.triangles) {
         const glm::dvec3 a = positions[size_t(t.a)];
         const glm::dvec3 area = glm::cross(positions[size_t(t.b)] - a, positions[size_t(t.c)] - a);
@@ -30,6 +29,11 @@ std::vector<glm::dvec3> vertexNormals(const Molecule& molecule, const std::vecto
     }
     for (glm::dvec3& n : out)
         n = unit(n);
+}
+
+std::vector<glm::dvec3> vertexNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions) {
+    std::vector<glm::dvec3> out;
+    sumNormals(molecule, positions, out);
     return out;
 }
 

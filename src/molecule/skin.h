@@ -1,51 +1,52 @@
-// A skin: a finer mesh that is drawn in place of a molecule's triangles, and moves with its few simulated
-// vertices. It costs the simulation nothing.
+// Where a molecule's skin lies (skin.cpp), and how a mesh is bound to a molecule's few vertices as its skin
+// (bind_skin.cpp).
 #pragma once
 
-#include <vector>
-
-#include <glm/glm.hpp>
+#include "molecule/molecule.h"
 
 namespace shoal {
-
-struct Molecule;
-
-// Binds a skin vertex to one simulated vertex.
-struct SkinWeight {
-    int vertex = 0;
-    double weight = 0;  // may be negative
-};
-
-// A vertex of the skin lies at  sum of weight_k x_k + offset n,  n the unit normal of sum of weight_k n_k,
-// with x and n of the simulated vertices. Weights add up to 1 and reproduce the position in the rest shape,
-// so that every affine motion of the molecule carries the skin exactly.
-struct SkinVertex {
-    glm::dvec3 position{
-        0};  // m, in the rest shape; follows from the weights (placeSkin) and is not in the file
-    glm::dvec2 uv{0};
-    std::vector<SkinWeight> weights;  // 1 to Skin::mostWeights
-    double offset = 0;                // m, along the molecule's normal
-};
-
-struct SkinTriangle {
-    int a = 0, b = 0, c = 0;  // anticlockwise seen from the front
-};
-
-struct Skin {
-    static constexpr int mostWeights = 8;
-    std::vector<SkinVertex> vertices;
-    std::vector<SkinTriangle> triangles;
-    bool empty() const { return triangles.empty(); }
-};
 
 // The normals of simulated vertices at `positions`: unit sums of the area vectors of their triangles (Decker,
 // section 3.5; shaders/physics/normal.glsl); zero for a vertex of none.
 std::vector<glm::dvec3> vertexNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions);
+// As vertexNormals(), into `out`, for loops that should not allocate.
+void sumNormals(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
+                std::vector<glm::dvec3>& out);
 
 // Where the skin's vertices lie when the simulated ones lie at `positions`.
 std::vector<glm::dvec3> skinPositions(const Molecule& molecule, const std::vector<glm::dvec3>& positions);
 
 // Fills the positions of the skin's vertices from the rest shape. Call it when vertices were moved.
 void placeSkin(Molecule& molecule);
+
+struct SkinMesh {
+    std::vector<glm::dvec3> positions;  // m, about the molecule's rest shape
+    std::vector<glm::dvec2> uvs;        // as many
+    std::vector<SkinTriangle> triangles;
+};
+
+// Moving least squares [Lancaster 1981] over the nearest vertices, at most Skin::mostWeights: of all weights
+// that add up to 1 and reproduce the point, those with the least sum of weight^2 / kernel. The kernel falls
+// to 0 at the first vertex that is left out, so that weights change smoothly along the skin.
+//
+// Weights are rounded to 1e-7, uvs to 1e-6, which the file keeps. Of vertices that lie in a plane, what the
+// plane does not reach is an offset along the molecule's normal.
+Skin bindSkin(const Molecule& molecule, const SkinMesh& mesh);
+
+// Binds a molecule's skin anew, at the places that it has: after vertices were added, removed or renumbered.
+void rebindSkin(Molecule& molecule);
+
+// How a skin vertex turns with the molecule: the tangents t and b of the skin in the rest shape, with t x b
+// its normal, move as sum of along_k x_k + offset n and sum of across_k x_k + offset n. The weights of both
+// add up to 0 and reproduce the tangent, so that normals follow every affine motion exactly.
+struct SkinFrame {
+    std::vector<double> along, across;  // one a weight of the vertex
+    double alongOffset = 0, acrossOffset = 0;
+};
+
+// Returns the frame of every vertex of the molecule's skin. Normals are smooth; vertices in one place share
+// theirs unless they differ by more than 40 degrees, as at the edge of a box.
+std::vector<SkinFrame> skinFrames(const Molecule& molecule);
+std::vector<glm::dvec3> skinNormals(const Skin& skin);  // the same normals, in the rest shape
 
 }  // namespace shoal

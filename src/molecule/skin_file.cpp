@@ -1,9 +1,9 @@
-#include "molecule/skin_file.h"
-
 #include <algorithm>
 #include <cmath>
 
-#include "molecule/rules.h"
+#include "molecule/molecule_file.h"
+#include "molecule/molecule_json.h"
+#include "molecule/skin.h"
 
 namespace shoal {
 

@@ -6,9 +6,7 @@
 #include <cmath>
 #include <optional>
 
-#include "reference/held.h"
-#include "reference/path.h"
-#include "reference/runge_kutta.h"
+#include "reference/equations.h"
 
 namespace shoal::reference {
 
@@ -36,6 +34,19 @@ bool finite(const State& state) {
 double slack(const glm::dvec3& x) {
     return onSurface + rounding * (std::abs(x.x) + std::abs(x.y) + std::abs(x.z));
 }
+
+// The cubic through both ends of a step with their velocities.
+struct Path {
+    glm::dvec3 x0, v0, x1, v1;  // v in m per step
+    glm::dvec3 at(double s) const {
+        const double r = 1 - s;
+        return x0 * (r * r * (1 + 2 * s)) + x1 * (s * s * (1 + 2 * r)) + v0 * (s * r * r) - v1 * (s * s * r);
+    }
+    double length() const { return glm::length(x1 - x0); }
+    double bend() const {
+        return (glm::length(v0) + glm::length(v1)) * (4 / 27.0);
+    }  // at most, off the chord
+};
 
 // Something that happens to one vertex when `value` falls below 0.
 struct Event {

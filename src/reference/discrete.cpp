@@ -4,8 +4,8 @@
 
 #include "reference/fields.h"
 #include "reference/forces.h"
-#include "reference/implicit.h"
 #include "reference/solve.h"
+#include "scene/force_kinds.h"
 
 namespace shoal::reference {
 
@@ -105,7 +105,7 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
         springs = springAcceleration(problem, state.position, state.velocity, state.time);
     Problem smooth = problem;  // without thrust
     std::erase_if(smooth.forces,
-                  [](const Force& force) { return std::holds_alternative<ThrustForce>(force.shape); });
+                  [](const Force& force) { return std::holds_alternative<ThrustForce>(*force.shape); });
     History history;
     for (int i = 0; i < substeps; ++i) {
         switch (kind) {

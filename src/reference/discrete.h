@@ -1,6 +1,8 @@
-// The explicit methods of the GPU, step for step, in double precision: what the passes would compute if
-// floats had no rounding. `euler` is symplectic Euler [Latta 2004, (3) and (8)], `leapfrog` its second-order
-// relative. All but rk4 take gravity and drag exactly over the step they are given:
+// The methods of the GPU, step for step, in double precision: what it would compute if floats had no
+// rounding.
+//
+// The explicit ones (discrete.cpp): `euler` is symplectic Euler [Latta 2004, (3) and (8)], `leapfrog` its
+// second-order relative. All but rk4 take gravity and drag exactly over the step they are given:
 //   v += (u - v)(1 - exp(-gamma h)) + g (1 - exp(-gamma h)) / gamma,
 // with the scene's forces in g. Thrust acts exactly, over h before a step of order 1, else over h/2 before
 // and after it.
@@ -26,8 +28,30 @@ void leapfrogStep(const Problem& problem, State& state, Vectors& springs, double
 // the positions' difference.
 void verletStep(const Problem& problem, State& state, double h);
 
-// A frame of `substeps` equal steps of any solver, the implicit ones too (reference/implicit.h); leapfrog
-// evaluates a anew at its start, and those with history start without.
+// The implicit ones (implicit.cpp) are written from the formulas, not from the shaders: dense matrices, a
+// rotation by singular values.
+//
+// A stage over eta finds the displacements q of the step with
+//   m (q - z) / eta = m w + eta (f(x + q, (q - z) / eta) + m g + m gamma (u - (q - z) / eta))
+// from the solution without springs: by Gauss-Seidel sweeps over the springs as compliant constraints (XPBD,
+// [Macklin 2016] and [Macklin 2019]), or by two quasi-Newton steps with the matrix of the rest shape, turned.
+
+// q = h v after exact drag and gravity at x, t;  one sweep, in the order of compile/kernel.h;  v = q / h;  x
+// += q.
+void xpbdStep(const Problem& problem, State& state, double h);
+
+// The changes of the last step; empty: none.
+struct History {
+    Vectors displacement, velocityChange;
+};
+
+// BDF2: z = dx / 3, w = v + dv / 3, eta = 2h/3; then v' = (q - z) / eta. Without history: exact for free
+// flight in the fluid where the stage reads it, and the springs by backward Euler, eta = h. `corotated`:
+// quasi-Newton steps, guarded as the shader is; else two sweeps, there and back.
+void bdf2Step(const Problem& problem, State& state, History& history, double h, bool corotated);
+
+// A frame of `substeps` equal steps of any solver; leapfrog evaluates a anew at its start, and those with
+// history start without.
 void frame(const Problem& problem, State& state, SolverKind kind, double duration, int substeps);
 
 }  // namespace shoal::reference

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "molecule/skin.h"
 #include "reference/fields.h"
 #include "reference/forces.h"
 

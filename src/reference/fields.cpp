@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/noise.h"
+#include "scene/field_kinds.h"
 
 namespace shoal::reference {
 
@@ -183,7 +184,7 @@ glm::dvec3 fluidVelocity(const std::vector<Field>& fields, const glm::dvec3& x, 
     glm::dvec3 sum(0);
     for (const Field& field : fields) {
         if (field.box && !holds(*field.box, x)) continue;
-        sum += field.weight * fieldVelocity(field.shape, x, time);
+        sum += field.weight * fieldVelocity(*field.shape, x, time);
     }
     return sum;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/problem.h"
+#include "scene/force_kinds.h"
 
 namespace shoal::reference {
 
@@ -35,11 +36,14 @@ glm::dvec3 acceleration(const WindForce&, const glm::dvec3&) {
     return glm::dvec3(0);
 }
 
-// Calls visit(force, what it is multiplied by and moved by now).
+// Calls visit(kind with its strength of now, how far it has moved, m).
 template <typename Visit>
 void forEach(const std::vector<Force>& forces, double time, Visit visit) {
-    for (const Force& force : forces)
-        if (!force.mouse) visit(force, momentOf(force.path, time));
+    for (const Force& force : forces) {
+        if (force.mouse) continue;
+        const ForceMoment now = momentOf(force.path, time);
+        std::visit([&](const auto& kind) { visit(kind.times(now.factor), now.offset); }, *force.shape);
+    }
 }
 
 }  // namespace
@@ -57,48 +61,38 @@ glm::dvec3 shapeAcceleration(const ForceShape& shape, const glm::dvec3& x) {
 
 glm::dvec3 forceAcceleration(const std::vector<Force>& forces, const glm::dvec3& x, double time) {
     glm::dvec3 sum(0);
-    forEach(forces, time, [&](const Force& force, const ForceMoment& now) {
-        // the path changes the strength, not the bound `most`
-        ForceShape shape = force.shape;
-        if (auto* attract = std::get_if<AttractForce>(&shape)) attract->strength *= now.factor;
-        if (auto* line = std::get_if<VortexLineForce>(&shape)) {
-            line->pull *= now.factor;
-            line->turn *= now.factor;
-        }
-        sum += shapeAcceleration(shape, x - now.offset);
-    });
+    forEach(forces, time,
+            [&](const auto& force, const glm::dvec3& offset) { sum += acceleration(force, x - offset); });
     return sum;
 }
 
 glm::dvec3 forceWind(const std::vector<Force>& forces, double time) {
     glm::dvec3 sum(0);
-    forEach(forces, time, [&](const Force& force, const ForceMoment& now) {
-        if (const auto* wind = std::get_if<WindForce>(&force.shape)) sum += now.factor * wind->velocity;
+    forEach(forces, time, [&]<typename Kind>(const Kind& force, const glm::dvec3&) {
+        if constexpr (std::is_same_v<Kind, WindForce>) sum += force.velocity;
     });
     return sum;
 }
 
 glm::dvec3 thrustAcceleration(const std::vector<Force>& forces, const glm::dvec3& velocity, double time) {
     double rate = 0;
-    forEach(forces, time, [&](const Force& force, const ForceMoment& now) {
-        const auto* thrust = std::get_if<ThrustForce>(&force.shape);
-        if (!thrust) return;
-        const double own = thrust->rate * now.factor;
-        if (own < 0 || glm::length(velocity) < thrust->limit) rate += own;
+    forEach(forces, time, [&]<typename Kind>(const Kind& force, const glm::dvec3&) {
+        if constexpr (std::is_same_v<Kind, ThrustForce>)
+            if (force.rate < 0 || glm::length(velocity) < force.limit) rate += force.rate;
     });
     return rate * velocity;
 }
 
 glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration) {
-    forEach(forces, time, [&](const Force& force, const ForceMoment& now) {
-        const auto* thrust = std::get_if<ThrustForce>(&force.shape);
-        const double speed = glm::length(velocity);
-        if (!thrust || speed == 0) return;
-        const double rate = thrust->rate * now.factor, grown = speed * std::exp(rate * duration);
-        if (rate < 0)
-            velocity *= grown / speed;
-        else if (speed < thrust->limit)
-            velocity *= std::min(grown, thrust->limit) / speed;
+    forEach(forces, time, [&]<typename Kind>(const Kind& force, const glm::dvec3&) {
+        if constexpr (std::is_same_v<Kind, ThrustForce>) {
+            const double speed = glm::length(velocity), grown = speed * std::exp(force.rate * duration);
+            if (speed == 0) return;
+            if (force.rate < 0)
+                velocity *= grown / speed;
+            else if (speed < force.limit)
+                velocity *= std::min(grown, force.limit) / speed;
+        }
     });
     return velocity;
 }

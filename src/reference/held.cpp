@@ -1,4 +1,4 @@
-#include "reference/held.h"
+#include "reference/contact.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,3 @@
-#include "reference/implicit.h"
-
 #include <cmath>
 
 #include <Eigen/Dense>

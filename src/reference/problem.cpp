@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "molecule/skin.h"
 #include "reference/equations.h"
 
 namespace shoal::reference {
@@ -49,25 +50,8 @@ Vectors springAcceleration(const Problem& problem, const Vectors& position, cons
     return out;
 }
 
-void sumNormals(const Molecule& molecule, const Vectors& position, Vectors& out) {
-    out.assign(position.size(), glm::dvec3(0));
-    for (const Triangle& triangle : molecule.triangles) {
-        const size_t a = size_t(triangle.a), b = size_t(triangle.b), c = size_t(triangle.c);
-        const glm::dvec3 area = glm::cross(position[b] - position[a], position[c] - position[a]);
-        out[a] += area;
-        out[b] += area;
-        out[c] += area;
-    }
-    for (glm::dvec3& n : out) {
-        const double length = glm::length(n);
-        n = length > 0 ? n / length : glm::dvec3(0);
-    }
-}
-
 Vectors normals(const Problem& problem, const Vectors& position) {
-    Vectors out;
-    sumNormals(*problem.molecule, position, out);
-    return out;
+    return vertexNormals(*problem.molecule, position);
 }
 
 Vectors acceleration(const Problem& problem, const State& state) {

@@ -57,8 +57,6 @@ Vectors springAcceleration(const Problem& problem, const Vectors& position, cons
                            double time);
 // Unit normals: the sum of the area vectors of the triangles around a vertex; 0 where that vanishes.
 Vectors normals(const Problem& problem, const Vectors& position);
-// As normals(), into `out`, for loops that should not allocate.
-void sumNormals(const Molecule& molecule, const Vectors& position, Vectors& out);
 // Everything: springs, gravity, drag.
 Vectors acceleration(const Problem& problem, const State& state);
 

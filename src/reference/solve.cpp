@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "reference/contact.h"
-#include "reference/deadline.h"
+#include "reference/equations.h"
 #include "reference/forces.h"
-#include "reference/runge_kutta.h"
+#include "scene/field_kinds.h"
 
 namespace shoal::reference {
 
@@ -128,7 +128,7 @@ double fastestRate(const Problem& problem) {
     }
     // Gershgorin: an eigenvalue of M^-1 K is at most twice the largest sum of k / m around a vertex
     for (const Field& field : problem.fields) {
-        if (const auto* wind = std::get_if<OscillatingField>(&field.shape))
+        if (const auto* wind = std::get_if<OscillatingField>(&*field.shape))
             driven = std::max(driven, 6.3 * wind->frequency);
     }
     for (const Force& force : problem.forces)

@@ -62,7 +62,7 @@ namespace {
 
 // Returns the shaders' bound of the largest eigenvalue of `sum`, the sum of n n^T
 // (shaders/physics/pair.glsl).
-double crowdOf(const glm::dmat3& sum) {
+double effectiveCount(const glm::dmat3& sum) {
     double rows = 0, squares = 0;
     for (int i = 0; i < 3; ++i) {
         double row = 0;
@@ -94,8 +94,8 @@ class Response {
             }
         }
         for (size_t c = 0; c < contacts.size(); ++c)
-            meetings_[c].share = 1 / std::max(crowdOf(normals[size_t(contacts[c].first)]),
-                                              crowdOf(normals[size_t(contacts[c].second)]));
+            meetings_[c].share = 1 / std::max(effectiveCount(normals[size_t(contacts[c].first)]),
+                                              effectiveCount(normals[size_t(contacts[c].second)]));
     }
 
     void run() {
@@ -114,7 +114,7 @@ class Response {
             earlierImpulse = last;
             earlier = lastPushed;
         }
-        settle();
+        addFriction();
     }
 
   private:
@@ -157,7 +157,7 @@ class Response {
         }
     }
 
-    void settle() {
+    void addFriction() {
         constexpr int rounds = 4;
         std::vector<glm::dvec3> before, bounce, rest;
         for (int round = 0; round < rounds; ++round) {
@@ -171,22 +171,23 @@ class Response {
                 const glm::dvec3 along = u - glm::dot(u, m.normal) * m.normal;
                 const double slip = glm::length(along);
                 // the wall that may be there counts as one more
-                const int crowd = 1 + std::max(number_[size_t((*contacts_)[c].first)],
-                                               number_[size_t((*contacts_)[c].second)]);
-                const bool alone = m.share > 0.995;  // crowdOf both is 1
+                const int number = 1 + std::max(number_[size_t((*contacts_)[c].first)],
+                                                number_[size_t((*contacts_)[c].second)]);
+                const bool alone = m.share > 0.995;  // effectiveCount both is 1
                 const glm::dvec3 push = pushed_[c] * m.normal;
-                const double rubbed = glm::length(before[size_t((*contacts_)[c].first)] - push);
+                const double spent = glm::length(before[size_t((*contacts_)[c].first)] - push);
                 const double grip =
-                    alone ? std::min(std::max(settings_.friction * pushed_[c] - rubbed, 0.0), slip / m.weight)
-                          : std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / crowd);
-                const glm::dvec3 rub = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
-                exchange(impulse_, c, rub);
+                    alone
+                        ? std::min(std::max(settings_.friction * pushed_[c] - spent, 0.0), slip / m.weight)
+                        : std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / number);
+                const glm::dvec3 change = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
+                exchange(impulse_, c, change);
                 const glm::dvec3 whole = alone ? before[size_t((*contacts_)[c].first)] : push;
-                if (m.impact) exchange(bounce, c, (whole + rub) * m.since);
+                if (m.impact) exchange(bounce, c, (whole + change) * m.since);
                 exchange(rest, c, this->push(c) * m.normal);
             }
         }
-        keep(before, rest);
+        addCorrection(before, rest);
         for (size_t i = 0; i < spheres_->size(); ++i) {
             Sphere& sphere = (*spheres_)[i];
             sphere.velocity += sphere.weight * impulse_[i];
@@ -194,7 +195,7 @@ class Response {
         }
     }
 
-    void keep(const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& rest) {
+    void addCorrection(const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& rest) {
         std::vector<double> kept(rest.size());
         for (size_t i = 0; i < rest.size(); ++i) {
             const glm::dvec3 change = (*spheres_)[i].weight * rest[i] / settings_.stepTime;

@@ -1,7 +1,8 @@
-#include "render/bounds.h"
-
 #include <algorithm>
 #include <limits>
+
+#include "compile/plan.h"
+#include "render/lighting.h"
 
 namespace shoal {
 

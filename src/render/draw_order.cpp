@@ -1,24 +1,53 @@
 #include "render/draw_order.h"
 
-#include "gpu/barrier.h"
+#include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "render/lighting.h"
-#include "render/molecule_state.h"
 
 namespace shoal {
 
-static constexpr int keyLanes = 64;
+static constexpr int lanes = 64;
+
+StateReader::StateReader(const GroupPlan& plan, size_t group)
+    : index(group),
+      rows(plan.texture.firstRow, plan.texture.slabRows, plan.texture.firstRecordRow, 0),
+      layout(plan.layout()) {}
+
+std::vector<std::string> StateReader::defines(const StateView& state) const {
+    if (!state.textures) return layout.defines();
+    std::vector<std::string> out = {"TEXTURES", concat("STATE_WIDTH ", stateWidth)};
+    if (layout.life) out.emplace_back("LIFE");
+    return out;
+}
+
+void StateReader::bind(const gpu::Program& program, const StateView& state,
+                       const GroupBuffers::Part* part) const {
+    if (state.textures) {
+        const TextureState& textures = *state.textures;
+        program.texture("positions", unit::positions, textures.position.read(index));
+        program.texture("velocities", unit::velocities, textures.velocity.read(index));
+        program.texture("records", unit::records, textures.record.read(index));
+        program.texture("constants", unit::constants, textures.constant);
+        if (textures.normal) program.texture("normals", unit::normals, textures.normal);
+        program.set("groupRows", rows);
+        return;
+    }
+    const GroupBuffers& buffers = (*state.buffers)[index];
+    program.texture("states", unit::positions, buffers.oldState(*part));
+    program.texture("records", unit::records, part->record);
+    if (buffers.hasNormals()) program.texture("normals", unit::normals, part->normal);
+}
+
+// ---- The order
 
 DrawOrder::DrawOrder(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group,
                      size_t index, DrawSort sort, int spreadFrames)
     : context_(&context),
       shaderRoot_(shaderRoot),
       name_(group.name),
-      index_(index),
+      reader_(group, index),
       count_(group.count),
       vertexCount_(group.vertexCount),
-      rows_(group.texture.firstRow, group.texture.slabRows, group.texture.firstRecordRow, 0),
-      layout_(group.layout()),
       sort_(sort),
       spreadFrames_(spreadFrames) {
     const auto count = size_t(count_);
@@ -51,13 +80,13 @@ const gpu::Program& DrawOrder::keysProgram(const StateView& state) {
     if (program) return program;
     gpu::ProgramOptions options;
     options.defines = defines();
-    for (const std::string& define : stateDefines(state, layout_))
+    for (const std::string& define : reader_.defines(state))
         options.defines.push_back(define);
     if (network_) {
         options.vertex = "passes/fullscreen.vert";
         options.fragment = "render/order_keys.frag";
     } else {
-        options.defines.push_back(concat("LANES ", keyLanes));
+        options.defines.push_back(concat("LANES ", lanes));
         options.compute = "render/order_keys.comp";
     }
     options.label = name_ + " (order)";
@@ -68,7 +97,7 @@ const gpu::Program& DrawOrder::keysProgram(const StateView& state) {
 void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) {
     const GroupBuffers::Part* part = nullptr;
     if (state.buffers) {
-        const std::vector<GroupBuffers::Part>& parts = (*state.buffers)[index_].parts();
+        const std::vector<GroupBuffers::Part>& parts = (*state.buffers)[reader_.index].parts();
         if (parts.size() > 1)
             throw Error(concat("group \"", name_, "\" is too large to be drawn in order: its state fills ",
                                parts.size(), " storage blocks of this context"));
@@ -78,7 +107,7 @@ void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) 
     if (network_) network_->drawInto(network_->target());
     program.use();
     eye.origin.apply(program);
-    bindState(program, state, index_, rows_, part);
+    reader_.bind(program, state, part);
     program.set("forward", -eye.viewToScene[2]);
     program.set("vertexCount", vertexCount_);
     program.set("moleculeCount", count_);
@@ -91,7 +120,7 @@ void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) 
     }
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});  // the last picture has read the order
     program.storage("Pairs", 0, pairs_, 0, pairs_.bytes());
-    program.dispatch((count_ + keyLanes - 1) / keyLanes);
+    program.dispatch((count_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
 }
 
@@ -114,6 +143,79 @@ std::vector<KeyIndex> DrawOrder::download() const {
     std::vector<KeyIndex> out(static_cast<size_t>(count_));
     pairs_.download(gpu::Traffic::Kind::state, 0, out.data(), out.size() * sizeof(KeyIndex));
     return out;
+}
+
+// ---- Slabs
+
+DepthSlabs::DepthSlabs(gpu::Context& context, const std::string& shaderRoot, int count,
+                       const DrawOrder& order)
+    : bounds_(context, gpu::Format::rg32ui, count, 1, "depth slabs"),
+      target_(context, {&bounds_}, nullptr, "depth slabs"),
+      program_(context, shaderRoot,
+               {"passes/fullscreen.vert", "render/slabs.frag", order.defines(), {}, "depth slabs"}),
+      noAttributes_(context, "depth slabs") {}
+
+void DepthSlabs::update(const DrawOrder& order) {
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST})
+        glDisable(state);
+    target_.bind();
+    program_.use();
+    order.bind(program_);
+    program_.set("moleculeCount", order.count());
+    program_.set("slabCount", count());
+    noAttributes_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void DepthSlabs::bind(const gpu::Program& program) const {
+    program.texture("slabs", unit::slabs, bounds_);
+}
+
+static constexpr size_t drawBytes = 8 * sizeof(uint32_t);
+
+static gpu::ProgramOptions findingDraws(const DrawOrder& order) {
+    gpu::ProgramOptions options;
+    options.compute = "render/slab_draws.comp";
+    options.defines = order.defines();
+    options.defines.push_back(concat("LANES ", lanes));
+    options.label = "slab draws";
+    return options;
+}
+
+SlabDraws::SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
+                     const DrawStream& stream)
+    : slabs_(slabs),
+      stream_(stream),
+      program_(context, shaderRoot, findingDraws(order)),
+      draws_(context, gpu::Buffer::Use::storage, nullptr, size_t(slabs) * drawBytes, "slab draws"),
+      drawTexels_(context, draws_, gpu::Texel::uint1, "slab draws") {}
+
+void SlabDraws::update(const DrawOrder& order, const DepthSlabs& slabs) {
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+    program_.use();
+    order.bind(program_);
+    slabs.bind(program_);
+    program_.set("slabCount", slabs_);
+    program_.set("moleculeCount", order.count());
+    program_.set("corners", stream_.corners);
+    program_.set("batch", stream_.batch);
+    program_.storage("Draws", 0, draws_, 0, draws_.bytes());
+    program_.dispatch((slabs_ + lanes - 1) / lanes);
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::draw});
+}
+
+void SlabDraws::bind(const gpu::Program& program) const {
+    program.texture("slabDraws", unit::slabDraws, drawTexels_);
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, draws_.id());
+}
+
+void SlabDraws::draw(int slab) const {
+    const auto* at =
+        reinterpret_cast<const void*>(size_t(slab) * drawBytes);  // OpenGL's way to say an offset
+    if (stream_.indexed)
+        glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, at);
+    else
+        glDrawArraysIndirect(GL_POINTS, at);
 }
 
 }  // namespace shoal

@@ -1,6 +1,10 @@
 // The order in which the molecules of a blended group are drawn: from back to front, by the depth of their
 // middles along the view. Made and kept on the GPU; nothing of it crosses the bus.
 //
+// Several blended groups take turns in slabs of depth: everything of the farthest slab first, whatever its
+// group. Within a group the order stays exact; of two groups, what lies in one slab may be drawn the wrong
+// way round.
+//
 // Pairs of src/sort: the key is the depth as a whole number, the farthest first; the index is the molecule.
 //   frame    numbered and sorted anew in every frame: by radix in compute, below OpenGL 4.3 bitonic. Exact.
 //   spread   the first frame sorts; every other gives the last order new depths, and takes its share of the
@@ -16,15 +20,30 @@
 #include <vector>
 
 #include "compile/plan.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
 #include "molecule/molecule.h"
 #include "render/view.h"
 #include "simulate/state_view.h"
-#include "sort/key_index.h"
 #include "sort/network_sort.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
+
+// How programs that draw or order the molecules of a group reach its state, on either path.
+struct StateReader {
+    size_t index;     // of the group in the plan
+    glm::ivec4 rows;  // of the textures: first state row, rows of a slab, first record row
+    BufferLayout layout;
+
+    StateReader(const GroupPlan& plan, size_t group);
+    // Returns the defines of a program that includes state/molecule.glsl.
+    std::vector<std::string> defines(const StateView& state) const;
+    // `part`: of the group's buffers; null where the state is in textures. Texture units 0 to 3.
+    void bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part) const;
+};
 
 class DrawOrder {
   public:
@@ -52,10 +71,8 @@ class DrawOrder {
 
     gpu::Context* context_;
     std::string shaderRoot_, name_;
-    size_t index_;
+    StateReader reader_;
     int count_, vertexCount_;
-    glm::ivec4 rows_;
-    BufferLayout layout_;
     DrawSort sort_;
     int spreadFrames_;
     bool begun_ = false;
@@ -64,6 +81,48 @@ class DrawOrder {
     gpu::BufferTexture pairTexels_;
     std::unique_ptr<RadixSort> radix_;
     std::unique_ptr<NetworkSort> network_;  // else
+};
+
+class DepthSlabs {
+  public:
+    // Every slab is to hold about as many molecules of the group with this order.
+    DepthSlabs(gpu::Context& context, const std::string& shaderRoot, int count, const DrawOrder& order);
+
+    void update(const DrawOrder& order);  // of the group that it was made for; changes the framebuffer
+    void bind(const gpu::Program& program) const;
+    int count() const { return bounds_.width(); }
+
+  private:
+    gpu::Texture bounds_;  // texel s: first key of slab s, first one past it
+    gpu::Framebuffer target_;
+    gpu::Program program_;
+    gpu::VertexArray noAttributes_;
+};
+
+// The contents of one instance of a draw call.
+struct DrawStream {
+    int corners = 1;       // indices, or vertices where there are none
+    bool indexed = false;  // triangles; else points
+    int batch = 1;         // molecules
+};
+
+// One indirect draw a slab of depth, of those molecules of a sorted group that lie in it: found on the GPU
+// (OpenGL 4.3), so that no vertex of another slab is touched.
+class SlabDraws {
+  public:
+    SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
+              const DrawStream& stream);
+
+    void update(const DrawOrder& order, const DepthSlabs& slabs);
+    void bind(const gpu::Program& program) const;  // shaders/render/drawn.glsl, SLAB_DRAWS
+    void draw(int slab) const;                     // the vertex array is bound
+
+  private:
+    int slabs_;
+    DrawStream stream_;
+    gpu::Program program_;
+    gpu::Buffer draws_;  // shaders/render/slab_draws.comp
+    gpu::BufferTexture drawTexels_;
 };
 
 }  // namespace shoal

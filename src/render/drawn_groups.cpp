@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
-#include "render/molecule_drawer.h"
-#include "render/particle_drawer.h"
 
 namespace shoal {
 
@@ -22,7 +20,7 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         else
             drawn.drawer = std::make_unique<MoleculeDrawer>(context, shaderRoot, *programs_, group, groupPlan,
                                                             g, lighting);
-        if (group.colorBy) drawn.drawer->colorBy(*group.colorBy, groupPlan.vertexCount);
+        if (group.colorBy) drawn.drawer->colorBy(*group.colorBy);
         drawn.blend = material.blend;
         if (drawn.blend == Blend::alpha) drawn.sort = material.sort;
         drawn.spreadFrames = material.spreadFrames;
@@ -75,6 +73,104 @@ const DrawOrder* DrawnGroups::orderOf(size_t group) const {
     for (const Drawn& drawn : groups_)
         if (drawn.drawer->index() == group) return drawn.order.get();
     return nullptr;
+}
+
+// ---- What is blended
+
+// The blends of groups that give the same picture in any order.
+static bool commute(const std::vector<Blend>& blends) {
+    return std::all_of(blends.begin(), blends.end(),
+                       [&](Blend blend) { return blend == blends.front() && blend != Blend::alpha; });
+}
+
+void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                             int slabs) {
+    std::vector<Blend> blends;
+    bool unordered = true;  // all ask for no order: they are drawn one after another, whole
+    for (const Drawn& group : groups_) {
+        if (group.blend == Blend::none) continue;
+        blends.push_back(group.blend);
+        unordered = unordered && group.blend == Blend::alpha && group.sort == DrawSort::none;
+    }
+    blends_ = !blends.empty();
+    const bool inSlabs = blends.size() > 1 && !commute(blends) && !unordered && slabs > 1;
+    int most = -1;
+    for (size_t i = 0; i < groups_.size(); ++i) {
+        Drawn& group = groups_[i];
+        if (group.blend == Blend::none) continue;
+        if (group.sort == DrawSort::none && !inSlabs) continue;
+        GroupDrawer& drawer = *group.drawer;
+        group.order = std::make_unique<DrawOrder>(context, shaderRoot, plan.groups[drawer.index()],
+                                                  drawer.index(), group.sort, group.spreadFrames);
+        drawer.addOrderDefines({"ORDERED"});
+        if (inSlabs) drawer.addOrderDefines({group.order->exact() ? "SLAB_DRAWS" : "SLABS"});
+        drawer.addOrderDefines(group.order->defines());
+        if (inSlabs && group.order->exact())
+            group.slabDraws =
+                std::make_unique<SlabDraws>(context, shaderRoot, slabs, *group.order, drawer.stream());
+        // The slabs are cut by the largest group that is sorted, else by the largest.
+        const int weight = group.order->sorted() ? drawer.count() : 0;
+        if (weight > most) {
+            most = weight;
+            slabsOf_ = i;
+        }
+    }
+    if (inSlabs) slabs_ = std::make_unique<DepthSlabs>(context, shaderRoot, slabs, *groups_[slabsOf_].order);
+}
+
+void DrawnGroups::order(const StateView& state, const Eye& eye) {
+    for (const Drawn& group : groups_)
+        if (group.order) group.order->update(state, eye);
+    if (!slabs_) return;
+    slabs_->update(*groups_[slabsOf_].order);
+    for (const Drawn& group : groups_)
+        if (group.slabDraws) group.slabDraws->update(*group.order, *slabs_);
+}
+
+// The alpha of the picture stays 1 throughout.
+static void setBlend(Blend blend) {
+    switch (blend) {
+    case Blend::none:
+        glDisable(GL_BLEND);
+        return;
+    case Blend::alpha:
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+        break;
+    case Blend::additive:
+        glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE, GL_ZERO, GL_ONE);
+        break;
+    case Blend::multiplicative:
+        glBlendFuncSeparate(GL_ZERO, GL_SRC_COLOR, GL_ZERO, GL_ONE);
+        break;
+    }
+    glEnable(GL_BLEND);
+}
+
+void DrawnGroups::drawBlended(const StateView& state, const DrawInputs& inputs) {
+    const int count = slabs_ ? slabs_->count() : 1;
+    for (int slab = 0; slab < count; ++slab) {
+        for (size_t i = 0; i < groups_.size(); ++i) {
+            // The slabs begin at molecules of one group, which are the farthest there: it goes first.
+            Drawn& group = groups_[i == 0 ? slabsOf_ : i <= slabsOf_ ? i - 1 : i];
+            if (group.blend == Blend::none) continue;
+            setBlend(group.blend);
+            const gpu::Program& program = group.drawer->useLit(state, inputs);
+            if (group.order) group.order->bind(program);
+            if (slabs_)
+                drawSlab(group, program, state, slab);
+            else
+                group.drawer->submit(program, state);
+        }
+    }
+    setBlend(Blend::none);
+}
+
+void DrawnGroups::drawSlab(const Drawn& group, const gpu::Program& program, const StateView& state,
+                           int slab) const {
+    program.set("slab", slab);
+    if (group.slabDraws) return group.drawer->submitSlab(program, state, *group.slabDraws, slab);
+    slabs_->bind(program);
+    group.drawer->submit(program, state);
 }
 
 }  // namespace shoal

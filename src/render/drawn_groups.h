@@ -1,15 +1,11 @@
-// Draws every group of a scene, of molecules (render/molecule_drawer.h) and of particles
-// (render/particle_drawer.h).
-//
-// Groups with a blend are drawn after everything else, from back to front (render/draw_order.h). Several of
-// them take turns in slabs of depth (render/depth_slabs.h).
+// Draws every group of a scene. Those with a blend are drawn after everything else, from back to front;
+// several of them take turns in slabs of depth (render/draw_order.h).
 #pragma once
 
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "render/depth_slabs.h"
 #include "render/draw_order.h"
 #include "render/group_drawer.h"
 

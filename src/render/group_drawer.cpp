@@ -1,7 +1,6 @@
 #include "render/group_drawer.h"
 
 #include "gpu/gl.h"
-#include "render/molecule_state.h"
 
 namespace shoal {
 
@@ -12,17 +11,12 @@ GroupDrawer::GroupDrawer(gpu::Context& context, const std::string& shaderRoot, g
       shaderRoot_(shaderRoot),
       name_(plan.name),
       corners_(context, plan.name.c_str()),
-      index_(index),
+      reader_(plan, index),
       count_(plan.count),
-      rows_(plan.texture.firstRow, plan.texture.slabRows, plan.texture.firstRecordRow, 0),
-      layout_(plan.layout()) {}
+      vertexCount_(plan.vertexCount) {}
 
 void GroupDrawer::addOrderDefines(const std::vector<std::string>& defines) {
     orderDefines_.insert(orderDefines_.end(), defines.begin(), defines.end());
-}
-
-void GroupDrawer::colorBy(const ColorScale& scale, int vertexCount) {
-    scale_.emplace(scale, vertexCount);
 }
 
 const gpu::Program& GroupDrawer::beginLit(const StateView& state, const DrawInputs& inputs) {
@@ -31,8 +25,19 @@ const gpu::Program& GroupDrawer::beginLit(const StateView& state, const DrawInpu
     inputs.eye.origin.apply(lit);
     inputs.lighting.apply(lit, inputs.eye);
     lit.set("toClip", inputs.eye.toClip);
-    if (scale_) scale_->apply(lit);
+    if (scale_) setScale(lit);
     return lit;
+}
+
+// As shaders/render/color_scale.glsl takes it.
+void GroupDrawer::setScale(const gpu::Program& program) const {
+    std::array<glm::vec4, mostScaleColors> colors{};
+    for (size_t i = 0; i < scale_->colors.size(); ++i)
+        colors[i] = glm::vec4(glm::vec3(scale_->colors[i]), 1);
+    program.set("scaleColors", std::span<const glm::vec4>(colors));
+    program.set("scaleLast", int(scale_->colors.size()) - 1);
+    program.set("scaleSpan", glm::vec2(float(scale_->from), float(1 / (scale_->to - scale_->from))));
+    program.set("scaleVertices", vertexCount_);
 }
 
 const gpu::Program& GroupDrawer::beginDepth(const StateView& state, const ShadowMap& shadow) {
@@ -48,7 +53,7 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
     const gpu::Program*& program = variants[state.textures ? 0 : 1];
     if (program != nullptr) return *program;
     gpu::ProgramOptions wanted = options;
-    const std::vector<std::string> defines = stateDefines(state, layout_);
+    const std::vector<std::string> defines = reader_.defines(state);
     wanted.defines.insert(wanted.defines.end(), defines.begin(), defines.end());
     if (&variants == &lit_) {
         wanted.defines.insert(wanted.defines.end(), orderDefines_.begin(), orderDefines_.end());
@@ -60,7 +65,7 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
 
 void GroupDrawer::bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part,
                        int count) const {
-    bindState(program, state, index_, rows_, part);
+    reader_.bind(program, state, part);
     if (stream_.batch > 1) program.set("drawnCount", count);
     corners_.bind();
     if (!stream_.indexed) glEnable(GL_PROGRAM_POINT_SIZE);
@@ -77,13 +82,13 @@ void GroupDrawer::submit(const gpu::Program& program, const StateView& state) co
         glDisable(GL_PROGRAM_POINT_SIZE);
     };
     if (state.textures) return draw(nullptr, count_);
-    for (const GroupBuffers::Part& part : (*state.buffers)[index_].parts())
+    for (const GroupBuffers::Part& part : (*state.buffers)[index()].parts())
         draw(&part, part.count);
 }
 
 void GroupDrawer::submitSlab(const gpu::Program& program, const StateView& state, const SlabDraws& draws,
                              int slab) const {
-    bind(program, state, state.buffers ? &(*state.buffers)[index_].parts()[0] : nullptr, count_);
+    bind(program, state, state.buffers ? &(*state.buffers)[index()].parts()[0] : nullptr, count_);
     draws.bind(program);
     draws.draw(slab);
     glDisable(GL_PROGRAM_POINT_SIZE);

@@ -1,4 +1,4 @@
-// Draws one group, whatever it is made of: straight from the state of either path, many molecules an
+// Draws one group, of molecules or of particles: straight from the state of either path, many molecules an
 // instanced draw. The state is read and nothing of it crosses the bus. DrawnGroups says when and in which
 // order.
 #pragma once
@@ -12,10 +12,11 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
+#include "render/draw_order.h"
 #include "render/lighting.h"
-#include "render/scale_uniforms.h"
-#include "render/slab_draws.h"
 #include "render/view.h"
+#include "scene/color_scale.h"
+#include "scene/particle.h"
 #include "simulate/state_view.h"
 
 namespace shoal {
@@ -34,7 +35,7 @@ class GroupDrawer {
     GroupDrawer(const GroupDrawer&) = delete;
     GroupDrawer& operator=(const GroupDrawer&) = delete;
 
-    size_t index() const { return index_; }  // of the group in the plan
+    size_t index() const { return reader_.index; }  // of the group in the plan
     int count() const { return count_; }
     const DrawStream& stream() const { return stream_; }
     virtual bool readsDepth() const { return false; }  // DrawInputs::sceneDepth
@@ -43,7 +44,7 @@ class GroupDrawer {
     void addOrderDefines(const std::vector<std::string>& defines);
 
     // Colours by what the molecules do, before the first program is made.
-    void colorBy(const ColorScale& scale, int vertexCount);
+    void colorBy(const ColorScale& scale) { scale_ = scale; }
 
     // The program that draws into the picture or the shadow map: in use, all but the state set. `time`: s.
     virtual const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) = 0;
@@ -54,6 +55,8 @@ class GroupDrawer {
                     int slab) const;
 
   protected:
+    // For shaders/render/blend.glsl.
+    static std::string blendDefine(Blend blend) { return concat("BLEND ", name(blend), "Blend"); }
     // One for textures, one for buffers; made when first drawn.
     using Variants = std::array<const gpu::Program*, 2>;
 
@@ -72,18 +75,99 @@ class GroupDrawer {
     gpu::ProgramOptions litOptions_, depthOptions_;  // but for what the kind of the state adds
     Variants lit_{}, depth_{};
     std::vector<std::string> orderDefines_;
-    std::optional<ScaleUniforms> scale_;  // none: the material's own colours
+    std::optional<ColorScale> scale_;  // none: the material's own colours
 
   private:
     const gpu::Program& program(Variants& variants, const gpu::ProgramOptions& options,
                                 const StateView& state) const;
     void bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part,
               int count) const;
+    void setScale(const gpu::Program& program) const;
 
-    size_t index_;
-    int count_;
-    glm::ivec4 rows_;
-    BufferLayout layout_;
+    StateReader reader_;
+    int count_, vertexCount_;
 };
+
+// A group of molecules: gl_InstanceID is the molecule, gl_VertexID its vertex. Their triangles, two-sided and
+// cut out of an image by its alpha, or those of its skin; without triangles each vertex as a round sprite.
+class MoleculeDrawer : public GroupDrawer {
+  public:
+    // `plan` at `index` of the plan. Error: the image of the material is missing or not a PNG.
+    MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                   const Group& group, const GroupPlan& plan, size_t index, const Lighting& lighting);
+
+    const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
+    const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
+
+    // Other colours, roughness, translucency and opacity; the rest of the group is as before.
+    void change(const Group& group);
+
+  private:
+    template <typename Vertices, typename Triangles>
+    void makeCorners(const Vertices& vertices, const Triangles& triangles);
+    void makeSkinCorners(const Molecule& molecule);
+    void chooseShaders(const Lighting& lighting);
+    bool grows() const { return grow_ > 0 || shrink_ > 0; }
+    void setShape(const gpu::Program& program) const;
+
+    Material material_;
+    glm::vec3 color_{0}, secondColor_{0};
+    bool points_;
+    std::vector<std::string> skinDefines_;  // none: the molecule's own triangles are drawn
+    double grow_ = 0, shrink_ = 0;          // s (scene/emitter.h)
+    gpu::Buffer uvs_, indices_;             // none: points
+    gpu::Buffer skin_;                      // on which vertices its own depend (shaders/render/skinned.vert)
+    gpu::Texture image_;                    // none: plain colour
+};
+
+// A group of point particles by their type (scene/particle.h): dots, sprites or quads, whose looks the vertex
+// stage works out from age and seed (shaders/particles). What the type does not use is not in the shaders.
+//
+// An instance of a draw is a batch of particles that share one stream of corners: an instance each would
+// leave most lanes of a GPU, or of a CPU's vectors, idle.
+//
+// Particles that are not blended cast shadows; blended ones do not.
+class ParticleDrawer : public GroupDrawer {
+  public:
+    // `pixelsPerMeter`: about where the camera looks. Error: loadImage's.
+    ParticleDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
+                   const ParticleType& type, const GroupPlan& plan, size_t index, const Lighting& lighting,
+                   double pixelsPerMeter);
+
+    // Other looks, from the next picture on. False, and nothing changes: they need another image, order or
+    // stream of corners.
+    bool change(const ParticleType& type, const Lighting& lighting);
+
+    bool readsDepth() const override { return type_.softness > 0 && type_.blend != Blend::none; }
+    const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) override;
+    const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) override;
+
+  private:
+    void makeStream();
+    void chooseShaders(const Lighting& lighting);
+    std::vector<std::string> defines() const;
+    void setType(const gpu::Program& program) const;
+    void setTime(const gpu::Program& program, double time) const;
+    void setColors(const gpu::Program& program) const;
+
+    ParticleType type_;
+    double pixelsPerMeter_;
+    bool ages_;  // some are born or die
+    gpu::Buffer indices_;
+    gpu::Texture image_;  // none: a dot
+};
+
+// ---- The images that they are drawn with (group_image.cpp)
+//
+// They are mipmapped, rows bottom first. Colour is spread from inside the shape over what is cut away, so
+// that smaller mip levels do not mix the background's colour into the rim.
+
+// Error: no such file, or not a PNG.
+gpu::Texture loadImage(gpu::Context& context, const Molecule& molecule);
+
+// The tiles in use as layers, from the first, mipmapped each by itself: none bleeds into its neighbour at any
+// distance. Error: no such file, not a PNG, tiles that do not fill it, or more of them than the context has
+// layers.
+gpu::Texture loadImage(gpu::Context& context, const ParticleImage& image);
 
 }  // namespace shoal

@@ -1,17 +1,19 @@
-// Sun, sky, haze and shadow as the shaders take them (shaders/render/sky.glsl, light.glsl).
+// Sun, sky, haze and shadow as the shaders take them (shaders/render/sky.glsl, light.glsl), and how large the
+// scene is that they light (bounds.cpp).
 #pragma once
 
 #include <string>
 #include <vector>
 
+#include "gpu/framebuffer.h"
 #include "gpu/program.h"
-#include "render/bounds.h"
-#include "render/shadow_map.h"
+#include "gpu/texture.h"
 #include "render/view.h"
 #include "scene/scene.h"
 
 namespace shoal {
 
+struct Plan;
 class WaterLight;
 
 // Texture units, one for each sampler of the room.
@@ -20,12 +22,56 @@ constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4,
               order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12;
 }
 
+struct BoundingSphere {
+    glm::dvec3 center{0};
+    double radius = 0;  // m; 0: none
+};
+
+struct SceneBounds {
+    // Bounds of the shadow casters: molecules, the models that carry them, and drawn colliders with an end.
+    // All drawn models where there is none of these.
+    Box casters;
+    // Around the molecules that are placed densely on a model and hide the sky from one another.
+    BoundingSphere crown;
+};
+
+// From the start state: cheap and constant.
+SceneBounds boundsOf(const Scene& scene, const Plan& plan);
+
+// Depth as the sun sees it: one orthographic map around whatever casts the shadows that matter.
+class ShadowMap {
+  public:
+    ShadowMap(gpu::Context& context, int size, const Box& casters, const glm::dvec3& towardsSun);
+
+    void begin() const;  // binds and clears; OpenGL's state for casters
+    void end() const;
+
+    const Origin& origin() const { return origin_; }  // what `toClip` is relative to
+    const glm::mat4& toClip() const { return toClip_; }
+    const glm::mat3& toScene() const { return toScene_; }  // columns: right, up, towards the sun
+    float pixelsPerMeter() const { return pixelsPerMeter_; }
+    const gpu::Texture& depth() const { return depth_; }
+
+    // From places relative to the eye to texture coordinates and depth in [0, 1].
+    glm::mat4 toTexture(const Origin& eye) const;
+    // x: filter radius in texture units; y: offset along the normal and z: towards the sun, in m.
+    glm::vec3 filter() const;
+
+  private:
+    gpu::Texture depth_;
+    gpu::Framebuffer framebuffer_;
+    Origin origin_;
+    glm::mat4 toClip_{1};
+    glm::mat3 toScene_{1};
+    float pixelsPerMeter_ = 1;
+};
+
 class Lighting {
   public:
     // `shadow` may be null: the sun casts none; `water` too: all is in the air. `blends`: something is
     // blended, so light is stored as it is. Borrows.
-    Lighting(const Scene& scene, const Sphere& crown, const ShadowMap* shadow, const WaterLight* water,
-             bool blends);
+    Lighting(const Scene& scene, const BoundingSphere& crown, const ShadowMap* shadow,
+             const WaterLight* water, bool blends);
 
     // Returns the defines of programs that light surfaces.
     std::vector<std::string> defines() const;
@@ -34,7 +80,6 @@ class Lighting {
     void applySky(const gpu::Program& program, const Eye& eye) const;
     void applyBeams(const gpu::Program& program, const Eye& eye) const;  // only with water
     void apply(const gpu::Program& program, const Eye& eye) const;
-    bool hazy() const { return fog_ > 0 || water_ != nullptr; }
 
   private:
     void applySun(const gpu::Program& program) const;
@@ -42,7 +87,7 @@ class Lighting {
 
     glm::vec3 towardsSun_{0}, sun_{0}, zenith_{0}, horizon_{0}, ground_{0};
     float fog_ = 0;
-    Sphere crown_;
+    BoundingSphere crown_;
     const ShadowMap* shadow_;
     const WaterLight* water_;
     bool blends_;

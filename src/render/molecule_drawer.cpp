@@ -1,9 +1,7 @@
-#include "render/molecule_drawer.h"
-
 #include <algorithm>
 
-#include "molecule/bind_skin.h"
-#include "render/leaf_image.h"
+#include "molecule/skin.h"
+#include "render/group_drawer.h"
 
 namespace shoal {
 
@@ -19,12 +17,12 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
     else if (!group.molecule.skin.empty())
         makeSkinCorners(group.molecule);
     else
-        makeCorners(group.molecule);
+        makeCorners(group.molecule.vertices, group.molecule.triangles);
     if (group.life && !points_) {
         grow_ = group.life->grow;
         shrink_ = group.life->shrink;
     }
-    if (!points_ && !material_.texture.empty()) image_ = loadLeafImage(context, group.molecule);
+    if (!points_ && !material_.texture.empty()) image_ = loadImage(context, group.molecule);
     chooseShaders(lighting);
 }
 
@@ -38,15 +36,15 @@ void MoleculeDrawer::change(const Group& group) {
                                      : group.color.value_or(looks.secondColor.value_or(looks.color));
 }
 
-void MoleculeDrawer::makeCorners(const Molecule& molecule) {
+template <typename Vertices, typename Triangles>
+void MoleculeDrawer::makeCorners(const Vertices& vertices, const Triangles& triangles) {
     std::vector<glm::vec2> uvs;
-    for (const Vertex& vertex : molecule.vertices)
+    for (const auto& vertex : vertices)
         uvs.emplace_back(vertex.uv);
     std::vector<uint32_t> indices;
-    for (const Triangle& t : molecule.triangles) {
+    for (const auto& t : triangles)
         for (const int corner : {t.a, t.b, t.c})
             indices.push_back(uint32_t(corner));
-    }
     using Use = gpu::Buffer::Use;
     uvs_ = gpu::Buffer(*context_, Use::vertex, std::span<const glm::vec2>(uvs), "molecule uvs");
     indices_ = gpu::Buffer(*context_, Use::index, std::span<const uint32_t>(indices), "molecule triangles");
@@ -56,6 +54,7 @@ void MoleculeDrawer::makeCorners(const Molecule& molecule) {
 }
 
 void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
+    makeCorners(molecule.skin.vertices, molecule.skin.triangles);
     // offsets, then as many influences as any vertex has; a weight of 0 changes nothing
     struct Corner {
         glm::vec3 offsets{0};
@@ -63,13 +62,11 @@ void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
     };
     const std::vector<SkinFrame> frames = skinFrames(molecule);
     std::vector<Corner> corners(frames.size());
-    std::vector<glm::vec2> uvs;
     size_t most = 1;
     bool offsets = false;
     for (size_t i = 0; i < frames.size(); ++i) {
         const SkinVertex& vertex = molecule.skin.vertices[i];
         const SkinFrame& frame = frames[i];
-        uvs.emplace_back(vertex.uv);
         corners[i].offsets = glm::vec3(vertex.offset, frame.alongOffset, frame.acrossOffset);
         offsets = offsets || corners[i].offsets != glm::vec3(0);
         most = std::max(most, vertex.weights.size());
@@ -77,21 +74,12 @@ void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
             corners[i].influences[k] = glm::vec4(vertex.weights[k].vertex, vertex.weights[k].weight,
                                                  frame.along[k], frame.across[k]);
     }
-    std::vector<uint32_t> indices;
-    for (const SkinTriangle& t : molecule.skin.triangles)
-        for (const int corner : {t.a, t.b, t.c})
-            indices.push_back(uint32_t(corner));
-    using Use = gpu::Buffer::Use;
-    uvs_ = gpu::Buffer(*context_, Use::vertex, std::span<const glm::vec2>(uvs), "skin uvs");
-    skin_ = gpu::Buffer(*context_, Use::vertex, std::span<const Corner>(corners), "skin weights");
-    indices_ = gpu::Buffer(*context_, Use::index, std::span<const uint32_t>(indices), "skin triangles");
-    corners_.attribute(0, uvs_, 2, sizeof(glm::vec2), 0);
+    skin_ =
+        gpu::Buffer(*context_, gpu::Buffer::Use::vertex, std::span<const Corner>(corners), "skin weights");
     corners_.attribute(1, skin_, 3, sizeof(Corner), offsetof(Corner, offsets));
     for (int k = 0; k < int(most); ++k)
         corners_.attribute(2 + k, skin_, 4, sizeof(Corner),
                            int(offsetof(Corner, influences)) + k * int(sizeof(glm::vec4)));
-    corners_.indices(indices_);
-    stream_ = {int(indices.size()), true};
     skinDefines_ = {concat("SKIN_WEIGHTS ", most)};
     if (offsets) skinDefines_.emplace_back("SKIN_OFFSETS");
 }
@@ -108,9 +96,7 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     litOptions_ = depth;
     for (const std::string& define : lighting.defines())
         litOptions_.defines.push_back(define);
-    if (material_.metallic > 0) litOptions_.defines.push_back("METALLIC");
-    if (material_.blend != Blend::none) litOptions_.defines.push_back("BLENDED");
-    if (material_.blend == Blend::multiplicative) litOptions_.defines.push_back("FILTERS");
+    litOptions_.defines.push_back(blendDefine(material_.blend));
     litOptions_.label = name_ + " (picture)";
     depth.defines.push_back("DEPTH_ONLY");
     if (!points_) depth.fragment = "render/molecule_shadow.frag";
@@ -144,8 +130,8 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
         program.set("secondColor", secondColor_);
     }
     program.set("roughness", float(material_.roughness));
-    if (material_.metallic > 0) program.set("metallic", float(material_.metallic));
-    if (material_.blend != Blend::none) program.set("opacity", float(material_.opacity));
+    program.set("metallic", float(material_.metallic));
+    program.set("opacity", float(material_.opacity));
     setShape(program);
     if (points_) {
         program.set("pointSize", float(material_.pointSize));

@@ -1,10 +1,8 @@
-#include "render/particle_drawer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "render/particle_image.h"
+#include "render/group_drawer.h"
 
 namespace shoal {
 
@@ -58,7 +56,7 @@ ParticleDrawer::ParticleDrawer(gpu::Context& context, const std::string& shaderR
       type_(effective(type, pixelsPerMeter, context.info().maxPointSize)),
       pixelsPerMeter_(pixelsPerMeter),
       ages_(plan.needs.life) {
-    if (type_.image) image_ = loadParticleImage(context, *type_.image);
+    if (type_.image) image_ = loadImage(context, *type_.image);
     makeStream();
     chooseShaders(lighting);
 }
@@ -102,8 +100,7 @@ std::vector<std::string> ParticleDrawer::defines() const {
     };
     add(type_.shape == ParticleShape::points, "POINTS");
     add(type_.shape == ParticleShape::sprites, "SPRITES");
-    add(type_.facing == ParticleFacing::velocity, "FACING_VELOCITY");
-    add(type_.facing == ParticleFacing::free, "FACING_FREE");
+    out.push_back(concat("FACING ", name(type_.facing), "Facing"));
     add(spreads(type_.size), "SIZES");
     add(ages_ && type_.growth != glm::dvec2(1), "GROWS");
     add(turns(type_), "TURNS");
@@ -112,10 +109,11 @@ std::vector<std::string> ParticleDrawer::defines() const {
     const bool several = type_.image->firstTile != type_.image->lastTile;
     const bool flips = several && type_.image->flipBook, again = type_.image->frameRate > 0;
     add(true, "IMAGE");
-    add(several && !flips, "TILES");
-    add(flips && again, "FLIP_AGAIN");
-    add(flips && !again, "FLIP_ONCE");
-    add(flips && type_.image->blend, "FADES");
+    out.push_back(concat("TILES ", !several ? "oneTile"
+                                   : !flips ? "tileOfSeed"
+                                   : again  ? "tilesAgain"
+                                            : "tilesOnce"));
+    out.push_back(concat("FADES ", flips && type_.image->blend ? "true" : "false"));
     return out;
 }
 
@@ -124,18 +122,15 @@ void ParticleDrawer::chooseShaders(const Lighting& lighting) {
     depthOptions_.fragment = "particles/particle.frag";
     depthOptions_.defines = defines();
     litOptions_ = depthOptions_;
-    depthOptions_.defines.push_back("DEPTH_ONLY");
+    depthOptions_.defines.insert(depthOptions_.defines.end(), {"DEPTH_ONLY", blendDefine(Blend::none)});
     depthOptions_.label = name_ + " (shadow)";
 
     std::vector<std::string>& lit = litOptions_.defines;
     for (const std::string& define : lighting.defines())
         lit.push_back(define);
-    if (type_.blend != Blend::none) lit.push_back("BLENDED");
-    if (type_.blend == Blend::additive) lit.push_back("ADDS");
-    if (type_.blend == Blend::multiplicative) lit.push_back("FILTERS");
+    lit.push_back(blendDefine(type_.blend));
     if (type_.lit && type_.blend != Blend::multiplicative) lit.push_back("LIT");
     if (readsDepth()) lit.push_back("SOFT");
-    if (lighting.hazy()) lit.push_back("HAZE");
     litOptions_.label = name_ + " (picture)";
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 #include "core/error.h"
 #include "core/file.h"
@@ -80,6 +81,39 @@ void PictureWriter::finish() {
     if (video_) video_->finish();
     video_.reset();
     sole_.reset();
+}
+
+// ---- What the user asks for while the scene runs
+
+std::string freeName(const std::string& stem, const std::string& ending) {
+    constexpr int most = 100000;
+    for (int i = 1; i < most; ++i) {
+        std::string name = concat(stem, "-", number(i, 3), ending);
+        std::error_code code;
+        if (!std::filesystem::exists(std::filesystem::symlink_status(name, code))) return name;
+    }
+    throw Error(concat(stem, ending, ": there are too many already"));
+}
+
+void Recorder::start(const std::string& stem, double frameRate) {
+    target_ = freeName(stem, VideoWriter::installed() ? ".mp4" : "");
+    frames_ = 0;
+    constexpr int most = 9'999'999;  // pictures: nobody knows yet when it stops
+    writer_ = std::make_unique<PictureWriter>(target_, frameRate, true, most);
+}
+
+void Recorder::add(const Image& picture) {
+    try {
+        writer_->write(picture, frames_++);
+    } catch (const Error&) {
+        writer_.reset();
+        throw;
+    }
+}
+
+void Recorder::stop() {
+    const std::unique_ptr<PictureWriter> writer = std::move(writer_);
+    if (writer) writer->finish();
 }
 
 }  // namespace shoal

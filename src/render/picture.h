@@ -1,14 +1,14 @@
-// Where pictures go: a folder, a name with a number in it, or a video.
+// Where pictures go: a folder, a name with a number in it, or a video (video_writer.cpp).
 #pragma once
 
+#include <sys/types.h>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "core/file.h"
 #include "core/image.h"
-#include "core/part_file.h"
-#include "render/video_writer.h"
 
 namespace shoal {
 
@@ -20,6 +20,38 @@ std::filesystem::path frameFile(const std::string& target, int frame, bool many 
 
 // Whether `target` names a video: .mp4, .mkv, .webm or .mov.
 bool isVideo(const std::string& target);
+
+// A video, encoded by the ffmpeg command, which gets the pictures through a pipe.
+class VideoWriter {
+  public:
+    static bool installed();       // whether ffmpeg is
+    static void checkInstalled();  // Error: it is not; says how to get it
+
+    // Error: ffmpeg cannot be started, or PartFile's.
+    VideoWriter(std::filesystem::path file, int width, int height, double frameRate);
+    ~VideoWriter();  // without finish(): nothing is left behind
+    VideoWriter(const VideoWriter&) = delete;
+    VideoWriter& operator=(const VideoWriter&) = delete;
+
+    // RGBA of the size given at the start. Error: another size, or ffmpeg stopped.
+    void write(const Image& picture);
+    // Waits for ffmpeg and gives the file its name. Error: ffmpeg failed, with what it said.
+    void finish();
+
+  private:
+    void start(double frameRate);
+    void closePipe();
+    void closeLog();
+    int wait();  // exit status of ffmpeg, -1 when a signal ended it
+    [[noreturn]] void fail(const std::string& what);
+    std::string complaint() const;  // the end of what ffmpeg said
+
+    std::filesystem::path file_;
+    PartFile part_;
+    int width_, height_;
+    int pipe_ = -1, log_ = -1;
+    pid_t process_ = -1;
+};
 
 // Takes the pictures of a run, one a frame.
 class PictureWriter {
@@ -44,6 +76,27 @@ class PictureWriter {
     std::optional<SoleWriter> sole_;
     std::unique_ptr<VideoWriter> video_;
     std::filesystem::path last_;
+};
+
+// "leaves-001.png", or with the first number for which there is no such file or folder.
+std::string freeName(const std::string& stem, const std::string& ending);
+
+// Pictures or a video that the user asks for while the scene runs: beside one another in the working folder,
+// numbered, over no file that is there.
+class Recorder {
+  public:
+    // A video where ffmpeg is installed, else a folder of pictures. Error: cannot be made.
+    void start(const std::string& stem, double frameRate);
+    void add(const Image& picture);  // Error: PictureWriter's, and it records no more
+    void stop();                     // Error: the same
+    bool records() const { return writer_ != nullptr; }
+    int frames() const { return frames_; }
+    const std::string& target() const { return target_; }  // of the last start
+
+  private:
+    std::unique_ptr<PictureWriter> writer_;  // null: nothing is recorded
+    std::string target_;
+    int frames_ = 0;
 };
 
 }  // namespace shoal

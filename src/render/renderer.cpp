@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "gpu/debug_group.h"
+#include "gpu/gl.h"
 
 namespace shoal {
 
@@ -26,10 +26,6 @@ static std::vector<std::string> pictureDefines(const Lighting& lighting, const W
     return out;
 }
 
-static Sphere crownOf(const Scene& scene, const Plan& plan, const RenderOptions& options) {
-    return options.crownShade ? boundsOf(scene, plan).crown : Sphere{};
-}
-
 // Returns the pixels per metre at the camera's target, in a picture `height` rows high.
 static double pixelsPerMeterAt(const Camera& camera, int height) {
     const double distance = std::max(glm::distance(camera.eye, camera.target), 1e-3);
@@ -42,7 +38,7 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       options_(options),
       shadow_(makeShadowMap(context, scene, plan, options)),
       water_(makeWater(context, shaderRoot, scene)),
-      lighting_(scene, crownOf(scene, plan, options), shadow_.get(), water_.get(),
+      lighting_(scene, boundsOf(scene, plan).crown, shadow_.get(), water_.get(),
                 DrawnGroups::blends(scene, plan)),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,

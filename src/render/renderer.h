@@ -20,7 +20,7 @@
 #include "render/lighting.h"
 #include "render/surface_drawer.h"
 #include "render/view.h"
-#include "render/water_beams.h"
+#include "render/water_light.h"
 #include "simulate/state_view.h"
 
 namespace shoal {
@@ -29,7 +29,6 @@ struct RenderOptions {
     int width = 1280, height = 720;  // pixels
     int samples = 4;                 // a pixel; reduced to what the context has
     int shadowSize = 2048;           // texels a side
-    bool crownShade = true;          // leaves hide the sky from one another
     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
     int slabs = 128;    // of depth, where several groups are blended; 1 to 1024
     bool grid = false;  // a metre grid on planes; on anyway in scenes without a model

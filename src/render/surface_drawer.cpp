@@ -2,19 +2,147 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <utility>
 
 namespace shoal {
 
-static constexpr double planeReach = 60;   // how far a plane is drawn, in heights of the eye above it
-static constexpr double leastReach = 150;  // m
+// Triangles ready for a vertex buffer, relative to an origin of their own so that floats hold them far out.
+struct SurfaceMesh {
+    struct Corner {
+        glm::vec3 position{0};  // m, relative to the origin
+        glm::vec3 normal{0};    // unit
+        glm::vec3 color{1};     // linear RGB
+    };
+    glm::dvec3 origin{0};  // m
+    std::vector<Corner> corners;
+    std::vector<uint32_t> indices;
+};
 
-static Pose poseOf(const std::optional<ColliderPath>& path, double time) {
+namespace {
+
+using std::numbers::pi;
+
+// Two unit directions across a unit normal; x and z for one that points up.
+std::pair<glm::dvec3, glm::dvec3> tangentsOf(const glm::dvec3& normal) {
+    const glm::dvec3 start = std::abs(normal.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 along = glm::normalize(start - glm::dot(start, normal) * normal);
+    return {along, glm::cross(along, normal)};
+}
+
+SurfaceMesh meshOf(const Mesh& mesh) {
+    SurfaceMesh out;
+    out.origin = glm::floor(0.5 * (mesh.low + mesh.high));
+    out.corners.reserve(mesh.positions.size());
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        SurfaceMesh::Corner corner;
+        corner.position = glm::vec3(mesh.positions[i] - out.origin);
+        corner.normal = glm::vec3(mesh.normals[i]);
+        if (!mesh.colors.empty()) corner.color = glm::vec3(mesh.colors[i]);
+        out.corners.push_back(corner);
+    }
+    out.indices.reserve(mesh.triangles.size() * 3);
+    for (const glm::ivec3& t : mesh.triangles) {
+        for (int k = 0; k < 3; ++k)
+            out.indices.push_back(uint32_t(t[k]));
+    }
+    return out;
+}
+
+// Adds rings of corners, each of which ends where it began, and two triangles between any four of them.
+// `corner` makes that of a ring at a turn, rad.
+template <typename MakeCorner>
+void addRings(SurfaceMesh& mesh, int rings, int segments, const MakeCorner& corner) {
+    for (int i = 0; i < rings; ++i)
+        for (int j = 0; j <= segments; ++j)
+            mesh.corners.push_back(corner(i, 2 * pi * j / segments));
+    for (int i = 0; i + 1 < rings; ++i)
+        for (int j = 0; j < segments; ++j) {
+            const uint32_t a = uint32_t(i * (segments + 1) + j), b = a + uint32_t(segments) + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, b, a + 1, a + 1, b, b + 1});
+        }
+}
+
+SurfaceMesh sphereMesh(const SphereCollider& sphere) {
+    constexpr int rings = 48, segments = 96;
+    SurfaceMesh out;
+    out.origin = sphere.center;
+    addRings(out, rings + 1, segments, [&](int i, double turn) {
+        const double polar = pi * i / rings;
+        const glm::dvec3 n(std::sin(polar) * std::sin(turn), std::cos(polar),
+                           std::sin(polar) * std::cos(turn));
+        return SurfaceMesh::Corner{glm::vec3(sphere.radius * n), glm::vec3(n), glm::vec3(1)};
+    });
+    return out;
+}
+
+SurfaceMesh boxMesh(const BoxCollider& box) {
+    SurfaceMesh out;
+    out.origin = box.center;
+    const glm::dmat3 turn = glm::mat3_cast(box.rotation);
+    for (int axis = 0; axis < 3; ++axis) {
+        for (const double side : {-1.0, 1.0}) {
+            glm::dvec3 n(0), u(0), v(0);
+            n[axis] = side;
+            u[(axis + 1) % 3] = side;  // so that the corners go round anticlockwise
+            v[(axis + 2) % 3] = 1;
+            const uint32_t first = uint32_t(out.corners.size());
+            for (const glm::dvec2 at : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
+                const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
+                out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n), glm::vec3(1)});
+            }
+            for (const uint32_t corner : {0, 1, 2, 0, 2, 3})
+                out.indices.push_back(first + corner);
+        }
+    }
+    return out;
+}
+
+// A sphere cut in two at its equator, the halves moved to the ends.
+SurfaceMesh capsuleMesh(const CapsuleCollider& capsule) {
+    constexpr int rings = 24, segments = 64;
+    SurfaceMesh out;
+    out.origin = capsule.from;
+    const glm::dvec3 span = capsule.to - capsule.from;
+    const double length = glm::length(span);
+    const glm::dvec3 axis = length > 0 ? span / length : glm::dvec3(0, 1, 0);
+    const auto [along, across] = tangentsOf(axis);
+    addRings(out, 2 * rings, segments, [&, &u = along, &v = across](int i, double turn) {
+        const bool far = i < rings;  // the equator twice, once at each end
+        const double polar = pi * (far ? i : i - 1) / (2 * (rings - 1));
+        const glm::dvec3 n =
+            std::cos(polar) * axis + std::sin(polar) * (std::cos(turn) * u + std::sin(turn) * v);
+        return SurfaceMesh::Corner{glm::vec3(capsule.radius * n + (far ? span : glm::dvec3(0))), glm::vec3(n),
+                                   glm::vec3(1)};
+    });
+    return out;
+}
+
+// A disc of radius 1 around the origin; its rings are closer together in the middle, where the eye is.
+SurfaceMesh discMesh(const glm::dvec3& normal) {
+    constexpr int rings = 24, segments = 64;
+    const auto [along, across] = tangentsOf(normal);
+    SurfaceMesh out;
+    addRings(out, rings + 1, segments, [&, &u = along, &v = across](int i, double turn) {
+        const double radius = std::pow(double(i) / rings, 3);
+        const glm::dvec3 place = radius * (std::cos(turn) * u + std::sin(turn) * v);
+        return SurfaceMesh::Corner{glm::vec3(place), glm::vec3(normal), glm::vec3(1)};
+    });
+    return out;
+}
+
+constexpr double planeReach = 60;   // how far a plane is drawn, in heights of the eye above it
+constexpr double leastReach = 150;  // m
+
+Pose poseOf(const std::optional<ColliderPath>& path, double time) {
     return path ? poseAt(*path, time) : Pose{};
 }
 
-static glm::dvec3 placed(const Pose& pose, const glm::dvec3& x) {
+glm::dvec3 placed(const Pose& pose, const glm::dvec3& x) {
     return pose.position + pose.rotation * x;
 }
+
+}  // namespace
 
 SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
                              const Lighting& lighting, const ShadowMap* shadow, bool grid) {
@@ -56,9 +184,10 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
     lit_ = gpu::Program(context, shaderRoot, options);
     if (planes) {
         options.defines.push_back("PLANE");
-        if (grid) options.defines.push_back("GRID");
         options.label = "planes";
         litPlane_ = gpu::Program(context, shaderRoot, options);
+        litPlane_.use();
+        litPlane_.set("grid", int(grid));
     }
     if (shadow != nullptr) {
         depth_ = gpu::Program(

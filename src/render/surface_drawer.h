@@ -8,10 +8,11 @@
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "render/lighting.h"
-#include "render/surface_mesh.h"
 #include "render/view.h"
 
 namespace shoal {
+
+struct SurfaceMesh;
 
 class SurfaceDrawer {
   public:

@@ -1,5 +1,3 @@
-#include "render/video_writer.h"
-
 #include <fcntl.h>
 #include <pthread.h>
 #include <sys/mman.h>
@@ -17,6 +15,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/printable.h"
+#include "render/picture.h"
 
 namespace shoal {
 
@@ -32,8 +31,12 @@ static std::string findFfmpeg() {
     return {};
 }
 
+bool VideoWriter::installed() {
+    return !findFfmpeg().empty();
+}
+
 void VideoWriter::checkInstalled() {
-    if (findFfmpeg().empty())
+    if (!installed())
         throw Error(
             "a video needs the ffmpeg command, which is not installed (on Debian and Ubuntu: apt install "
             "ffmpeg); name a folder to get PNG pictures instead");

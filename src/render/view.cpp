@@ -35,20 +35,12 @@ static glm::dvec3 acrossFrom(const glm::dvec3& axis, const glm::dvec3& wanted) {
         glm::cross(std::abs(axis.x) < 0.9 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1), axis));
 }
 
-// Columns: right, up, towards the eye.
-static glm::dmat3 directionsOf(const View& view) {
+glm::dmat3 directionsOf(const View& view) {
     const glm::dvec3 away = view.eye - view.target;
     const double distance = glm::length(away);
     const glm::dvec3 back = distance > 0 ? away / distance : glm::dvec3(0, 0, 1);
     const glm::dvec3 right = acrossFrom(back, view.up);
     return {right, glm::cross(back, right), back};
-}
-
-glm::dvec3 onTargetPlane(const View& view, const glm::dvec2& place, double aspect) {
-    const glm::dmat3 toScene = directionsOf(view);
-    const double half = std::tan(view.fieldOfView / 2) * glm::length(view.eye - view.target);
-    return view.target + toScene[0] * ((2 * place.x - 1) * aspect * half) +
-           toScene[1] * ((1 - 2 * place.y) * half);
 }
 
 Eye::Eye(const View& view, int width, int height) : origin(view.eye) {

@@ -18,9 +18,8 @@ struct View {
     static View of(const Camera& camera, double time = 0);
 };
 
-// Where the ray through a place of the picture meets the plane through the view's target that faces the eye.
-// `place`: in [0, 1], right and down from the upper left corner; `aspect`: width / height.
-glm::dvec3 onTargetPlane(const View& view, const glm::dvec2& place, double aspect);
+// Columns: right, up, towards the eye.
+glm::dmat3 directionsOf(const View& view);
 
 // A point that places are relative to, split so that floats subtract it exactly: a point of the anchors'
 // lattice (1/16 m) and the rest below that.

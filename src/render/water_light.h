@@ -3,7 +3,7 @@
 //
 // Waves repeat on square tiles of the surface, eight meshes wide. Where refraction carries the light that
 // enters a small triangle of the surface is again a triangle, as much brighter as it is smaller [Arvo 1986];
-// it is drawn as in [Wallace 2011].
+// it is drawn as in [Wallace 2011]. Beams of light through the water are added to the picture's light.
 #pragma once
 
 #include <array>
@@ -17,6 +17,8 @@
 #include "scene/water.h"
 
 namespace shoal {
+
+class Lighting;
 
 class WaterLight {
   public:
@@ -40,6 +42,27 @@ class WaterLight {
     gpu::Buffer indices_;
     gpu::VertexArray grid_;
     gpu::Texture caustics_;
+    gpu::Framebuffer target_;
+};
+
+// Beams of light, drawn after everything else at a quarter of the picture's size (shaders/water/rays.frag).
+class WaterBeams {
+  public:
+    // None where the water has no rays.
+    WaterBeams(gpu::Context& context, const std::string& shaderRoot, const WaterLight* water);
+
+    void resize(int width, int height);  // of the picture
+    // `sceneDepth`: of all that is not blended.
+    void draw(const Eye& eye, const Lighting& lighting, const gpu::Texture& sceneDepth) const;
+    const gpu::Texture& light() const { return light_; }
+    explicit operator bool() const { return water_ != nullptr; }
+
+  private:
+    gpu::Context* context_;
+    const WaterLight* water_;
+    gpu::Program program_;
+    gpu::VertexArray empty_;
+    gpu::Texture light_;
     gpu::Framebuffer target_;
 };
 

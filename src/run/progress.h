@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/error.h"
-#include "geometry/distance_field_cache.h"
+#include "geometry/distance_field.h"
 
 namespace shoal {
 

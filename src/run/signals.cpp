@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "core/contract.h"
-#include "core/part_file.h"
+#include "core/file.h"
 
 namespace shoal {
 

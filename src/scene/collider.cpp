@@ -1,6 +1,6 @@
 #include "scene/collider.h"
 
-#include "core/description.h"
+#include "core/describe.h"
 
 namespace shoal {
 

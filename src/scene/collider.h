@@ -27,12 +27,22 @@ struct SphereCollider {
     double radius = 1;  // m
 };
 
+// What heights are read from: an image, or a model seen from above.
+struct HeightSource {
+    std::string image;           // a file
+    glm::dvec2 low{0}, high{0};  // m: x and z of its first and last sample
+    glm::dvec2 heights{0};       // m, of black and of white
+    std::string model;           // its name
+    int resolution = 257;        // samples along x and along z
+};
+
 // Heights over a rectangle in x and z; beyond it there is nothing.
 struct HeightFieldCollider {
     int columns = 0, rows = 0;    // samples along x and z, at least 2
     glm::dvec2 low{0}, high{0};   // m: x and z of the first and last sample
     std::vector<float> heights;   // m, x fastest
     bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
+    HeightSource source = {};
 };
 
 struct BoxCollider {

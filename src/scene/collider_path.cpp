@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "scene/keyframes.h"
 
 namespace shoal {

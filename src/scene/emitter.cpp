@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "scene/json/reader.h"
 #include "scene/scene.h"
 
@@ -99,7 +99,7 @@ const Description& describe(const Burst*) {
     return it;
 }
 
-static const Description& describeEmitter() {
+const Description& describe(const Emitter*) {
     using E = Emitter;
     const std::string round = "is of discs and spheres", dead = "is of emitters that do not wait for deaths";
     static const Description it =
@@ -183,10 +183,6 @@ static const Description& describeEmitter() {
             .rule(checkEmitter, R"({"anyOf": [{"required": ["rate"]}, {"required": ["bursts"]},
                                               {"properties": {"from": {"const": "death"}}}]})");
     return it;
-}
-
-const Description& describe(const Emitter*) {
-    return describeEmitter();
 }
 
 // The keys of "dies".

@@ -1,18 +1,27 @@
-#include "scene/field.h"
+#include "scene/field_kinds.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "scene/field_files/field_file.h"
 
 namespace shoal {
 
+template class Boxed<FieldShape>;
+
+constexpr double turn = 2 * std::numbers::pi;
+
 const Description& describe(const UniformField*) {
-    static const Description it = Describe<UniformField>("uniform", "The same velocity everywhere.")
-                                      .key("velocity", &UniformField::velocity, {"m/s", "The velocity."})
-                                      .needed();
+    static const Description it =
+        Describe<UniformField>("uniform", "The same velocity everywhere, and at all times.")
+            .key("velocity", &UniformField::velocity, {"m/s", "The velocity."})
+            .needed();
     return it;
+}
+
+GlslCalls UniformField::calls() const {
+    return {GlslCall("vec3").vector(velocity)};
 }
 
 const Description& describe(const OscillatingField*) {
@@ -28,11 +37,22 @@ const Description& describe(const OscillatingField*) {
     return it;
 }
 
+GlslCalls OscillatingField::calls() const {
+    return {GlslCall("oscillatingVelocity")
+                .time()
+                .vector(velocity)
+                .number(turn * frequency)
+                .clock({.rate = turn * frequency, .start = phase})};
+}
+
 const Description& describe(const GustField*) {
     using F = GustField;
     static const Description it =
-        Describe<F>("gust",
-                    "A steady direction with fronts of stronger and weaker wind that travel along it.")
+        Describe<F>(
+            "gust",
+            "Fronts of stronger and weaker wind that travel along a direction: direction · speed · (1 + "
+            "strength · n), with n a noise of mean 0, about within [−1, 1], at ((s − frontSpeed · t) / "
+            "length, p / width, q / width); s is along the direction, p and q across it.")
             .direction("direction", &F::direction, {"", "The direction of the wind."})
             .key("speed", &F::speed, {"m/s", "The mean speed."})
             .key("strength", &F::strength, {"", "The relative variation of the speed.", Range::atLeast(0)})
@@ -41,6 +61,23 @@ const Description& describe(const GustField*) {
             .key("frontSpeed", &F::frontSpeed, {"m/s", "The speed of the fronts along the direction."})
             .key("seed", &F::seed, {"", "The seed of the noise."});
     return it;
+}
+
+GlslCalls GustField::calls() const {
+    const glm::dvec3 along = glm::normalize(direction);
+    // an axis across: horizontal unless the wind blows vertically
+    const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
+    return {GlslCall("gustVelocity")
+                .place()
+                .time()
+                .vector(along)
+                .vector(glm::normalize(glm::cross(up, along)))
+                .number(speed)
+                .number(strength)
+                .number(frontSpeed)
+                .pair({length, width})
+                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
+                .text(concat(seed, "u"))};
 }
 
 // The rows of the gradient, which glm stores as columns.
@@ -78,17 +115,38 @@ const Description& describe(const ShearField*) {
     return it;
 }
 
+GlslCalls ShearField::calls() const {
+    const glm::dmat3 rows = glm::transpose(gradient);
+    return {GlslCall("shearVelocity")
+                .from(origin)
+                .vector(velocity)
+                .vector(rows[0])
+                .vector(rows[1])
+                .vector(rows[2])};
+}
+
 const Description& describe(const VortexField*) {
     using F = VortexField;
     static const Description it =
-        Describe<F>("vortex",
-                    "Turns about an axis, fastest at the radius, anticlockwise seen from the axis's tip.")
+        Describe<F>(
+            "vortex",
+            "Turns about an axis, anticlockwise seen from its tip: with r the distance from it and R the "
+            "radius, speed · 2 (r/R) / (1 + (r/R)²) around it and lift / (1 + (r/R)²) along it.")
             .key("origin", &F::origin, {"m", "A point of the axis."})
             .direction("axis", &F::axis, {"", "The direction of the axis."})
             .key("speed", &F::speed, {"m/s", "The speed at the radius."})
             .key("radius", &F::radius, {"m", "The radius of the core.", aboveZero()})
             .key("lift", &F::lift, {"m/s", "The speed along the axis, on it."});
     return it;
+}
+
+GlslCalls VortexField::calls() const {
+    return {GlslCall("vortexVelocity")
+                .from(origin)
+                .vector(glm::normalize(axis))
+                .number(speed)
+                .number(radius)
+                .number(lift)};
 }
 
 const Description& describe(const AbcField*) {
@@ -105,6 +163,10 @@ const Description& describe(const AbcField*) {
     return it;
 }
 
+GlslCalls AbcField::calls() const {
+    return {GlslCall("abcVelocity").from(origin).number(a).number(b).number(c).number(turn / wavelength)};
+}
+
 const Description& describe(const TaylorGreenField*) {
     using F = TaylorGreenField;
     static const Description it =
@@ -115,6 +177,10 @@ const Description& describe(const TaylorGreenField*) {
             .key("speed", &F::speed, {"m/s", "The largest speed."})
             .key("wavelength", &F::wavelength, {"m", "The wavelength.", aboveZero()});
     return it;
+}
+
+GlslCalls TaylorGreenField::calls() const {
+    return {GlslCall("taylorGreenVelocity").from(origin).number(speed).number(turn / wavelength)};
 }
 
 const Description& describe(const CurlNoiseField*) {
@@ -130,6 +196,48 @@ const Description& describe(const CurlNoiseField*) {
                  Range::between(1, 4)})
             .key("seed", &F::seed, {"", "The seed of the noise."});
     return it;
+}
+
+GlslCalls CurlNoiseField::calls() const {
+    return {GlslCall("curlNoiseVelocity")
+                .place()
+                .time()
+                .number(speed)
+                .number(length)
+                .number(period)
+                .text(concat(octaves))
+                .clock({.kind = FieldClock::Kind::cells, .rate = 1 / period})
+                .text(concat(seed, "u"))};
+}
+
+GlslCalls GridField::calls() const {
+    GlslCall out(times.empty() ? "gridVelocity" : "gridSequenceVelocity");
+    out.from(low)
+        .vector(glm::dvec3(resolution) / (high - low))
+        .text(concat("ivec3(", resolution.x, ", ", resolution.y, ", ", resolution.z, ")"))
+        .samples(values)
+        .text(wrap ? "true" : "false");
+    if (times.empty()) return {out};
+    // The time in frames of the sequence, on from the one that was last passed when the frame began.
+    const size_t frames = times.size();
+    const double interval = (times.back() - times.front()) / double(frames - 1);
+    bool even = true;
+    for (size_t i = 0; i < frames; ++i)
+        even = even && std::abs(times[i] - times.front() - double(i) * interval) < 1e-6 * interval;
+    const FieldClock clock{
+        .kind = FieldClock::Kind::frames, .times = times, .period = repeats ? period() : 0};
+    GlslCall frame(even ? "placeEvenly" : "placeAmong");
+    frame.clock(clock);
+    if (even) {
+        frame.number(1 / interval);
+    } else {
+        std::vector<double> intervals;
+        for (size_t i = 0; i < frames; ++i)
+            intervals.push_back((i + 1 < frames ? times[i + 1] : times.front() + period()) - times[i]);
+        frame.numbers(intervals).text(concat(frames)).number(clock.period);
+    }
+    out.call(frame).text(concat(frames)).text(repeats ? "true" : "false");
+    return {out};
 }
 
 const Description& describe(const WaveTrain*) {
@@ -189,6 +297,29 @@ const Description& describe(const WavesField*) {
     return it;
 }
 
+GlslCalls WavesField::calls() const {
+    constexpr double deep = 1e9;  // m
+    const double bottom = depth.value_or(deep);
+    double top = 0;
+    for (const WaveTrain& train : trains)
+        top += train.amplitude;
+    GlslCalls out;
+    for (const WaveTrain& train : trains) {
+        const double k = turn / train.wavelength, frequency = std::sqrt(gravity * k * std::tanh(k * bottom));
+        out.push_back(GlslCall("waveVelocity")
+                          .from(origin)
+                          .time()
+                          .pair(glm::normalize(glm::dvec2(train.direction.x, train.direction.z)))
+                          .number(k)
+                          .number(frequency)
+                          .clock({.rate = -frequency, .start = train.phase})
+                          .number(train.amplitude * frequency / -std::expm1(-2 * k * bottom))
+                          .number(bottom)
+                          .number(top));
+    }
+    return out;
+}
+
 const Description& describe(const HurricaneField*) {
     using F = HurricaneField;
     static const Description it =
@@ -206,6 +337,17 @@ const Description& describe(const HurricaneField*) {
             .key("coriolis", &F::coriolis,
                  {"1/s", "The Coriolis parameter: 5e-5 at 20° of latitude.", Range::between(0, 1)});
     return it;
+}
+
+GlslCalls HurricaneField::calls() const {
+    return {GlslCall("hurricaneVelocity")
+                .from(origin)
+                .number(speed)
+                .number(radius)
+                .number(shape)
+                .number(std::tan(inflow))
+                .number(height)
+                .number(coriolis)};
 }
 
 const Description& describe(const Field*) {

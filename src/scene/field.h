@@ -1,167 +1,27 @@
-// Vector fields: fluid velocity u(x, t) in m/s. They add up, each times its weight, inside its box.
-// SI units, radians.
+// Vector fields: fluid velocity u(x, t) in m/s. They add up, each times its weight, inside its box. The
+// kinds: scene/field_kinds.h. SI units, radians.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
-#include <variant>
-#include <vector>
 
-#include <glm/glm.hpp>
-
+#include "core/boxed.h"
 #include "scene/placement.h"
 
 namespace shoal {
 
 class Description;
 
-struct UniformField {
-    glm::dvec3 velocity{0};  // m/s
-};
-
-// Flows alike everywhere, to and fro in time: u = velocity sin(2 pi frequency t + phase).
-struct OscillatingField {
-    glm::dvec3 velocity{0};  // m/s, at the peak
-    double frequency = 1;    // Hz, at least 0
-    double phase = 0;        // rad
-};
-
-// Direction constant, strength varied in space and time: fronts of size length x width travel along the
-// direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
-// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
-// width) with s along the direction and p, q across it: p along y x direction (x x direction where
-// |direction.y| >= 0.9), q along direction x p.
-struct GustField {
-    glm::dvec3 direction{1, 0, 0};  // any length above 0; normalised
-    double speed = 5;               // m/s, mean
-    double strength = 0.6;          // relative variation, at least 0
-    double length = 8;              // m, of a front along the direction
-    double width = 6;               // m, of a front across it
-    double frontSpeed = 5;          // m/s
-    uint32_t seed = 0;
-};
-
-struct ShearField {
-    glm::dvec3 origin{0};
-    glm::dvec3 velocity{0};  // m/s at the origin
-    glm::dmat3 gradient{0};  // 1/s; rows in the file: u = velocity + gradient (x - origin)
-};
-
-// Scully's vortex: turns about the axis with peak speed at the core radius,
-// speed * 2 (r/R) / (1 + (r/R)^2), plus `lift` along the axis times the same profile's core 1/(1+(r/R)^2).
-struct VortexField {
-    glm::dvec3 origin{0};
-    glm::dvec3 axis{0, 1, 0};
-    double speed = 3;   // m/s at r = radius
-    double radius = 1;  // m
-    double lift = 0;    // m/s on the axis
-};
-
-// Arnold-Beltrami-Childress: u = (A sin kz + C cos ky, B sin kx + A cos kz, C sin ky + B cos kx), k = 2 pi /
-// wavelength.
-struct AbcField {
-    glm::dvec3 origin{0};
-    double a = 1, b = 1, c = 1;             // m/s
-    double wavelength = 6.283185307179586;  // m
-};
-
-// Taylor-Green: u = speed (cos kx sin ky, -sin kx cos ky, 0) cos kz.
-struct TaylorGreenField {
-    glm::dvec3 origin{0};
-    double speed = 1;                       // m/s
-    double wavelength = 6.283185307179586;  // m
-};
-
-// Curl of three gradient noises in (x / length, t / period): divergence-free and unbiased because it
-// evolves in time instead of being scrolled [Bridson 2007].
-struct CurlNoiseField {
-    double speed = 1;   // m/s, about the RMS of u
-    double length = 2;  // m, of the largest eddies
-    double period = 2;  // s, in which they change
-    int octaves = 1;    // 1 to 4, each half the length, period and 2^(-1/3) of the speed
-    uint32_t seed = 0;
-};
-
-// A regular grid of velocities, trilinear between cell centres; a sequence of such grids, linear in time.
-struct GridField {
-    std::string file;  // of a sequence the first
-    glm::ivec3 resolution{0};
-    glm::dvec3 low{0}, high{0};     // m, in the scene's axes: the outer faces of the outer cells
-    std::vector<glm::vec3> values;  // m/s, x fastest, then y, then z, then the frame
-    bool wrap = false;              // repeat outside the bounds, else clamp to the border
-
-    // s, of a sequence's frames, rising, at least two; empty: one grid, at all times. Before the first and
-    // after the last the ends hold; where it repeats, the first follows the last as it follows the one before
-    // it.
-    std::vector<double> times;
-    bool repeats = false;
-
-    size_t cells() const { return size_t(resolution.x) * size_t(resolution.y) * size_t(resolution.z); }
-    double period() const { return times.back() - times.front() + times.back() - times[times.size() - 2]; }
-};
-
-// One wave train: the surface is amplitude cos(k . x - omega t + phase) above its level, k = 2 pi /
-// wavelength along the direction, omega^2 = gravity k tanh(k depth).
-struct WaveTrain {
-    glm::dvec3 direction{1, 0, 0};  // of travel; only x and z count
-    double amplitude = 0.2;         // m, half the height; k times it below 1, where crests would curl over
-    double wavelength = 6;          // m
-    double phase = 0;               // rad, at the origin at time 0
-};
-
-// Water under waves [Fournier 1986]: orbits are circles whose
-// radius falls as e^(ky) in deep water, and ellipses that flatten to lines at the bottom of shallow water.
-// For y from -depth to the sum of the amplitudes, and beyond as there,
-//   u = amplitude omega (cosh k(y + depth) cos a, sinh k(y + depth) sin a) / sinh(k depth), a as above,
-// along the direction and up. Free of divergence and of rotation.
-struct WavesField {
-    glm::dvec3 origin{0};         // m, of the still surface
-    std::optional<double> depth;  // m, of the bottom below it; without it the water is deep
-    double gravity = 9.81;        // m/s^2
-    std::vector<WaveTrain> trains;
-};
-
-// Holland's gradient wind [Holland 1980, eq. 5]
-// around the vertical, anticlockwise seen from above where `speed` is positive, with an inflow below and an
-// outflow above. With r from the axis, h above the origin, s = (radius / r)^shape, f = coriolis:
-//   V(r) = sqrt(speed^2 s e^(1 - s) + (r f / 2)^2) - r f / 2
-//   around  V cos(pi h / (2 height)),  inwards  tan(inflow) V cos(pi h / height),
-//   up      tan(inflow) (V / r + dV/dr) (height / pi) sin(pi h / height)
-// which is free of divergence: what flows in rises where V / r + dV/dr is large, in the eyewall inside
-// the radius, and leaves above. No wind below the origin and above the height.
-struct HurricaneField {
-    glm::dvec3 origin{0};   // m, of the eye at the ground
-    double speed = 50;      // m/s, the most at the ground, without inflow (and without coriolis)
-    double radius = 30000;  // m, where that is
-    double shape = 1.5;     // Holland's B, 1 to 2.5 in nature
-    double inflow = 0.35;   // rad, at the ground
-    double height = 15000;  // m
-    double coriolis = 0;    // 1/s, at least 0
-};
-
-using FieldShape = std::variant<UniformField, OscillatingField, GustField, ShearField, VortexField, AbcField,
-                                TaylorGreenField, CurlNoiseField, GridField, WavesField, HurricaneField>;
+struct FieldShape;  // one of the kinds
+extern template class Boxed<FieldShape>;
 
 struct Field {
     std::string name;
-    FieldShape shape;
+    Boxed<FieldShape> shape;
     double weight = 1;
     std::optional<Box> box;  // no effect outside
 };
 
-const Description& describe(const UniformField*);
-const Description& describe(const OscillatingField*);
-const Description& describe(const GustField*);
-const Description& describe(const ShearField*);
-const Description& describe(const VortexField*);
-const Description& describe(const AbcField*);
-const Description& describe(const TaylorGreenField*);
-const Description& describe(const CurlNoiseField*);
-const Description& describe(const GridField*);  // scene/json/fields.cpp: its values are in files
-const Description& describe(const WaveTrain*);
-const Description& describe(const WavesField*);
-const Description& describe(const HurricaneField*);
 const Description& describe(const Field*);
 
 const char* kindName(const FieldShape& shape);  // its word in files

@@ -1,14 +1,21 @@
-#include "scene/force.h"
+#include "scene/force_kinds.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "scene/keyframes.h"
 
 namespace shoal {
 
-// ---- What a file says of forces
+template class Boxed<ForceShape>;
+
+// ---- The kinds
+
+// What a shader takes for a radius (m): without end one whose square a float holds.
+static double reach(double radius) {
+    return radius > 0 ? radius : 1e18;
+}
 
 const Description& describe(const AttractForce*) {
     using Falloff = AttractForce::Falloff;
@@ -21,15 +28,16 @@ const Description& describe(const AttractForce*) {
         needWithin(where.at(key), square ? force.most : force.radius, aboveZero());
     };
     static const Description it =
-        Describe<AttractForce>("attract",
-                               "Pulls towards a point, or away from it where the strength is negative.")
+        Describe<AttractForce>(
+            "attract",
+            "Pulls towards a point, or away from it where the strength is negative; at most by `most`.")
             .key("position", &AttractForce::position, {"m", "The point."})
             .word("falloff", &AttractForce::falloff, {"inverseSquare", "constant"},
                   {"", "How the pull depends on the distance d: strength / d², or the same everywhere."})
             .key("strength", &AttractForce::strength, {"m³/s² or m/s²", "The pull; a negative one pushes."})
             .needed()
             .key("most", &AttractForce::most,
-                 {"m/s²", "The bound of an inverse square near the point.", aboveZero()})
+                 {"m/s²", "The bound of an inverse square near the point; required of it.", aboveZero()})
             .unlessZero()
             .key("radius", &AttractForce::radius,
                  {"m", "There is no force beyond this distance; without it there is no end.", aboveZero()})
@@ -40,9 +48,32 @@ const Description& describe(const AttractForce*) {
     return it;
 }
 
+AttractForce AttractForce::times(double factor) const {
+    AttractForce out = *this;
+    out.strength *= factor;  // and not its bound
+    return out;
+}
+
+double AttractForce::fastestRate() const {
+    // the steepest place: the radius, or where the bound is reached
+    const bool constant = falloff == Falloff::constant;
+    const double size = std::abs(strength), pull = constant ? size : most;
+    const double near = constant ? radius : std::sqrt(size / most);
+    return near > 0 ? std::sqrt(2 * pull / near) : 0;
+}
+
+GlslCall AttractForce::call() const {
+    if (falloff == Falloff::constant)
+        return GlslCall("constantPull").from(position).number(strength).number(reach(radius));
+    return GlslCall("inverseSquarePull").from(position).number(strength).number(reach(radius)).number(most);
+}
+
 const Description& describe(const VortexLineForce*) {
     static const Description it =
-        Describe<VortexLineForce>("vortexLine", "Pulls towards a line and around it [Latta 2004].")
+        Describe<VortexLineForce>(
+            "vortexLine",
+            "Pulls towards a line and around it [Latta 2004]: both grow as d / core up to the core, "
+            "and fall as core / d beyond it.")
             .key("position", &VortexLineForce::position, {"m", "A point of the line."})
             .direction("axis", &VortexLineForce::axis, {"", "The direction of the line."})
             .key("pull", &VortexLineForce::pull, {"m/s²", "The acceleration towards the line at the core."})
@@ -56,30 +87,76 @@ const Description& describe(const VortexLineForce*) {
     return it;
 }
 
+VortexLineForce VortexLineForce::times(double factor) const {
+    VortexLineForce out = *this;
+    out.pull *= factor;
+    out.turn *= factor;
+    return out;
+}
+
+double VortexLineForce::fastestRate() const {
+    return std::sqrt(std::max(std::abs(pull), std::abs(turn)) / core);
+}
+
+GlslCall VortexLineForce::call() const {
+    return GlslCall("vortexLinePull")
+        .from(position)
+        .vector(glm::normalize(axis))
+        .number(pull)
+        .number(turn)
+        .number(core)
+        .number(reach(radius));
+}
+
 const Description& describe(const ThrustForce*) {
     static const auto rule = [](const ThrustForce& force, const Where& where) {
         if (force.rate > 0) where.require("limit");
     };
     static const Description it =
-        Describe<ThrustForce>("thrust", "Accelerates along the velocity: what propels itself [Latta 2004].")
+        Describe<ThrustForce>(
+            "thrust",
+            "What propels itself [Latta 2004]: dv/dt = rate · v while the speed is below the limit, which "
+            "it does not pass. A rate below 0 damps at any speed. What is at rest stays so.")
             .key("rate", &ThrustForce::rate,
                  {"1/s", "The rate of growth of the speed; a negative one damps."})
             .needed()
             .key("limit", &ThrustForce::limit,
-                 {"m/s", "The speed that a growing one does not pass.", aboveZero()})
+                 {"m/s", "The speed that a growing one does not pass; required where the rate is above 0.",
+                  aboveZero()})
             .rule(
                 rule,
                 R"({"if": {"properties": {"rate": {"exclusiveMinimum": 0}}}, "then": {"required": ["limit"]}})");
     return it;
 }
 
+ThrustForce ThrustForce::times(double factor) const {
+    return {rate * factor, limit};
+}
+
+double ThrustForce::fastestRate() const {
+    return std::abs(rate);
+}
+
 const Description& describe(const WindForce*) {
     static const Description it =
-        Describe<WindForce>("wind", "Adds to the fluid's velocity: it moves what has drag.")
+        Describe<WindForce>(
+            "wind",
+            "Adds to the fluid's velocity: it moves what has drag, like a uniform field, but some groups "
+            "only, and on a path.")
             .key("velocity", &WindForce::velocity, {"m/s", "The velocity that it adds."})
             .needed();
     return it;
 }
+
+WindForce WindForce::times(double factor) const {
+    return {factor * velocity};
+}
+
+double WindForce::fastestRate() const {
+    return 0;
+}
+
+// ---- How forces move, and whom they act on
 
 const Description& describe(const ForcePath::Keyframe*) {
     using Keyframe = ForcePath::Keyframe;
@@ -112,7 +189,7 @@ const Description& describe(const ForcePath*) {
 
 const Description& describe(const Force*) {
     static const auto rule = [](const Force& force, const Where& where) {
-        if (hasPlace(force.shape)) return;
+        if (placeOf(*force.shape)) return;
         if (force.mouse)
             throw Error(where.at("mouse"),
                         "thrust and wind act alike everywhere: they cannot follow the mouse");
@@ -142,17 +219,14 @@ const Description& describe(const Force*) {
     return it;
 }
 
-bool hasPlace(const ForceShape& shape) {
+std::optional<glm::dvec3> placeOf(const ForceShape& shape) {
     return std::visit(
-        [](const auto& kind) {
-            return requires {
-                kind.position;
-            };
+        [](const auto& kind) -> std::optional<glm::dvec3> {
+            if constexpr (requires { kind.position; }) return kind.position;
+            return {};
         },
         shape);
 }
-
-// ---- What forces do
 
 ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
     if (!path) return {};
@@ -172,34 +246,12 @@ ForceMoment momentOf(const std::optional<ForcePath>& path, double time) {
     return {glm::mix(a.offset, b.offset, share), glm::mix(a.factor, b.factor, share)};
 }
 
-// 1/s or rad/s, with the strength times `factor`.
-static double rateOf(const AttractForce& attract, double factor) {
-    const double strength = std::abs(attract.strength) * factor;
-    const bool constant = attract.falloff == AttractForce::Falloff::constant;
-    // the steepest place: the radius, or where the bound is reached
-    const double pull = constant ? strength : attract.most;
-    const double near = constant ? attract.radius : std::sqrt(strength / attract.most);
-    return near > 0 ? std::sqrt(2 * pull / near) : 0;
-}
-
-static double rateOf(const VortexLineForce& line, double factor) {
-    return std::sqrt(factor * std::max(std::abs(line.pull), std::abs(line.turn)) / line.core);
-}
-
-static double rateOf(const ThrustForce& thrust, double factor) {
-    return factor * std::abs(thrust.rate);
-}
-
-static double rateOf(const WindForce&, double) {
-    return 0;
-}
-
 double fastestRate(const Force& force) {
     double factor = 1;
     if (force.path)
         for (const ForcePath::Keyframe& frame : force.path->keyframes)
             factor = std::max(factor, std::abs(frame.factor));
-    return std::visit([&](const auto& kind) { return rateOf(kind, factor); }, force.shape);
+    return std::visit([&](const auto& kind) { return kind.times(factor).fastestRate(); }, *force.shape);
 }
 
 bool actsOn(const Force& force, const std::string& group) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "core/image.h"
 #include "scene/json/reader.h"
 
@@ -160,7 +160,7 @@ const Description& describe(const ParticleImage*) {
     return it;
 }
 
-static const Description& describeParticle() {
+const Description& describe(const ParticleType*) {
     using P = ParticleType;
     const std::string quads = "is of the shape quads: the others face the camera";
     const std::string dots = "does not show on the shape points, round dots of a fixed number of \"pixels\"";
@@ -238,10 +238,6 @@ static const Description& describeParticle() {
                   "has no effect: what is multiplied with what is behind sends no light")
             .rule(checkType, R"({"properties": {"colors": {"minItems": 1, "maxItems": 4}}})");
     return it;
-}
-
-const Description& describe(const ParticleType*) {
-    return describeParticle();
 }
 
 std::vector<Warning> agelessWarnings(const ParticleType& type, const Location& where) {

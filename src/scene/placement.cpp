@@ -12,7 +12,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "core/random.h"
 #include "scene/json/reader.h"
 #include "scene/scene.h"
@@ -29,7 +29,7 @@ const Description& describe(const Placement::Item*) {
     return it;
 }
 
-static const Description& describePlacement() {
+const Description& describe(const Placement*) {
     using P = Placement;
     static const auto readModel = [](JsonReader& r, P& place, const SceneReading* reading) {
         place.model = needModel(r, "model", reading->models);
@@ -91,10 +91,6 @@ static const Description& describePlacement() {
             .derive(derive)
             .rule(rule);
     return it;
-}
-
-const Description& describe(const Placement*) {
-    return describePlacement();
 }
 
 namespace {

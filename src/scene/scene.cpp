@@ -1,6 +1,6 @@
 #include "scene/scene.h"
 
-#include "core/description.h"
+#include "core/describe.h"
 
 namespace shoal {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "scene/scene.h"
 
 namespace shoal {

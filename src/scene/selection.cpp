@@ -4,8 +4,8 @@
 #include <cmath>
 #include <functional>
 
-#include "core/description.h"
-#include "geometry/thickness.h"
+#include "core/describe.h"
+#include "geometry/mesh.h"
 
 namespace shoal {
 

@@ -1,6 +1,6 @@
 #include "scene/water.h"
 
-#include "core/description.h"
+#include "core/describe.h"
 
 namespace shoal {
 

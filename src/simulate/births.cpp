@@ -14,14 +14,6 @@ using gpu::Traffic;
 
 namespace {
 
-void store(const Program& program, const char* block, int at, const Buffer& buffer) {
-    program.storage(block, at, buffer, 0, buffer.bytes());
-}
-
-void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
-    program.storage(block, at, *range.buffer, range.offset, range.bytes);
-}
-
 void setPoint(const Program& program, const char* name, const glm::dvec3& point) {
     const SplitPoint split = splitPoint(point);
     const glm::vec4 parts[] = {glm::vec4(glm::vec3(split.lattice), 0), glm::vec4(glm::vec3(split.rest), 0)};
@@ -90,7 +82,7 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
         const std::vector<uint8_t> none(bytes);
         living.died = Buffer(*context_, Buffer::Use::storage, none.data(), bytes, "died");
     }
-    if (!group.life->bears()) return;
+    if (!group.life->emits()) return;
     if (living.listed())
         living.places = Buffer(*context_, Buffer::Use::storage, nullptr,
                                group.layout().padded(size_t(group.count)) * sizeof(uint32_t), "places");
@@ -106,10 +98,10 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
     kernel.software = context_->info().software;
     gpu::ProgramOptions program = kernelProgram(*plan_, g, kernel);
     program.cache = cache;
-    living.bear = &programs_.get(*context_, shaderRoot, program);
-    living.bear->use();
+    living.spawn = &programs_.get(*context_, shaderRoot, program);
+    living.spawn->use();
     if (group.needs.fields)
-        living.bear->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+        living.spawn->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
 }
 
 // Orders the groups that emit: emitters from a group's deaths read the dead in their places, so they come
@@ -124,7 +116,7 @@ void Births::order() {
             for (const Living::DeathRun& run : groups_[other]->deathRuns)
                 if (run.source == g) self(self, other);
         }
-        if (groups_[g] && groups_[g]->bear) order_.push_back(g);
+        if (groups_[g] && groups_[g]->spawn) order_.push_back(g);
     };
     for (size_t g = 0; g < groups_.size(); ++g)
         visit(visit, g);
@@ -132,8 +124,8 @@ void Births::order() {
 
 void Births::bindStep(const Program& program, size_t group) const {
     const Living& living = *groups_[group];
-    store(program, "FreeBits", 4, living.free);
-    if (living.died) store(program, "DiedBits", 5, living.died);
+    program.storage("FreeBits", 4, living.free);
+    if (living.died) program.storage("DiedBits", 5, living.died);
     if (living.life.within) {
         setPoint(program, "livesAbove", living.life.within->low);
         setPoint(program, "livesBelow", living.life.within->high);
@@ -143,7 +135,7 @@ void Births::bindStep(const Program& program, size_t group) const {
 
 void Births::dispatchStep(const Program& program, size_t group, int own) const {
     const Living& living = *groups_[group];
-    if (living.bear && living.onGpu())
+    if (living.spawn && living.onGpu())
         return program.dispatchIndirect(
             lists_.control(), (PlaceLists::controlAt(group) + control::stepGroups) * sizeof(uint32_t));
     program.dispatch((reachOf(living) + own - 1) / own);
@@ -152,7 +144,7 @@ void Births::dispatchStep(const Program& program, size_t group, int own) const {
 // Returns how many places a step covers: as many as the one before needed, because what died one step ago is
 // still alive on the other side of the state.
 int Births::reachOf(const Living& living) const {
-    if (!living.bear || living.onGpu()) return living.plan->count;
+    if (!living.spawn || living.onGpu()) return living.plan->count;
     return std::max(markOf(living), living.markBefore);
 }
 
@@ -170,7 +162,7 @@ void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::Pas
         if (groups_[g] && groups_[g]->died)
             lists_.listDeaths(groups_[g]->set, groups_[g]->died, died_, groups_[g]->diedAt);
     for (const size_t g : order_)
-        bear(g, frame, state);
+        spawn(g, frame, state);
     settleBirths();
 }
 
@@ -218,7 +210,7 @@ void Births::setRuns(const Living& living, const std::vector<BirthRun>& runs, do
         times[r] = glm::vec4(float(run.first - begin), float(run.interval), 0, 0);
         first += run.count;
     }
-    const Program& program = *living.bear;
+    const Program& program = *living.spawn;
     program.set("runCount", int(runs.size()));
     program.set("runs", std::span<const glm::ivec4>(numbers));
     program.set("runTimes", std::span<const glm::vec4>(times));
@@ -231,7 +223,7 @@ void Births::setRuns(const Living& living, const std::vector<BirthRun>& runs, do
 
 void Births::setNumbers(size_t group, const Frame& frame) const {
     const Living& living = *groups_[group];
-    const Program& program = *living.bear;
+    const Program& program = *living.spawn;
     setStepUniforms(program, *plan_, *living.plan, frame);
     const std::vector<glm::vec4> parameters =
         emitterParameters(living.life, living.middles, frame.time, frame.parameters.frameTime);
@@ -247,16 +239,16 @@ void Births::setNumbers(size_t group, const Frame& frame) const {
 
 void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
     const Living& living = *groups_[group];
-    const Program& program = *living.bear;
+    const Program& program = *living.spawn;
     const GroupBuffers& buffers = state[group];
     const GroupBuffers::Part& part = buffers.parts().front();
     store(program, "NewState", 0, buffers.currentState(part));
     store(program, "NewRecords", 1, buffers.records(part));
     if (buffers.hasConstants()) store(program, "NewConstants", 2, buffers.constants(part));
-    if (living.listed()) store(program, "Places", 3, living.places);
-    if (!living.onGpu()) store(program, "FreeBits", 4, living.free);
-    if (!living.deathRuns.empty()) store(program, "Died", 5, died_);
-    store(program, "Control", 6, lists_.control());
+    if (living.listed()) program.storage("Places", 3, living.places);
+    program.storage("FreeBits", 4, living.free);
+    if (!living.deathRuns.empty()) program.storage("Died", 5, died_);
+    program.storage("Control", 6, lists_.control());
     if (program.uses("samples") && tables_->sampleTexels)
         program.texture("samples", 3, tables_->sampleTexels);
     int unit = 4;
@@ -268,7 +260,7 @@ void Births::bindBirths(size_t group, std::vector<GroupBuffers>& state) const {
     }
 }
 
-void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state) {
+void Births::spawn(size_t group, const Frame& frame, std::vector<GroupBuffers>& state) {
     Living& living = *groups_[group];
     const double begin = frame.time, end = frame.end;
     std::vector<BirthRun> runs;
@@ -291,21 +283,21 @@ void Births::bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& s
         living.lost += uint64_t(scheduled - born);
     }
     if (!living.onGpu() && born == 0) return;
-    living.bear->use();
+    living.spawn->use();
     setNumbers(group, frame);
     setRuns(living, runs, begin);
     bindBirths(group, state);
+    living.spawn->set("givenBorn", living.onGpu() ? -1 : born);
     if (living.onGpu()) {
-        living.bear->dispatchIndirect(
+        living.spawn->dispatchIndirect(
             lists_.control(), (PlaceLists::controlAt(group) + control::birthGroups) * sizeof(uint32_t));
     } else {
-        living.bear->set("givenBorn", born);
         if (!living.listed()) {
-            living.bear->set("firstPlace", int((uint64_t(living.plan->life->atStart) + living.born) %
-                                               uint64_t(living.plan->count)));
+            living.spawn->set("firstPlace", int((uint64_t(living.plan->life->atStart) + living.born) %
+                                                uint64_t(living.plan->count)));
             living.born += uint64_t(born);
         }
-        living.bear->dispatch((born + birthLanes - 1) / birthLanes);
+        living.spawn->dispatch((born + birthLanes - 1) / birthLanes);
     }
     settleBirths();
 }
@@ -337,7 +329,7 @@ void Births::write(size_t group, const GroupState& state, double time) {
     living.clocks.resize(living.life.emitters.size());
     living.born = state.totals[0];
     living.lost = living.listed() ? state.totals[1] : 0;
-    if (!living.bear || living.onGpu() || !living.listed()) return;
+    if (!living.spawn || living.onGpu() || !living.listed()) return;
     living.book = Places(living.allocator(), size_t(living.plan->count));
     living.book.restore(state.ends, state.freed, time);
 }
@@ -358,14 +350,14 @@ void Births::read(size_t group, GroupState& state) const {
     uint32_t words[control::words];
     lists_.readControl(group, words);
     state.totals = {bornOf(living, words), lostOf(living, words)};
-    if (!living.bear || living.onGpu() || !living.listed()) return;
+    if (!living.spawn || living.onGpu() || !living.listed()) return;
     state.ends = living.book.ends();
     state.freed = living.book.stack();
 }
 
 LifeCounts Births::counts(size_t group) {
     const Living& living = *groups_[group];
-    if (!living.onGpu() || !living.bear) {
+    if (!living.onGpu() || !living.spawn) {
         settleBirths();
         countPlaces(living, 0, false);
     }
@@ -375,9 +367,8 @@ LifeCounts Births::counts(size_t group) {
     out.capacity = living.plan->count;
     out.live = int(words[control::live]);
     out.mark = int(words[control::mark]);
-    out.born = living.onGpu() ? words[control::bornEver] : living.born;
-    out.lost =
-        living.onGpu() ? words[control::lost] : living.lost + (living.listed() ? 0 : words[control::lost]);
+    out.born = bornOf(living, words);
+    out.lost = lostOf(living, words);
     return out;
 }
 

@@ -20,21 +20,13 @@
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
+#include "simulate/execution_path.h"
 #include "simulate/fused_kernel.h"
-#include "simulate/place_lists.h"
 #include "simulate/places.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 
 namespace shoal {
-
-struct LifeCounts {
-    int capacity = 0;
-    int live = 0;       // taken places
-    int mark = 0;       // one past the last of them: as far as a step reaches
-    uint64_t born = 0;  // so far
-    uint64_t lost = 0;  // so far: births that found no place; allocator ring: lives that a birth cut short
-};
 
 class Births {
   public:
@@ -65,9 +57,9 @@ class Births {
         Lifecycle life;
         gpu::Buffer free, died, places;  // bits, bits, list
         PlaceSet set;
-        size_t diedAt = 0;                   // word of its deaths in died_
-        const gpu::Program* bear = nullptr;  // none: nothing is born
-        std::vector<glm::dvec3> middles;     // m, of the emitters
+        size_t diedAt = 0;                    // word of its deaths in died_
+        const gpu::Program* spawn = nullptr;  // none: nothing is born
+        std::vector<glm::dvec3> middles;      // m, of the emitters
         std::vector<BirthClock> clocks;
         Places book;                  // allocators stack and heap
         uint64_t born = 0, lost = 0;  // of the allocators on the CPU, and born of the ring
@@ -87,7 +79,7 @@ class Births {
     void countPlaces(const Living& living, int scheduled, bool allocates);
     // Takes places from an allocator on the CPU and uploads their list; returns how many births have one.
     int takePlaces(Living& living, const std::vector<BirthRun>& runs, double end);
-    void bear(size_t group, const Frame& frame, std::vector<GroupBuffers>& state);
+    void spawn(size_t group, const Frame& frame, std::vector<GroupBuffers>& state);
     void setRuns(const Living& living, const std::vector<BirthRun>& runs, double begin) const;
     void setNumbers(size_t group, const Frame& frame) const;
     void bindBirths(size_t group, std::vector<GroupBuffers>& state) const;

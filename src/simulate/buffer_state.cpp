@@ -2,7 +2,8 @@
 
 #include "compile/pack.h"
 #include "core/contract.h"
-#include "core/many.h"
+#include "core/error.h"
+#include "gpu/program.h"
 
 #include <algorithm>
 #include <cmath>
@@ -193,6 +194,10 @@ GroupBuffers::Range GroupBuffers::constants(const Part& part) const {
 
 GroupBuffers::Range GroupBuffers::normals(const Part& part) const {
     return rangeOf(layout_, part, normals_, layout_.positionElements());
+}
+
+void store(const gpu::Program& program, const char* block, int binding, const GroupBuffers::Range& range) {
+    program.storage(block, binding, *range.buffer, range.offset, range.bytes);
 }
 
 void GroupBuffers::write(const GroupPlan& group, const GroupState& state) {

@@ -16,9 +16,12 @@
 
 #include "compile/plan.h"
 #include "gpu/buffer.h"
-#include "gpu/buffer_texture.h"
 
 namespace shoal {
+
+namespace gpu {
+class Program;
+}
 
 class GroupBuffers {
   public:
@@ -74,5 +77,8 @@ class GroupBuffers {
     std::vector<uint32_t> seeds_;
     std::vector<Part> parts_;
 };
+
+// Binds a range where the program's storage block is.
+void store(const gpu::Program& program, const char* block, int binding, const GroupBuffers::Range& range);
 
 }  // namespace shoal

@@ -9,11 +9,6 @@ namespace shoal {
 
 namespace {
 
-bool sameKind(const GroupPlan& a, const GroupPlan& b) {
-    return a.index == b.index && a.vertexCount == b.vertexCount && a.springCount == b.springCount &&
-           a.solver == b.solver && a.life.has_value() == b.life.has_value() && (a.life || a.count == b.count);
-}
-
 template <typename T>
 void overwrite(std::vector<T>& values, const std::vector<T>& with) {
     std::copy_n(with.begin(), std::min(values.size(), with.size()), values.begin());
@@ -79,17 +74,6 @@ const GroupPlan* sameGroup(const Plan& among, const GroupPlan& group) {
 }
 
 }  // namespace
-
-std::optional<SavedState> carryOver(const SavedState& saved, const Plan& from, const Plan& to) {
-    if (from.groups.size() != to.groups.size() || saved.groups.size() != to.groups.size()) return {};
-    SavedState out = saved;
-    out.step = stepBefore(saved, from, to);
-    for (size_t g = 0; g < to.groups.size(); ++g) {
-        if (!sameKind(from.groups[g], to.groups[g])) return {};
-        out.groups[g] = carried(saved.groups[g], saved.time, from.groups[g], to.groups[g]);
-    }
-    return out;
-}
 
 GoneOn goOn(const SavedState& saved, const Plan& from, const Plan& to) {
     GoneOn out{{saved.time, saved.frames, {}, stepBefore(saved, from, to)}, {}};

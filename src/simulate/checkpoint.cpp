@@ -100,7 +100,7 @@ GroupState emptyState(const GroupPlan& group, int32_t keeps) {
     state.looks.resize(molecules);
     state.clocks.resize(life.emitters.size());
     state.totals.resize(2);
-    if (!group.life->bears()) return state;
+    if (!group.life->emits()) return state;
     if (life.allocator == Allocator::stack || life.allocator == Allocator::heap) state.ends.resize(molecules);
     if (life.allocator == Allocator::stack) state.freed.resize(molecules);
     return state;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "simulate/force_parameters.h"
+#include "simulate/step.h"
 
 namespace shoal::checkpoint {
 

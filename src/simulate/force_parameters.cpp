@@ -1,16 +1,16 @@
-#include "simulate/force_parameters.h"
+#include "simulate/step.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "compile/call_writer.h"
 #include "compile/pack.h"
 #include "core/contract.h"
+#include "scene/force_kinds.h"
 
 namespace shoal {
 
 namespace {
-
-constexpr double nowhere = 1e18;  // m: a radius without end, whose square a float holds
 
 class Writer {
   public:
@@ -42,43 +42,26 @@ class Writer {
         return control.position.value_or(own + momentOf(plan_.forces[force].path, middle_).offset);
     }
 
-    // behind: its other parameters.
-    void putPlace(const GroupForces::One& one, size_t behind, const glm::dvec3& own, double w) {
-        SplitPoint place{glm::dvec3(0), placeOf(one.force, own)};
-        if (isFar(plan_.forces[one.force])) {
-            place = splitPoint(place.rest);
-            put(one.slot + behind, place.lattice);
-        }
-        put(one.slot, place.rest, w);
-    }
-
-    static double reach(double radius) { return radius > 0 ? radius : nowhere; }
-
-    // The slots of each kind, as its call names them (compile/generate_forces.cpp).
     void write(const GroupForces::One& one) {
-        std::visit([&](const auto& kind) { write(one, kind, factorOf(one.force)); },
-                   plan_.forces[one.force].shape);
+        std::visit([&](const auto& kind) { write(one, kind.times(factorOf(one.force))); },
+                   *plan_.forces[one.force].shape);
     }
 
-    void write(const GroupForces::One& one, const AttractForce& attract, double factor) {
-        putPlace(one, 2, attract.position, factor * attract.strength);
-        put(one.slot + 1, {reach(attract.radius), attract.most, 0});
-    }
-
-    void write(const GroupForces::One& one, const VortexLineForce& line, double factor) {
-        putPlace(one, 3, line.position, factor * line.pull);
-        put(one.slot + 1, glm::normalize(line.axis), factor * line.turn);
-        put(one.slot + 2, {line.core, reach(line.radius), 0});
+    // The slots as the text of the call names them (compile/generate_forces.cpp).
+    template <typename Pull>
+    void write(const GroupForces::One& one, Pull pull) {
+        pull.position = placeOf(one.force, pull.position);
+        CallWriter writer("");
+        writer.text(pull.call(), isFar(plan_.forces[one.force]));
+        std::copy(writer.parameters.begin(), writer.parameters.end(), out_.begin() + ptrdiff_t(one.slot));
     }
 
     // All winds share one slot.
-    void write(const GroupForces::One&, const WindForce& wind, double factor) {
-        wind_ += factor * wind.velocity;
-    }
+    void write(const GroupForces::One&, const WindForce& wind) { wind_ += wind.velocity; }
 
-    void write(const GroupForces::One& one, const ThrustForce& thrust, double factor) {
+    void write(const GroupForces::One& one, const ThrustForce& thrust) {
         constexpr double most = 40;  // e^40 takes what is too slow for a float's square to no speed at all
-        const double rate = std::clamp(thrust.rate * factor, -1e3 / frame_.h, most / frame_.h);
+        const double rate = std::clamp(thrust.rate, -1e3 / frame_.h, most / frame_.h);
         put(one.slot, {std::exp(rate * frame_.h), std::exp(rate * frame_.h / 2), thrust.limit}, rate);
     }
 

@@ -1,6 +1,7 @@
 #include "simulate/fused.h"
 
-#include "gpu/barrier.h"
+#include "gpu/buffer.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -19,10 +20,6 @@ constexpr int newState = 0, newRecords = 1, newNormals = 2, alarm = 3;
 CorotatedStage corotatedStage(const GroupPlan& group, const Parameters& parameters, double h) {
     return {2 * h / 3, std::max(group.drag.normal, group.drag.tangent) * parameters.drag,
             group.stiffness * parameters.stiffness, group.damping * parameters.damping};
-}
-
-void store(const Program& program, const char* block, int at, const GroupBuffers::Range& range) {
-    program.storage(block, at, *range.buffer, range.offset, range.bytes);
 }
 
 // Returns, as a key, the parameters that a program is given only once: groups share it where they are equal.
@@ -45,7 +42,7 @@ PathLimits limitsOf(const gpu::ContextInfo& info) {
 }
 
 Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-             const FusedOptions& options)
+             const SimulationOptions& options)
     : context_(&context),
       shaderRoot_(shaderRoot),
       plan_(&plan),
@@ -54,7 +51,8 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
       cache_(options.cache) {
     const gpu::ContextInfo& info = context.info();
     constexpr uint32_t fine = 0;
-    if (options.watch) alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
+    if (options.watchdog)
+        alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
     if (plan.hasLife()) births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, options.cache);
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
@@ -64,7 +62,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
-        kernel.watch = options.watch;
+        kernel.watch = options.watchdog;
         const size_t perWorkgroup =
             kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
         state.emplace_back(context, group, options.drawn, options.inPlace,
@@ -195,7 +193,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     if (!contact_) {
         run(frame, timers);
         if (births_) births_->step(frame, state, timers);
-        if (drawn_ && births_) computeNormals(timers);
+        if (births_) computeNormals(timers);
         return;
     }
     const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);
@@ -205,7 +203,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
         if (births_) births_->step(piece, state, timers);
         contact_->step(piece, state, timers);
     }
-    if (drawn_) computeNormals(timers);
+    computeNormals(timers);
 }
 
 void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
@@ -219,12 +217,44 @@ void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
         program.use();
         setStepUniforms(program, *plan_, plan_->groups[g], frame);
         if (plan_->groups[g].needs.steers) program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
-        if (alarm_) store(program, "Alarm", binding::alarm, {&alarm_, 0, alarm_.bytes()});
+        if (alarm_) program.storage("Alarm", binding::alarm, alarm_);
         for (const GroupBuffers::Part& part : state[g].parts())
             dispatch(program, g, part);
         state[g].flip();
     }
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
+}
+
+void Fused::write(size_t group, const GroupState& groupState, double time) {
+    state[group].write(plan_->groups[group], groupState);
+    if (plan_->groups[group].needs.life) births_->write(group, groupState, time);
+}
+
+GroupState Fused::read(size_t group) const {
+    GroupState out = state[group].read(plan_->groups[group]);
+    if (plan_->groups[group].needs.life) births_->read(group, out);
+    return out;
+}
+
+std::optional<std::vector<GroupState>> Fused::readBefore() const {
+    if (births_) return {};                               // newborns have taken places since
+    if (school_) return {};                               // the muscles' clocks have moved on
+    if (contact_ && plan_->contact.steps > 1) return {};  // the side of a step within the frame
+    std::vector<GroupState> out;
+    for (size_t g = 0; g < state.size(); ++g) {
+        if (state[g].inPlace()) return {};
+        out.push_back(state[g].readBefore(plan_->groups[g]));
+        undoRecords(*plan_, plan_->groups[g], out.back());
+    }
+    return out;
+}
+
+bool Fused::changeLife(size_t group, const Lifecycle& life) {
+    return plan_->groups[group].needs.life && births_->change(group, life);
+}
+
+bool Fused::changeSchool(size_t group, const School& school) {
+    return school_ && school_->change(group, school);
 }
 
 bool Fused::alarmed() const {
@@ -239,6 +269,7 @@ void Fused::disarm() {
 }
 
 void Fused::computeNormals(gpu::PassTimers& timers) {
+    if (!drawn_) return;
     const auto timer = timers.time("normals");
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
     for (size_t g = 0; g < state.size(); ++g) {

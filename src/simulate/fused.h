@@ -9,45 +9,48 @@
 #include <vector>
 
 #include "compile/corotated.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/births.h"
-#include "simulate/buffer_state.h"
+#include "simulate/execution_path.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/molecule_contact.h"
 #include "simulate/school.h"
+#include "simulate/state_view.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 
 namespace shoal {
 
-struct FusedOptions {
-    bool drawn = true;               // normals are written
-    bool inPlace = false;            // one side instead of two: half the memory
-    Lanes lanes = Lanes::automatic;  // how molecules are spread
-    gpu::ProgramCache* cache = nullptr;
-    bool watch = false;  // for states that run away (simulate/watchdog.h)
-};
-
-class Fused {
+class Fused : public ExecutionPath {
   public:
     // Borrows the plan and the tables. Error: out of memory; the driver refuses a kernel; a group's molecules
     // cannot be spread as demanded.
     Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-          const FusedOptions& options);
+          const SimulationOptions& options);
 
-    void step(const Frame& frame, gpu::PassTimers& timers);
-    void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
+    void step(const Frame& frame, gpu::PassTimers& timers) override;
+    void computeNormals(gpu::PassTimers& timers) override;
+    StateView view() const override { return {nullptr, &state}; }
+    void write(size_t group, const GroupState& groupState, double time) override;
+    GroupState read(size_t group) const override;
+    GroupState readOne(size_t group, size_t molecule) const override {
+        return state[group].readOne(molecule);
+    }
+    std::vector<glm::vec3> readNormals(size_t group) const override {
+        return state[group].readNormals(plan_->groups[group]);
+    }
+    std::optional<std::vector<GroupState>> readBefore() const override;
+    bool alarmed() const override;
+    void disarm() override;
+    const ContactResult* contact() const override { return contact_.get(); }
+    Lanes lanes(size_t group) const override { return kernels_[group].options.lanes; }
+    LifeCounts lifeCounts(size_t group) const override { return births_->counts(group); }
+    bool changeLife(size_t group, const Lifecycle& life) override;
+    bool changeSchool(size_t group, const School& school) override;
 
     std::vector<GroupBuffers> state;  // per group
-    Lanes lanes(size_t group) const { return kernels_[group].options.lanes; }
-    const MoleculeContact* contact() const { return contact_.get(); }  // null: there is none
-    Births* births() const { return births_.get(); }                   // null: none is born and none dies
-    Schooling* school() const { return school_.get(); }                // null: none steers
-    // Whether a frame since disarm() left a state that ran away; waits for the last one, and reads 4 bytes.
-    bool alarmed() const;
-    void disarm();
 
   private:
     struct Kernel {
@@ -75,11 +78,11 @@ class Fused {
     gpu::ProgramCache* cache_;
     gpu::Programs programs_;
     std::vector<Kernel> kernels_;
-    gpu::Buffer alarm_;  // one word; where watched
-    std::unique_ptr<MoleculeContact> contact_;
-    std::unique_ptr<Births> births_;
-    std::unique_ptr<Schooling> school_;
-    double steeringEnd_ = 0;  // s, of the frame
+    gpu::Buffer alarm_;                         // one word; where watched
+    std::unique_ptr<MoleculeContact> contact_;  // null: there is none
+    std::unique_ptr<Births> births_;            // null: none is born and none dies
+    std::unique_ptr<Schooling> school_;         // null: none steers
+    double steeringEnd_ = 0;                    // s, of the frame
 };
 
 // Returns a context's limits, for compile/path.h.

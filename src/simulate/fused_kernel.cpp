@@ -4,9 +4,7 @@
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
-#include "gpu/conditions.h"
 #include "gpu/shader_source.h"
-#include "simulate/force_parameters.h"
 #include "simulate/tables.h"
 #include "simulate/vertex_loops.h"
 #include "simulate/watchdog.h"
@@ -25,39 +23,29 @@ void defineLife(const LifePlan& life, bool births, std::vector<std::string>& out
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
     };
-    define(true, "LIFE");
-    define(life.feeds, "DEATHS_LISTED");
+    define(life.feeds, "DEATHS");
     define(cycle.within.has_value(), "CONFINED");
     define(cycle.afterContact.has_value(), "TOUCH_COUNTS");
     if (!births) return;
     define(cycle.allocator != Allocator::ring, "LISTED");
-    define(cycle.allocator == Allocator::gpu, "ALLOCATED");
-    define(cycle.turn == Placement::Turn::any, "TURN_ANY");
-    define(cycle.turn == Placement::Turn::yaw, "TURN_YAW");
     out.push_back(concat("RUNS ", std::max(1, mostRuns(cycle))));
     if (const int runs = deathRunsOf(cycle)) out.push_back(concat("DEATH_RUNS ", runs));
 }
 
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
-    const BufferLayout layout = group.layout();
-    std::vector<std::string> out = {
-        concat("LANES ", options.births ? birthLanes : workgroupLanes(group, options.lanes)),
-        concat("BLOCK ", BufferLayout::block), concat("VERTICES ", group.vertexCount),
-        concat("POSITION_ELEMENTS ", layout.positionElements()),
-        concat("STATE_ELEMENTS ", layout.stateElements())};
+    std::vector<std::string> out = group.layout().defines();
+    out.push_back(concat("VERTICES ", group.vertexCount));
+    out.push_back(concat("LANES ", options.births ? birthLanes : workgroupLanes(group, options.lanes)));
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
     };
     const bool perLane = options.lanes == Lanes::molecule;
     define(true, "FUSED");
-    define(needs.fields || needs.collide || options.births, samplesInBuffer);
     define(!perLane, "SHARED_MOLECULE");
-    define(options.software && perLane, "PAIRED_STORES");
-    define(options.software && perLane, "UNIFORMS_IN_REGISTERS");
+    define(options.software && perLane, "SOFTWARE");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(options.normals && needs.normals, "NORMALS");
-    define(options.onlyNormals, "ONLY_NORMALS");
     if (options.watch && !options.onlyNormals) {
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
@@ -66,26 +54,35 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.release, "RELEASE");
     define(needs.pins, "PINS");
     define(needs.springs, "SPRINGS");
+    define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
-    define(needs.actuation, "ACTUATION");
+    define(needs.actuation, "MUSCLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
     define(options.births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
     define(!options.births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.forces, "FORCES");
     define(needs.thrust, "THRUST");
-    define(needs.wind, "WIND");
-    define(group.forces.any(), "FORCE_PARAMETERS");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
     define(group.rigid && perLane, "RIGID_IMPACT");
-    define(solver(group.solver).history, "HISTORY");
-    if (solver(group.solver).history) out.push_back("NO_HISTORY 1e30");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
-    define(needs.collide && needs.springs && group.solver == SolverKind::leapfrog, "COMING_KICK");
     if (needs.life) defineLife(*group.life, options.births, out);
     return out;
+}
+
+// The uniforms that the kernel copies before it begins.
+std::string parameterLoads(const GroupPlan& group, const KernelOptions& options) {
+    std::string out = "\nvoid loadParameters()\n{\n    loadUniforms();\n";
+    const auto load = [&](bool need, const char* what) {
+        if (need) out += concat("    load", what, "();\n");
+    };
+    load(group.needs.fields, "FieldParameters");
+    load(countsMuscles(group.needs) && !options.births, "MuscleAngles");
+    load(group.forces.any(), "ForceParameters");
+    load(group.needs.collide && !options.births, "ColliderParameters");
+    return out + "}\n\n";
 }
 
 // The files of a kernel in the order in which they build on one another.
@@ -102,9 +99,9 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.steers, "fused/steering.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     include(group.needs.fields, "generated/fields.glsl");
-    include(group.forces.any(), "generated/scene_forces.glsl");
+    include(true, "generated/scene_forces.glsl");
     include(true, "fused/step.glsl");
-    if (options.births) return out + "#include \"particles/bear.comp\"\n";
+    if (options.births) return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
@@ -114,7 +111,9 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, concat("solver/", name(group.solver), ".glsl"));
     include(group.needs.collide, "generated/colliders.glsl");
     include(group.needs.collide, "fused/contact.glsl");
-    include(true, perLane ? "fused/lane.comp" : "fused/group.comp");
+    include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
+    out += parameterLoads(group, options);
+    include(true, options.onlyNormals ? "fused/normals.comp" : "fused/frame.comp");
     return out;
 }
 

@@ -18,7 +18,7 @@ struct KernelOptions {
     bool groupVote = false;         // ContextInfo::groupVote
     bool software = false;          // what suits a CPU rasteriser
     bool watch = false;             // for states that run away
-    bool births = false;            // of newborns instead of a step (shaders/particles/bear.comp)
+    bool births = false;            // of newborns instead of a step (shaders/particles/spawn.comp)
 };
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)

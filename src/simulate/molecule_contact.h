@@ -19,11 +19,11 @@
 #include <vector>
 
 #include "compile/plan.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
-#include "simulate/contact_result.h"
+#include "simulate/execution_path.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 #include "sort/radix_sort.h"
@@ -70,7 +70,7 @@ class MoleculeContact : public ContactResult {
         int unit_ = 0;
     };
     struct GroupPrograms {
-        gpu::Program spheres, staggeredKeys, crowd, spread, apply;
+        gpu::Program spheres, effectiveSum, spread, apply;
         Array shapes;
     };
 
@@ -93,12 +93,20 @@ class MoleculeContact : public ContactResult {
     };
     Textures bindResponse(const gpu::Program& program, double stepTime, double restSpeed) const;
     void runNearest(double stepTime, double restSpeed, const Totals& totals);
-    void runCrowd(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state);
+    void runEffective(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state);
     void runStage(const gpu::Program& program, double stepTime, double restSpeed, const Totals& totals);
     void spread(const std::vector<GroupBuffers>& state, const Totals& totals);
     void apply(const std::vector<GroupBuffers>& state, const Array& impulses);
+    // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
-    void forParts(const std::vector<GroupBuffers>& state, const Run& run);
+    void forParts(const std::vector<GroupBuffers>& state, const Run& run) {
+        for (size_t g = 0; g < groups_.size(); ++g) {
+            const ContactGroup& group = contact_->groups[g];
+            for (const GroupBuffers::Part& part : state[group.group].parts())
+                run(g, state[group.group], part, group.firstSphere + part.first * group.spheresOf);
+        }
+    }
+    static void settled();  // before what reads what dispatches have written
     void dispatch(const gpu::Program& program, size_t lanes) const;
     void dispatchActive(const gpu::Program& program) const;
 
@@ -109,9 +117,9 @@ class MoleculeContact : public ContactResult {
     size_t padded_;  // spheres, to whole workgroups
     bool triangles_ = false, self_ = false, walls_ = false;
     std::vector<GroupPrograms> groups_;
-    gpu::Program order_, find_, findStaggered_, crowd_, begin_, relax_, settle_, keep_, nearest_;
+    gpu::Program order_, find_, findStaggered_, effective_, guess_, relax_, friction_, correction_, nearest_;
     RadixSort sort_;
-    Array pairs_, staggered_, starts_, slots_, lists_, counts_, crowds_, pushed_, shifts_, normals_,
+    Array pairs_, staggered_, starts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_, normals_,
         velocities_;
     Array apart_, groupsOf_, materials_;
     std::array<Array, 3> impulses_;

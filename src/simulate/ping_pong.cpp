@@ -1,7 +1,6 @@
 #include "simulate/ping_pong.h"
 
 #include "gpu/gl.h"
-#include "simulate/force_parameters.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -18,18 +17,15 @@ constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normal
 
 std::vector<std::string> defines(const GroupPlan& group) {
     const Needs& needs = group.needs;
-    std::vector<std::string> out;
+    std::vector<std::string> out = {"TEXTURES"};
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
     };
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
-    define(needs.acceleration && needs.springDamping, "PREDICT");
     define(needs.fields, "FIELDS");
     define(needs.forces, "FORCES");
-    define(needs.wind, "WIND");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
-    define(needs.directionalDrag && group.solver == SolverKind::leapfrog, "AHEAD");
     define(needs.springs, "SPRINGS");
     define(needs.springDamping, "SPRING_DAMPING");
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
@@ -63,14 +59,14 @@ std::string setOnceFor(const GroupPlan& group) {
 }  // namespace
 
 PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                   const Tables& tables, bool drawn, gpu::ProgramCache* cache, bool watch)
+                   const Tables& tables, const SimulationOptions& options)
     : state(context, plan),
       plan_(&plan),
       tables_(&tables),
-      drawn_(drawn),
+      drawn_(options.drawn),
       noAttributes_(context, "pass"),
       traffic_(&context.traffic()) {
-    if (watch) {
+    if (options.watchdog) {
         GLuint id = 0;
         glGenQueries(1, &id);
         query_ = gpu::Handle<gpu::deleteQuery>(id);
@@ -78,32 +74,33 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
     programs_.resize(plan.groups.size());
     for (const PassPlan& pass : plan.passes) {
         const Program*& program = programs_[pass.group][size_t(pass.kind)];
-        if (program || (pass.kind == PassKind::watch && !watch)) continue;
-        gpu::ProgramOptions options;
-        options.vertex = "passes/fullscreen.vert";
-        options.fragment = fragmentShaders[size_t(pass.kind)];
-        options.defines = defines(plan.groups[pass.group]);
-        if (pass.kind == PassKind::watch) options.defines.push_back(fastestDefine());
-        options.generated = {{"generated/fields.glsl", plan.fieldSource},
-                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
-                             {"generated/colliders.glsl", plan.collideSource}};
-        options.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
-        options.cache = cache;
-        program = &made_.get(context, shaderRoot, options, setOnceFor(plan.groups[pass.group]));
+        if (program || (pass.kind == PassKind::watch && !options.watchdog)) continue;
+        gpu::ProgramOptions wanted;
+        wanted.vertex = "passes/fullscreen.vert";
+        wanted.fragment = fragmentShaders[size_t(pass.kind)];
+        wanted.defines = defines(plan.groups[pass.group]);
+        if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
+        wanted.generated = {{"generated/fields.glsl", plan.fieldSource},
+                            {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
+                            {"generated/colliders.glsl", plan.collideSource}};
+        wanted.label = concat(name(pass.kind), " of ", plan.groups[pass.group].name);
+        wanted.cache = options.cache;
+        program = &made_.get(context, shaderRoot, wanted, setOnceFor(plan.groups[pass.group]));
         program->use();
         if (pass.kind == PassKind::collide)
             program->set("colliderParameters",
                          std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
     if (plan.contact.any())
-        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, cache);
+        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, options.cache);
 }
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {
+    if (!drawn_) return;
     drawPlainly();
     const Frame still;
     for (const PassPlan& pass : plan_->passes)
-        if (pass.kind == PassKind::normals && pass.when == PassPlan::When::frameEnd && drawn_)
+        if (pass.kind == PassKind::normals && pass.when == PassPlan::When::frameEnd)
             runPass(pass, {0, 0, true, still}, timers);
 }
 

@@ -10,30 +10,39 @@
 #include <vector>
 
 #include "gpu/buffer.h"
-#include "gpu/handle.h"
+#include "gpu/gl.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
+#include "simulate/execution_path.h"
+#include "simulate/state_view.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 #include "simulate/texture_contact.h"
-#include "simulate/texture_state.h"
 
 namespace shoal {
 
-class PingPong {
+class PingPong : public ExecutionPath {
   public:
-    // Borrows the plan and the tables. `drawn`: normals are computed at the end of each frame. `watch`: for
-    // states that run away (simulate/watchdog.h).
+    // Borrows the plan and the tables.
     PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-             bool drawn, gpu::ProgramCache* cache, bool watch = false);
+             const SimulationOptions& options);
 
-    void step(const Frame& frame, gpu::PassTimers& timers);
-    void computeNormals(gpu::PassTimers& timers);  // of the state as it is, where drawn
-
-    // Whether the last frame since disarm() left a state that ran away; waits for it, and reads 4 bytes.
-    bool alarmed() const;
-    void disarm() { asked_ = false; }
-    const TextureContact* contact() const { return contact_.get(); }  // null: there is none
+    void step(const Frame& frame, gpu::PassTimers& timers) override;
+    void computeNormals(gpu::PassTimers& timers) override;
+    StateView view() const override { return {&state, nullptr}; }
+    void write(size_t group, const GroupState& groupState, double) override {
+        state.write(plan_->groups[group], group, groupState);
+    }
+    GroupState read(size_t group) const override { return state.read(plan_->groups[group], group); }
+    GroupState readOne(size_t group, size_t molecule) const override {
+        return state.readOne(plan_->groups[group], group, molecule);
+    }
+    std::vector<glm::vec3> readNormals(size_t group) const override {
+        return state.readNormals(plan_->groups[group]);
+    }
+    bool alarmed() const override;
+    void disarm() override { asked_ = false; }
+    const ContactResult* contact() const override { return contact_.get(); }
 
     TextureState state;
 
@@ -70,10 +79,10 @@ class PingPong {
     gpu::Programs made_;
     std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
     gpu::VertexArray noAttributes_;
-    gpu::Handle<gpu::deleteQuery> query_;  // where watched
-    gpu::Traffic* traffic_;                // the context's
-    bool asked_ = false;                   // the query has been put
-    std::unique_ptr<TextureContact> contact_;
+    gpu::Handle<gpu::deleteQuery> query_;      // where watched
+    gpu::Traffic* traffic_;                    // the context's
+    bool asked_ = false;                       // the query has been put
+    std::unique_ptr<TextureContact> contact_;  // null: there is none
 };
 
 }  // namespace shoal

@@ -4,11 +4,31 @@
 #include <limits>
 #include <numeric>
 
+#include "gpu/buffer.h"
+
 namespace shoal {
 
+using gpu::Barrier;
+using gpu::Buffer;
+using gpu::Program;
+using gpu::Traffic;
+
 namespace {
+
 constexpr double never = -std::numeric_limits<double>::infinity();
+
+constexpr int wordsOfLane = 8, groupLanes = 64, scanLanes = 256;
+
+int lanesOf(size_t places) {
+    constexpr size_t placesOfLane = size_t(wordsOfLane) * 32;
+    return int((places + placesOfLane - 1) / placesOfLane);
 }
+
+int groupsOf(const PlaceSet& set) {
+    return (lanesOf(size_t(set.places)) + groupLanes - 1) / groupLanes;
+}
+
+}  // namespace
 
 // A stack hands out the first places first.
 Places::Places(Allocator allocator, size_t count) : allocator_(allocator), ends_(count, never), free_(count) {
@@ -68,6 +88,102 @@ void Places::restore(const std::vector<double>& ends, const std::vector<uint32_t
         std::copy_n(stack.begin(), free_.size(), free_.begin());
     else
         std::reverse(free_.begin(), free_.end());
+}
+
+void settleBirths() {
+    gpu::barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
+}
+
+PlaceLists::PlaceLists(gpu::Context& context, const std::string& shaderRoot, size_t groups, size_t mostPlaces,
+                       gpu::ProgramCache* cache) {
+    const auto program = [&](const char* file, bool deaths, int lanes) {
+        gpu::ProgramOptions options;
+        options.compute = concat("particles/", file, ".comp");
+        options.label = concat(file, deaths ? " of deaths" : " of places");
+        options.defines = {concat("LANES ", lanes), concat("WORDS ", wordsOfLane)};
+        if (deaths) options.defines.emplace_back("DEATHS");
+        options.cache = cache;
+        return Program(context, shaderRoot, options);
+    };
+    count_ = program("bits_count", false, groupLanes);
+    scanPlaces_ = program("bits_scan", false, scanLanes);
+    listPlaces_ = program("bits_list", false, groupLanes);
+    scanDeaths_ = program("bits_scan", true, scanLanes);
+    listDeaths_ = program("bits_list", true, groupLanes);
+    const size_t sums = size_t(std::max(1, lanesOf(mostPlaces)));
+    sums_ = Buffer(context, Buffer::Use::storage, nullptr, sums * 2 * sizeof(uint32_t), "sums of places");
+    const std::vector<uint32_t> none(groups * control::words);
+    control_ = Buffer(context, Buffer::Use::storage, none.data(), none.size() * sizeof(uint32_t),
+                      "control of births");
+}
+
+size_t PlaceLists::bytesOf(size_t places) {
+    return size_t(lanesOf(places)) * wordsOfLane * sizeof(uint32_t);
+}
+
+void PlaceLists::setUp(const Program& program, const PlaceSet& set) const {
+    program.use();
+    program.storage("Counts", 1, sums_);
+    program.storage("Control", 2, control_);
+    program.set("laneCount", lanesOf(size_t(set.places)));
+    program.set("placeCount", set.places);
+    program.set("controlBase", int(controlAt(set.group)));
+}
+
+void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
+    count_.use();
+    count_.storage("Bits", 0, bits);
+    count_.storage("Counts", 1, sums_);
+    count_.set("laneCount", lanesOf(size_t(set.places)));
+    count_.set("placeCount", set.places);
+    count_.dispatch(groupsOf(set));
+    settleBirths();
+}
+
+void PlaceLists::listDeaths(const PlaceSet& set, const Buffer& bits, const Buffer& list, size_t at) {
+    sum(set, bits);
+    setUp(scanDeaths_, set);
+    scanDeaths_.dispatch(1);
+    settleBirths();
+    setUp(listDeaths_, set);
+    listDeaths_.storage("Bits", 0, bits);
+    listDeaths_.storage("List", 3, list, at * sizeof(uint32_t), size_t(set.places) * sizeof(uint32_t));
+    listDeaths_.dispatch(groupsOf(set));
+    settleBirths();
+}
+
+void PlaceLists::countPlaces(const PlaceSet& set, const Buffer& bits, int scheduled,
+                             std::span<const glm::ivec4> deaths, bool allocates) {
+    sum(set, bits);
+    setUp(scanPlaces_, set);
+    scanPlaces_.set("scheduled", scheduled);
+    scanPlaces_.set("allocates", int(allocates));
+    scanPlaces_.set("stepLanes", set.stepLanes);
+    scanPlaces_.set("deathRunCount", int(deaths.size()));
+    std::vector<glm::ivec4> runs(deaths.begin(), deaths.end());
+    runs.resize(mostDeathRuns);
+    scanPlaces_.set("deathRuns", std::span<const glm::ivec4>(runs));
+    scanPlaces_.dispatch(1);
+    settleBirths();
+}
+
+void PlaceLists::listPlaces(const PlaceSet& set, const Buffer& bits, const Buffer& list) {
+    setUp(listPlaces_, set);
+    listPlaces_.storage("Bits", 0, bits);
+    listPlaces_.storage("List", 3, list);
+    listPlaces_.set("stepLanes", set.stepLanes);
+    listPlaces_.dispatch(groupsOf(set));
+    settleBirths();
+}
+
+void PlaceLists::readControl(size_t group, uint32_t* words) const {
+    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words,
+                      control::words * sizeof(uint32_t));
+}
+
+void PlaceLists::writeControl(size_t group, const uint32_t* words) {
+    control_.update(Traffic::Kind::state, controlAt(group) * sizeof(uint32_t), words,
+                    control::words * sizeof(uint32_t));
 }
 
 }  // namespace shoal

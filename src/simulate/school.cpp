@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "gpu/barrier.h"
+#include "gpu/buffer.h"
 
 namespace shoal {
 
@@ -16,10 +16,6 @@ namespace {
 
 constexpr size_t lanes = 64;     // of a workgroup, as the shaders say
 constexpr double endless = 1e9;  // m
-
-void store(const Program& program, const char* block, int at, const gpu::Buffer& buffer) {
-    program.storage(block, at, buffer, 0, buffer.bytes());
-}
 
 void settled() {
     gpu::barrier({Barrier::textureFetch, Barrier::storage});
@@ -95,14 +91,9 @@ void Schooling::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* c
     order_ = make("order");
     for (const SchoolBodies& bodies : school_->bodies) {
         const GroupPlan& group = plan_->groups[bodies.group];
-        const BufferLayout layout = group.layout();
         gpu::ProgramOptions options;
         options.label = concat("bodies of ", group.name);
-        options.defines = {concat("BLOCK ", BufferLayout::block),
-                           concat("POSITION_ELEMENTS ", layout.positionElements()),
-                           concat("STATE_ELEMENTS ", layout.stateElements())};
-        if (layout.life) options.defines.push_back("LIFE");
-        if (layout.lifeApart()) options.defines.push_back("LIFE_APART");
+        options.defines = group.layout().defines();
         options.generated = {{"generated/body.glsl", bodies.text}};
         options.compute = "school/body.comp";
         options.cache = cache;
@@ -119,11 +110,7 @@ void Schooling::makeSteer(const SchoolMember& member, const std::string& shaderR
     options.cache = cache;
     options.defines = {concat("TARGETS ", member.targetGrids.size()),
                        concat("CLOCK_PERIOD float(", clockPeriodOf(group), ")")};
-    if (member.length > 0) options.defines.push_back("BODY");
-    if (group.needs.avoids) {
-        options.defines.push_back("WALLS");
-        options.defines.push_back(samplesInBuffer);
-    }
+    if (group.needs.avoids) options.defines.push_back("WALLS");
     options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
     members_.push_back({&programs_.get(*context_, shaderRoot, options), member.school});
 }
@@ -148,7 +135,7 @@ void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
         const Program& program = *bodyPrograms_[b];
         program.use();
         program.set("origin", glm::vec3(school_->origin));
-        store(program, "Bodies", 0, bodies_);
+        program.storage("Bodies", 0, bodies_);
         for (const GroupBuffers::Part& part : state[bodies.group].parts()) {
             program.texture("oldState", 0, state[bodies.group].oldState(part));
             program.texture("oldRecords", 1, part.record);
@@ -163,7 +150,7 @@ void Schooling::findBodies(const std::vector<GroupBuffers>& state) {
 void Schooling::makeKeys() {
     keys_.use();
     keys_.texture("bodies", 0, bodiesRead_);
-    store(keys_, "Pairs", 0, pairs_);
+    keys_.storage("Pairs", 0, pairs_);
     for (size_t g = 0; g < school_->grids.size(); ++g) {
         const SchoolGrid& grid = school_->grids[g];
         keys_.set("entries", grid.entries);
@@ -185,9 +172,9 @@ void Schooling::order() {
     order_.texture("bodies", 1, bodiesRead_);
     order_.set("count", school_->entries);
     order_.set("keyCount", school_->keys);
-    store(order_, "Starts", 0, starts_);
-    store(order_, "Places", 1, places_);
-    store(order_, "Velocities", 2, velocities_);
+    order_.storage("Starts", 0, starts_);
+    order_.storage("Places", 1, places_);
+    order_.storage("Velocities", 2, velocities_);
     dispatch(order_, school_->entries);
     settled();
 }
@@ -216,6 +203,7 @@ void Schooling::setRules(size_t index, const Frame& frame) {
     program.set("habits", glm::vec4(std::tan(school.steepest), school.turn, school.reaction, school.wander));
     program.set("muscles", glm::vec4(member.length > 0 ? school.bend / member.length : 0, school.beat,
                                      school.fins, member.keel ? 2 / school.reaction : 0));
+    program.set("hasBody", int(member.length > 0));
     const GroupPlan& group = plan_->groups[member.group];
     program.set("drag", float(group.drag.tangent * frame.parameters.drag));
     // seen: all but a cone about straight back
@@ -260,7 +248,7 @@ void Schooling::steer(size_t index, const Frame& frame, const std::vector<GroupB
     program.texture("places", 3, placesRead_);
     program.texture("velocities", 4, velocitiesRead_);
     setRules(index, frame);
-    store(program, "Steering", 0, state[member.group].steering());
+    program.storage("Steering", 0, state[member.group].steering());
     dispatch(program, school_->grids[member.grid].entries);
 }
 
@@ -289,16 +277,6 @@ bool Schooling::change(size_t group, const School& school) {
         return true;
     }
     return false;
-}
-
-const School& Schooling::school(size_t group) const {
-    for (size_t m = 0; m < members_.size(); ++m)
-        if (school_->members[m].group == group) return members_[m].school;
-    throw Error("the group has no school");
-}
-
-size_t Schooling::bytes() const {
-    return bodies_.bytes() + pairs_.bytes() + starts_.bytes() + places_.bytes() + velocities_.bytes();
 }
 
 }  // namespace shoal

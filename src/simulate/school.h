@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "compile/plan.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "simulate/buffer_state.h"
@@ -37,8 +37,6 @@ class Schooling {
     // Other numbers for a group's school, from the next step on. False, and nothing changes: it has none, or
     // what differs needs another plan (whom it flees or hunts, whether there are walls).
     bool change(size_t group, const School& school);
-    const School& school(size_t group) const;
-    size_t bytes() const;
 
   private:
     struct Member {

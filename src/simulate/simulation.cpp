@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "simulate/fused.h"
+#include "simulate/ping_pong.h"
 
 namespace shoal {
 
@@ -17,35 +19,34 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
       plan_(std::move(plan)),
       choice_(choosePath(plan_, options.path, limitsOf(context.info()))),
       tables_(context, plan_, sampleFormOf(choice_.path)),
-      drawn_(options.drawn),
-      inPlace_(options.inPlace),
+      options_(options),
       timers_(context, options.timing),
-      path_(makePath(shaderRoot, options)) {
-    if (choice_.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
-        warnings_.push_back(
-            {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
+      path_(makePath(shaderRoot)) {
     parameters = parametersOf(plan_);
     restart();
 }
 
-std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::string& shaderRoot,
-                                                                   const SimulationOptions& options) {
-    using Paths = std::variant<std::monostate, PingPong, Fused>;
-    if (choice_.path == Path::pingPong)
-        return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
-                     options.cache, options.watchdog);
-    FusedOptions fused{options.drawn, options.inPlace, options.lanes, options.cache, options.watchdog};
-    if (options.path != Path::automatic)
-        return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
+std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoot) {
+    const auto fused = [&] {
+        return std::make_unique<Fused>(*context_, shaderRoot, plan_, tables_, options_);
+    };
+    const auto pingPong = [&] {
+        if (options_.inPlace || options_.lanes != Lanes::automatic)
+            warnings_.push_back(
+                {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
+        return std::make_unique<PingPong>(*context_, shaderRoot, plan_, tables_, options_);
+    };
+    if (choice_.path == Path::pingPong) return pingPong();
+    if (options_.path != Path::automatic) return fused();
     // Takes what works: two sides, else one, else the other path.
     try {
-        return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
+        return fused();
     } catch (const gpu::OutOfMemory& error) {
-        if (options.inPlace) throw;  // the other path takes more
+        if (options_.inPlace) throw;  // the other path takes more
         warnings_.push_back(
             {error.location(), concat(error.message(), "; going on with one side of the state")});
-        fused.inPlace = inPlace_ = true;
-        return Paths(std::in_place_type<Fused>, *context_, shaderRoot, plan_, tables_, fused);
+        options_.inPlace = true;
+        return fused();
     } catch (const Error& error) {
         // what the other path does not have
         if (!plan_.contact.onlyOfVertices() || plan_.hasLife() || plan_.school.any()) throw;
@@ -56,26 +57,24 @@ std::variant<std::monostate, PingPong, Fused> Simulation::makePath(const std::st
         tables_ = Tables(*context_, plan_, sampleFormOf(choice_.path));
         warnings_.push_back(
             {error.location(), concat(error.message(), "; going on with the ping-pong path")});
-        return Paths(std::in_place_type<PingPong>, *context_, shaderRoot, plan_, tables_, options.drawn,
-                     options.cache, options.watchdog);
+        return pingPong();
     }
 }
 
 void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
-        writeGroup(g, plan_.groups[g].start, 0);
-    time_ = lastStep_ = 0;
-    lastParameters_.reset();
-    frames_ = 0;
-    disarm();
-    computeNormals();
+        path_->write(g, plan_.groups[g].start, 0);
+    goOn(0, 0, 0);
 }
 
-// Computes the normals of a new or loaded state, which may be drawn before a frame.
-void Simulation::computeNormals() {
-    if (!drawn_) return;
-    if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->computeNormals(timers_);
-    if (auto* fused = std::get_if<Fused>(&path_)) fused->computeNormals(timers_);
+// Goes on from the state that has just been written. It may be drawn before a frame.
+void Simulation::goOn(double time, int frames, double step) {
+    time_ = time;
+    frames_ = frames;
+    lastStep_ = step;
+    last_.reset();
+    path_->disarm();
+    path_->computeNormals(timers_);
 }
 
 // Whether a force that comes back to the start of its path, which ends elsewhere, does so between two times.
@@ -92,13 +91,13 @@ static bool comesBack(const Force& force, double from, double to) {
 
 // Whether what acts on molecules is not what went on in the last frame.
 bool Simulation::forcesJump() const {
-    if (!lastParameters_) return false;
-    // forces hold what they are in the middle of a frame (simulate/force_parameters.h)
+    if (!last_) return false;
+    // forces hold what they are in the middle of a frame (forceParameters)
     const auto middle = [](const Parameters& p) { return (0.5 + 0.5 / p.substeps) * p.frameTime; };
-    return jumps(*lastParameters_, parameters) ||
+    const Parameters& before = last_->parameters;
+    return jumps(before, parameters) ||
            std::any_of(plan_.forces.begin(), plan_.forces.end(), [&](const Force& force) {
-               return comesBack(force, time_ - lastParameters_->frameTime + middle(*lastParameters_),
-                                time_ + middle(parameters));
+               return comesBack(force, time_ - before.frameTime + middle(before), time_ + middle(parameters));
            });
 }
 
@@ -106,62 +105,29 @@ void Simulation::frame() {
     EXPECTS(parameters.substeps >= 1);
     check();
     if (forcesJump()) lastStep_ = 0;
-    before_ = Moment{time_, lastStep_, frames_};
-    const double step = parameters.frameTime / parameters.substeps;
-    const Frame frame{time_, time_ + parameters.frameTime, step, frames_, parameters, step != lastStep_};
-    lastStep_ = step;
-    lastParameters_ = parameters;
+    stepBefore_ = lastStep_;
+    lastStep_ = parameters.frameTime / parameters.substeps;
+    last_ =
+        Frame{time_, time_ + parameters.frameTime, lastStep_, frames_, parameters, lastStep_ != stepBefore_};
     {
         const gpu::TimedFrame timed(timers_);
-        if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->step(frame, timers_);
-        if (auto* fused = std::get_if<Fused>(&path_)) fused->step(frame, timers_);
+        path_->step(*last_, timers_);
     }
-    time_ = frame.end;
+    time_ = last_->end;
     ++frames_;
 }
 
-bool Simulation::alarmed() const {
-    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->alarmed();
-    return std::get<PingPong>(path_).alarmed();
-}
-
-void Simulation::disarm() {
-    before_.reset();
-    if (auto* fused = std::get_if<Fused>(&path_)) fused->disarm();
-    if (auto* pingPong = std::get_if<PingPong>(&path_)) pingPong->disarm();
-}
-
 void Simulation::check() const {
-    if (!before_ || !alarmed()) return;
+    if (!last_ || !path_->alarmed()) return;
     // what was wrong before the last frame is where it began: springs spread it over the molecule
     const std::optional<SavedState> before = saveBefore();
     const Alarm first = before ? findAlarm(*before) : Alarm{};
     throw Runaway(plan_, runsAway(first) ? first : findAlarm(save()));
 }
 
-Lanes Simulation::lanes(size_t group) const {
-    const auto* fused = std::get_if<Fused>(&path_);
-    return fused ? fused->lanes(group) : Lanes::automatic;
-}
-
-const ContactResult* Simulation::contact() const {
-    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->contact();
-    return std::get<PingPong>(path_).contact();
-}
-
-LifeCounts Simulation::lifeCounts(size_t group) const {
-    return std::get<Fused>(path_).births()->counts(group);
-}
-
-bool Simulation::changeLife(size_t group, const Lifecycle& life) {
-    auto* fused = std::get_if<Fused>(&path_);
-    return fused && plan_.groups[group].needs.life && fused->births()->change(group, life);
-}
-
 bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
-    auto* fused = std::get_if<Fused>(&path_);
     GroupPlan& plan = plan_.groups[group];
-    if (!fused || !plan.needs.liveSprings || fused->lanes(group) != Lanes::molecule) return false;
+    if (!plan.needs.liveSprings || path_->lanes(group) != Lanes::molecule) return false;
     if (molecule.springs.size() != size_t(plan.springCount)) return false;
     plan.springNumbers = springNumbers(molecule);
     plan.springFrequencies = springFrequencies(molecule);
@@ -170,19 +136,13 @@ bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
 }
 
 bool Simulation::changeSchool(size_t group, const School& school) {
-    auto* fused = std::get_if<Fused>(&path_);
-    if (!fused || !fused->school() || !fused->school()->change(group, school)) return false;
+    if (!path_->changeSchool(group, school)) return false;
     lastStep_ = 0;
     return true;
 }
 
 StateView Simulation::state() const {
-    if (const auto* fused = std::get_if<Fused>(&path_)) return {nullptr, &fused->state};
-    return {&std::get<PingPong>(path_).state, nullptr};
-}
-
-size_t Simulation::stateBytes() const {
-    return shoal::stateBytes(plan_, choice_.path, drawn_, inPlace_);
+    return path_->view();
 }
 
 }  // namespace shoal

@@ -3,20 +3,18 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include <glm/glm.hpp>
 
-#include "compile/path.h"
 #include "gpu/context.h"
 #include "gpu/pass_timers.h"
-#include "simulate/fused.h"
-#include "simulate/parameters.h"
-#include "simulate/ping_pong.h"
-#include "simulate/state_view.h"
+#include "simulate/execution_path.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -42,23 +40,12 @@ struct SavedState {
     double step = 0;
 };
 
-struct SimulationOptions {
-    // Normals are computed at the end of each frame, for the renderer and for exports.
-    bool drawn = true;
-    gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
-    Path path = Path::automatic;
-    bool inPlace = false;            // fused: half the memory of the state
-    Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
-    gpu::ProgramCache* cache = nullptr;
-    bool watchdog = true;  // simulate/watchdog.h
-};
-
 class Simulation {
   public:
     // Error: choosePath's; out of memory; the driver refuses a shader.
     Simulation(gpu::Context& context, const std::string& shaderRoot, Plan plan,
                const SimulationOptions& options = {});
-    Simulation(const Simulation&) = delete;  // the paths refer to the plan and the tables
+    Simulation(const Simulation&) = delete;  // the path refers to the plan and the tables
     Simulation& operator=(const Simulation&) = delete;
 
     // Advances by parameters.frameTime. Runaway: check's, of the frame before; nothing moves then.
@@ -71,20 +58,23 @@ class Simulation {
     Parameters parameters;
     const Plan& plan() const { return plan_; }
     const PathChoice& path() const { return choice_; }
-    Lanes lanes(size_t group) const;  // fused: how the group's molecules are spread
-    StateView state() const;
-    size_t stateBytes() const;  // on the device
+    // Tells how the group's molecules are spread; automatic on the ping-pong path.
+    Lanes lanes(size_t group) const { return path_->lanes(group); }
+    StateView state() const;     // simulate/state_view.h
+    size_t stateBytes() const {  // on the device
+        return shoal::stateBytes(plan_, choice_.path, options_.drawn, options_.inPlace);
+    }
     double time() const { return time_; }
     int frames() const { return frames_; }
     gpu::PassTimers& timers() { return timers_; }
     gpu::Context& context() const { return *context_; }
     // Returns the contact of molecules with one another; null: there is none.
-    const ContactResult* contact() const;
+    const ContactResult* contact() const { return path_->contact(); }
     // Counts a group with life. Waits; reads 128 bytes of control.
-    LifeCounts lifeCounts(size_t group) const;
+    LifeCounts lifeCounts(size_t group) const { return path_->lifeCounts(group); }
     // Other numbers for birth and death, from the next frame on. False, and nothing changes: what differs
     // needs another plan.
-    bool changeLife(size_t group, const Lifecycle& life);
+    bool changeLife(size_t group, const Lifecycle& life) { return path_->changeLife(group, life); }
     // Other numbers for the springs of a group, from the next frame on; `molecule` is the group's otherwise.
     // Compiles nothing. False, and nothing changes: the plan's springs are not live (CompileOptions), are
     // others, or the path does not read them.
@@ -99,7 +89,7 @@ class Simulation {
     Snapshot snapshot(size_t group) const;
     // Reads one molecule, with its scale and phase in `looks`. Waits. On the fused path its whole block of
     // molecules crosses the bus.
-    GroupState readMolecule(size_t group, size_t molecule) const;
+    GroupState readMolecule(size_t group, size_t molecule) const { return path_->readOne(group, molecule); }
     SavedState save() const;
     // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
     // ping-pong path, in place, where some are born or die or school, and without a frame since the last load
@@ -109,33 +99,24 @@ class Simulation {
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits
 
   private:
-    std::variant<std::monostate, PingPong, Fused> makePath(const std::string& shaderRoot,
-                                                           const SimulationOptions& options);
-    GroupState readGroup(size_t group) const;
-    void writeGroup(size_t group, const GroupState& state, double time);
-    void computeNormals();
-    bool alarmed() const;
-    void disarm();
+    std::unique_ptr<ExecutionPath> makePath(const std::string& shaderRoot);
+    void goOn(double time, int frames, double step);
     bool forcesJump() const;
 
     gpu::Context* context_;
     Plan plan_;
     PathChoice choice_;
     Tables tables_;
-    bool drawn_, inPlace_ = false;
+    SimulationOptions options_;
     std::vector<Warning> warnings_;
     gpu::PassTimers timers_;
-    std::variant<std::monostate, PingPong, Fused> path_;
+    std::unique_ptr<ExecutionPath> path_;
     double time_ = 0;  // s
     int frames_ = 0;
-    double lastStep_ =
-        0;  // s, a substep of the last frame; 0: none yet, or what it left behind does not count
-    std::optional<Parameters> lastParameters_;  // of the last frame; none yet since the start or a load
-    struct Moment {
-        double time = 0, step = 0;  // s
-        int frames = 0;
-    };
-    std::optional<Moment> before_;  // the start of the last frame; nothing: it is gone
+    // s, a substep of the last frame; 0: none yet, or what it left behind does not count.
+    double lastStep_ = 0;
+    double stepBefore_ = 0;      // s, lastStep_ at the start of the last frame
+    std::optional<Frame> last_;  // nothing: none since the start or a load
 };
 
 }  // namespace shoal

@@ -6,51 +6,18 @@
 
 namespace shoal {
 
-GroupState Simulation::readGroup(size_t index) const {
-    const GroupPlan& group = plan_.groups[index];
-    if (const auto* fused = std::get_if<Fused>(&path_)) {
-        GroupState state = fused->state[index].read(group);
-        if (group.needs.life) fused->births()->read(index, state);
-        return state;
-    }
-    return std::get<PingPong>(path_).state.read(group, index);
-}
-
-GroupState Simulation::readMolecule(size_t group, size_t molecule) const {
-    if (const auto* fused = std::get_if<Fused>(&path_)) return fused->state[group].readOne(molecule);
-    return std::get<PingPong>(path_).state.readOne(plan_.groups[group], group, molecule);
-}
-
-void Simulation::writeGroup(size_t index, const GroupState& state, double time) {
-    const GroupPlan& group = plan_.groups[index];
-    if (auto* fused = std::get_if<Fused>(&path_)) {
-        fused->state[index].write(group, state);
-        if (group.needs.life) fused->births()->write(index, state, time);
-    } else
-        std::get<PingPong>(path_).state.write(group, index, state);
-}
-
 SavedState Simulation::save() const {
     SavedState out{time_, frames_, {}, forcesJump() ? 0 : lastStep_};
     for (size_t g = 0; g < plan_.groups.size(); ++g)
-        out.groups.push_back(readGroup(g));
+        out.groups.push_back(path_->read(g));
     return out;
 }
 
 std::optional<SavedState> Simulation::saveBefore() const {
-    const auto* fused = std::get_if<Fused>(&path_);
-    if (!fused || !before_) return std::nullopt;
-    if (plan_.hasLife()) return std::nullopt;     // newborns have taken places since
-    if (plan_.school.any()) return std::nullopt;  // the muscles' clocks have moved on
-    if (fused->contact() && plan_.contact.steps > 1)
-        return std::nullopt;  // the side of a step within the frame
-    SavedState out{before_->time, before_->frames, {}, before_->step};
-    for (size_t g = 0; g < plan_.groups.size(); ++g) {
-        if (fused->state[g].inPlace()) return std::nullopt;
-        GroupState& state = out.groups.emplace_back(fused->state[g].readBefore(plan_.groups[g]));
-        undoRecords(plan_, plan_.groups[g], state);
-    }
-    return out;
+    if (!last_) return {};
+    std::optional<std::vector<GroupState>> groups = path_->readBefore();
+    if (!groups) return {};
+    return SavedState{last_->time, last_->number, std::move(*groups), stepBefore_};
 }
 
 // Adapts the state of a scene with other pins: a pinned vertex is at rest, and pins that cannot be released
@@ -69,19 +36,14 @@ void Simulation::load(const SavedState& saved) {
     EXPECTS(saved.groups.size() == plan_.groups.size() && "a state of another plan");
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
         EXPECTS(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
-        writeGroup(g, asHeld(plan_.groups[g], saved.groups[g]), saved.time);
+        path_->write(g, asHeld(plan_.groups[g], saved.groups[g]), saved.time);
     }
-    time_ = saved.time;
-    frames_ = saved.frames;
-    disarm();
-    lastStep_ = saved.step;
-    lastParameters_.reset();
-    computeNormals();
+    goOn(saved.time, saved.frames, saved.step);
 }
 
 Snapshot Simulation::snapshot(size_t index) const {
     const GroupPlan& group = plan_.groups[index];
-    const GroupState state = readGroup(index);
+    const GroupState state = path_->read(index);
     Snapshot out;
     out.time = time_;
     out.count = group.count;
@@ -95,11 +57,7 @@ Snapshot Simulation::snapshot(size_t index) const {
         out.alive.push_back(life.x < life.y);
     out.released.assign(state.released.begin(), state.released.end());
     out.normals.resize(state.positions.size());
-    if (!drawn_ || !group.needs.normals) return out;
-    if (const auto* fused = std::get_if<Fused>(&path_))
-        out.normals = fused->state[index].readNormals(group);
-    else
-        out.normals = std::get<PingPong>(path_).state.readNormals(group);
+    if (options_.drawn && group.needs.normals) out.normals = path_->readNormals(index);
     return out;
 }
 
@@ -112,7 +70,7 @@ uint64_t Simulation::hash() const {
                 add(std::bit_cast<uint32_t>(value[c]));
     };
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
-        const GroupState state = readGroup(g);
+        const GroupState state = path_->read(g);
         addAll(state.positions);
         addAll(state.velocities);
         addAll(state.displacements);

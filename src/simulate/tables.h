@@ -3,7 +3,7 @@
 #pragma once
 
 #include "compile/plan.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/texture.h"
 
 namespace shoal {
@@ -21,8 +21,5 @@ struct Tables {
     // Error: more samples than the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
 };
-
-// For shaders that read the buffer (shaders/state/samples.glsl).
-constexpr const char* samplesInBuffer = "SAMPLES_IN_BUFFER";
 
 }  // namespace shoal

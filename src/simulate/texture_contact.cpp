@@ -60,7 +60,7 @@ void TextureContact::makeTextures(gpu::Context& context) {
     for (Texture& impulses : impulses_)
         impulses = texture(Format::rgba32f, "contact impulses");
     if (contact_->settings.response == ContactResponse::simultaneous) {
-        crowds_ = texture(Format::r32ui, "contact crowds");
+        effectiveCounts_ = texture(Format::r32ui, "effective contact counts");
         for (Texture& pushes : pushes_)
             pushes = texture(Format::rgba32f, "contact pushes", layers);
     }
@@ -75,33 +75,35 @@ void TextureContact::makeTextures(gpu::Context& context) {
 
 void TextureContact::makePrograms(gpu::Context& context, const std::string& shaderRoot,
                                   gpu::ProgramCache* cache) {
-    const auto make = [&](const char* file, std::vector<std::string> defines = {}) {
-        gpu::ProgramOptions options;
-        options.vertex = "passes/fullscreen.vert";
+    gpu::ProgramOptions options;
+    options.vertex = "passes/fullscreen.vert";
+    options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
+                       concat("NEIGHBORS ", contact_->settings.neighbors)};
+    if (staggered_) options.defines.emplace_back("STAGGERED");
+    options.cache = cache;
+    const auto make = [&](const char* file) {
         options.fragment = concat("contact/", file, ".frag");
-        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
-                           concat("NEIGHBORS ", contact_->settings.neighbors)};
-        options.defines.insert(options.defines.end(), defines.begin(), defines.end());
         options.label = concat("contact ", file);
-        options.cache = cache;
         return Program(context, shaderRoot, options);
+    };
+    const auto stage = [&](const char* name) {
+        options.generated = responseStage(name);
+        return make("respond");
     };
     keys_ = make("keys");
     starts_ = make("starts");
     order_ = make("order");
     slots_ = make("slots");
-    if (staggered_) staggeredKeys_ = make("keys", {"STAGGERED"});
-    const bool exact = contact_->settings.search == ContactSearch::exact;
-    find_ = exact ? make("find") : staggered_ ? make("find", {"NEAR", "STAGGERED"}) : make("find", {"NEAR"});
+    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
     if (contact_->settings.response == ContactResponse::nearest) {
         nearest_ = make("nearest");
         return;
     }
-    crowd_ = make("respond", {"CROWD"});
-    begin_ = make("respond", {"BEGIN"});
-    relax_ = make("respond", {"RELAX"});
-    settle_ = make("respond", {"SETTLE"});
-    keep_ = make("respond", {"KEEP"});
+    effective_ = make("effective");
+    guess_ = stage("guess");
+    relax_ = stage("relax");
+    friction_ = stage("friction");
+    correction_ = stage("correction");
 }
 
 void TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
@@ -166,13 +168,14 @@ void TextureContact::makeSpheres(TextureState& state) {
     }
 }
 
-void TextureContact::sortKeys(NetworkSort& sort, const Program& keys) {
-    keys.use();
-    keys.texture("sphereCells", 0, sphereCells_);
-    keys.texture("spherePlaces", 1, spherePlaces_);
-    keys.set("count", contact_->spheres);
-    keys.set("keyMask", (1 << contact_->tableBits) - 1);
-    keys.set("cell", float(contact_->cell));
+void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
+    keys_.use();
+    keys_.texture("sphereCells", 0, sphereCells_);
+    keys_.texture("spherePlaces", 1, spherePlaces_);
+    keys_.set("count", contact_->spheres);
+    keys_.set("keyMask", (1 << contact_->tableBits) - 1);
+    keys_.set("cell", float(contact_->cell));
+    keys_.set("staggered", int(staggered));
     sort.drawInto(sort.target());
     glDrawArrays(GL_TRIANGLES, 0, 3);
     sort.flip();
@@ -181,8 +184,8 @@ void TextureContact::sortKeys(NetworkSort& sort, const Program& keys) {
 
 void TextureContact::buildGrid(TextureState& state) {
     makeSpheres(state);
-    sortKeys(sort_, keys_);
-    if (staggered_) sortKeys(*staggered_, staggeredKeys_);
+    sortKeys(sort_, false);
+    if (staggered_) sortKeys(*staggered_, true);
     starts_.use();
     starts_.texture("sorted", 0, sort_.pairs());
     starts_.set("count", contact_->spheres);
@@ -246,18 +249,18 @@ void TextureContact::runStage(TextureState& state, const Program& program, const
     const int unit = bindResponse(program, times);
     // without momentum the earlier ones do not count, and nobody may have written them yet
     const size_t earlier = totals.momentum == 0 ? totals.last : totals.earlier;
-    program.texture("crowds", unit, crowds_);
+    program.texture("effectiveCounts", unit, effectiveCounts_);
     program.texture("impulses", unit + 1, impulses_[totals.last]);
     program.texture("earlier", unit + 2, impulses_[earlier]);
     program.texture("pushed", unit + 3, pushes_[totals.pushes.value_or(totals.last)]);
     program.texture("pushedBefore", unit + 4, pushes_[earlier]);
     program.set("momentum", totals.momentum);
-    program.set("rubShare", 1.0f / ContactPlan::frictionRounds);
+    program.set("frictionShare", 1.0f / ContactPlan::frictionRounds);
     const Texture* impulses = &impulses_[totals.next];
-    if (&program == &keep_) {
+    if (&program == &correction_) {
         program.texture("kept", unit + 5, shifts_);
         drawAll(state, {impulses});
-    } else if (&program == &settle_) {
+    } else if (&program == &friction_) {
         drawAll(state, {impulses, &shifts_});
     } else {
         drawAll(state, {impulses, &pushes_[totals.next]});
@@ -291,13 +294,13 @@ void TextureContact::respond(const Frame& frame, TextureState& state) {
         drawAll(state, {&impulses_[totals.next], &shifts_});
         return apply(state, impulses_[totals.next]);
     }
-    bindResponse(crowd_, times);
-    drawAll(state, {&crowds_});
+    bindResponse(effective_, times);
+    drawAll(state, {&effectiveCounts_});
     const auto run = [&](const Program& program) {
         runStage(state, program, times, totals);
         totals = {totals.next, totals.last, totals.earlier, 0, totals.pushes};
     };
-    run(begin_);
+    run(guess_);
     for (int i = 0; i < contact_->settings.iterations; ++i) {
         totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
         run(relax_);
@@ -305,8 +308,8 @@ void TextureContact::respond(const Frame& frame, TextureState& state) {
     totals.momentum = 0;
     totals.pushes = totals.last;
     for (int i = 0; i < ContactPlan::frictionRounds; ++i)
-        run(settle_);
-    run(keep_);
+        run(friction_);
+    run(correction_);
     apply(state, impulses_[totals.last]);
 }
 
@@ -361,9 +364,10 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
 size_t TextureContact::bytes() const {
     size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
     for (const Texture* texture :
-         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_,    &motions_,   &cells_,     &startsOf_,
-          &slotsOf_,      &lists_,         &crowds_,      &shifts_,    &materials_, &counts_[0], &counts_[1],
-          &impulses_[0],  &impulses_[1],   &impulses_[2], &pushes_[0], &pushes_[1], &pushes_[2]})
+         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_,    &motions_,
+          &cells_,        &startsOf_,      &slotsOf_,     &lists_,     &effectiveCounts_,
+          &shifts_,       &materials_,     &counts_[0],   &counts_[1], &impulses_[0],
+          &impulses_[1],  &impulses_[2],   &pushes_[0],   &pushes_[1], &pushes_[2]})
         out += *texture ? texture->bytes() : 0;
     return out;
 }

@@ -8,7 +8,7 @@
 //                      starts    where each cell of the table begins, by bisection
 //                      order     records in the order of the keys
 //                      slots     of a sphere: its place in that order
-//   contact search     find      the spheres that each touches
+//   contact search     find      the spheres that each touches (or `neighbors`: some of them)
 //   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`)
 //                      apply     into the state
 //
@@ -26,7 +26,7 @@
 #include "gpu/pass_timers.h"
 #include "gpu/program.h"
 #include "gpu/texture.h"
-#include "simulate/contact_result.h"
+#include "simulate/execution_path.h"
 #include "simulate/step.h"
 #include "simulate/tables.h"
 #include "simulate/texture_state.h"
@@ -75,7 +75,7 @@ class TextureContact : public ContactResult {
                    gpu::ProgramCache* cache);
 
     void makeSpheres(TextureState& state);
-    void sortKeys(NetworkSort& sort, const gpu::Program& keys);
+    void sortKeys(NetworkSort& sort, bool staggered);
     void buildGrid(TextureState& state);
     void find(TextureState& state);
     void respond(const Frame& frame, TextureState& state);
@@ -93,12 +93,12 @@ class TextureContact : public ContactResult {
     const Tables* tables_;
     int rowBits_;
     std::vector<GroupPrograms> groups_;
-    gpu::Program keys_, staggeredKeys_, starts_, order_, slots_, find_;
-    gpu::Program nearest_, crowd_, begin_, relax_, settle_, keep_;
+    gpu::Program keys_, starts_, order_, slots_, find_;
+    gpu::Program nearest_, effective_, guess_, relax_, friction_, correction_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
-    gpu::Texture startsOf_, slotsOf_, lists_, crowds_, shifts_, materials_;
+    gpu::Texture startsOf_, slotsOf_, lists_, effectiveCounts_, shifts_, materials_;
     std::array<gpu::Texture, 2> counts_;
     size_t countsSide_ = 0;
     std::array<gpu::Texture, 3> impulses_, pushes_;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/many.h"
+#include "core/error.h"
 #include "gpu/buffer.h"
 
 namespace shoal {

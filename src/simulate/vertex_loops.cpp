@@ -96,7 +96,7 @@ class Expander {
                 k = end;
             } else {
                 const std::string indent(lines_[k].text.find_first_not_of(' '), ' ');
-                add(indent + "meet();", lines_[k].origin);
+                add(indent + "waitForGroup();", lines_[k].origin);
                 add(indent + "for (int " + variable + " = int(gl_LocalInvocationID.x); " + variable +
                         " < VERTICES; " + variable + " += LANES) {",
                     lines_[k].origin);

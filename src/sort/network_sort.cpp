@@ -10,6 +10,29 @@
 
 namespace shoal {
 
+std::vector<OddEvenPass> oddEvenMergePasses(size_t count) {
+    std::vector<OddEvenPass> out;
+    for (size_t run = 1; run < count; run *= 2) {
+        for (size_t distance = run; distance >= 1; distance /= 2)
+            out.push_back({int(run), int(distance)});
+    }
+    return out;
+}
+
+std::vector<BitonicPass> bitonicPasses(size_t block) {
+    EXPECTS(std::has_single_bit(block));
+    if (block == 2) return {{0, false, true, false}};
+    std::vector<BitonicPass> out;
+    for (size_t merged = 4; merged <= block; merged *= 2) {  // elements
+        size_t mask = merged / 2 - 1;                        // texels
+        out.push_back({int(mask), true, merged == 4, false});
+        for (mask = merged / 8; mask >= 1; mask /= 2)
+            out.push_back({int(mask), false, false, false});
+        out.back().last = true;
+    }
+    return out;
+}
+
 namespace {
 
 int pairsInTexel(NetworkSort::Kind kind) {
@@ -20,12 +43,6 @@ const char* name(NetworkSort::Kind kind) {
     return kind == NetworkSort::Kind::bitonic ? "bitonic sort" : "odd-even merge sort";
 }
 
-// The largest power of two that is not above.
-size_t powerOfTwoBelow(size_t value) {
-    const size_t power = powerOfTwoAbove(value);
-    return power == value ? power : power / 2;
-}
-
 size_t checkedCapacity(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t capacity) {
     const size_t most = NetworkSort::most(info, kind);
     if (capacity <= most) return std::max<size_t>(capacity, 1);
@@ -33,7 +50,7 @@ size_t checkedCapacity(const gpu::ContextInfo& info, NetworkSort::Kind kind, siz
 }
 
 int chosenRowLength(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t capacity, int wanted) {
-    const size_t widest = powerOfTwoBelow(size_t(info.maxTextureSize)) * size_t(pairsInTexel(kind));
+    const size_t widest = std::bit_floor(size_t(info.maxTextureSize)) * size_t(pairsInTexel(kind));
     size_t length = 2;
     if (wanted != 0) {
         length = size_t(wanted);
@@ -42,7 +59,7 @@ int chosenRowLength(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t
             length *= 2;
         length = std::min(length, widest);
     }
-    EXPECTS(length >= 2 && length == powerOfTwoAbove(length) && "rows are a power of two long");
+    EXPECTS(length >= 2 && std::has_single_bit(length) && "rows are a power of two long");
     const size_t rows = (capacity + length - 1) / length;
     if (length <= widest && rows <= size_t(info.maxTextureSize)) return int(length);
     throw Error(concat(name(kind), " of ", capacity, " pairs in rows of ", length,
@@ -54,7 +71,7 @@ int chosenRowLength(const gpu::ContextInfo& info, NetworkSort::Kind kind, size_t
 
 size_t NetworkSort::most(const gpu::ContextInfo& info, Kind kind) {
     const auto size = size_t(info.maxTextureSize);
-    return std::min(powerOfTwoBelow(size) * size_t(pairsInTexel(kind)) * size, size_t(INT_MAX / 2));
+    return std::min(std::bit_floor(size) * size_t(pairsInTexel(kind)) * size, size_t(INT_MAX / 2));
 }
 
 NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
@@ -89,7 +106,7 @@ void NetworkSort::setCount(size_t count) {
 
 int NetworkSort::passes() const {
     if (count_ < 2) return 0;
-    return int(kind_ == Kind::bitonic ? bitonicPasses(powerOfTwoAbove(count_)).size()
+    return int(kind_ == Kind::bitonic ? bitonicPasses(std::bit_ceil(count_)).size()
                                       : oddEvenMergePasses(count_).size());
 }
 
@@ -142,7 +159,7 @@ void NetworkSort::sort() {
     if (count_ < 2) return;
     begin();
     if (kind_ == Kind::bitonic) {
-        for (const BitonicPass& pass : bitonicPasses(powerOfTwoAbove(count_)))
+        for (const BitonicPass& pass : bitonicPasses(std::bit_ceil(count_)))
             run(pass);
     } else {
         for (const OddEvenPass& pass : oddEvenMergePasses(count_))

@@ -7,8 +7,7 @@
 
 #include "core/contract.h"
 #include "core/error.h"
-#include "gpu/barrier.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 
 namespace shoal {
 

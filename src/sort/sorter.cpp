@@ -13,13 +13,10 @@ using Kind = gpu::Traffic::Kind;
 namespace {
 
 constexpr SortMethodRow methods[] = {
-    {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, false, true, "fragment passes, a pair a texel",
-     "[Batcher 1968]; [Latta 2004, section 3.4.4]"},
-    {SortMethod::bitonic, "bitonic", false, 3, 3, true, false, "fragment passes, two pairs a texel",
-     "[Batcher 1968]; [Kipfer 2004, section 4.3.3]"},
-    {SortMethod::radix, "radix", true, 4, 3, false, false, "compute shaders", "[Zagha 1991]; [Satish 2009]"},
-    {SortMethod::cpu, "cpu", true, 3, 3, false, false, "read back, std::stable_sort, uploaded",
-     "the baseline"},
+    {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, false, true},
+    {SortMethod::bitonic, "bitonic", false, 3, 3, true, false},
+    {SortMethod::radix, "radix", true, 4, 3, false, false},
+    {SortMethod::cpu, "cpu", true, 3, 3, false, false},  // read back, std::stable_sort, uploaded
 };
 
 NetworkSort::Kind networkKind(SortMethod method) {

@@ -10,7 +10,6 @@
 #include "gpu/buffer.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
-#include "sort/key_index.h"
 #include "sort/network_sort.h"
 #include "sort/radix_sort.h"
 
@@ -24,8 +23,6 @@ struct SortMethodRow {
     bool stable;            // equal keys stay in their order
     int major, minor;       // OpenGL that it needs
     bool rowsOnly, spread;  // sortRows(); beginSpread() and advance()
-    const char* how;
-    const char* source;
 };
 std::span<const SortMethodRow> sortMethods();
 const SortMethodRow& row(SortMethod method);
@@ -52,9 +49,8 @@ class Sorter {
     SortMethod method() const { return method_; }
     size_t count() const { return count_; }
     int passes() const;  // of sort() by all bits, over the pairs that were uploaded; 0 on the CPU
-    // The pairs on the GPU: in a buffer (radix, cpu) or in textures (the networks); else null.
+    // The pairs on the GPU where they lie in a buffer (radix, cpu); else null: the networks' lie in textures.
     gpu::Buffer* buffer() { return buffer_ ? &buffer_ : nullptr; }
-    NetworkSort* network() { return network_.get(); }
 
   private:
     void sortOnCpu();

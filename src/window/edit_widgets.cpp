@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "core/description.h"
 #include "window/interface.h"
 
 namespace shoal::window {
@@ -43,6 +44,14 @@ double stored(const Row& row, const Limit& limit, double shown) {
 }
 
 }  // namespace
+
+Row rowOf(const Key& key) {
+    return {key.name.c_str(), key.says.sentence.c_str()};
+}
+
+Limit limitOf(const Key& key) {
+    return {key.says.range.least, key.says.range.most};
+}
 
 void beginRow(const Row& row) {
     ImGui::AlignTextToFramePadding();
@@ -85,9 +94,13 @@ bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span) {
 
 // Beside its label there is no room for several numbers with all their digits.
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed) {
-    ImGui::TextUnformatted(row.label);
-    tipHere(row);
-    ImGui::SetNextItemWidth(-1);
+    if (count == 1) {
+        beginRow(row);
+    } else {
+        ImGui::TextUnformatted(row.label);
+        tipHere(row);
+        ImGui::SetNextItemWidth(-1);
+    }
     const bool changed =
         ImGui::DragScalarN(hidden(row).c_str(), ImGuiDataType_Double, values, count, float(speed),
                            &limit.least, &limit.most, row.format, ImGuiSliderFlags_AlwaysClamp);
@@ -102,11 +115,15 @@ bool tick(const Row& row, bool& value) {
     return changed;
 }
 
-bool pick(const Row& row, std::initializer_list<const char*> words, int& index) {
+bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color) {
+    std::array<float, 3> shown{float(color.x), float(color.y), float(color.z)};
     beginRow(row);
-    const bool changed = ImGui::Combo(hidden(row).c_str(), &index, words.begin(), int(words.size()));
-    tipHere(row);
-    return changed;
+    const ImGuiColorEditFlags flags =
+        ImGuiColorEditFlags_Float | (limit.most > 1 ? ImGuiColorEditFlags_HDR : 0);
+    if (!ImGui::ColorEdit3(hidden(row).c_str(), shown.data(), flags)) return false;
+    for (int i = 0; i < 3; ++i)
+        color[i] = std::clamp(std::round(double(shown[size_t(i)]) * 1000) / 1000, limit.least, limit.most);
+    return true;
 }
 
 bool turnDirection(const char* tip, glm::dvec3& direction, glm::dvec2& angles) {

@@ -3,10 +3,13 @@
 // frame. Numbers stay within their limit, also when they are typed (Ctrl and a click).
 #pragma once
 
-#include <initializer_list>
 #include <string>
 
 #include <glm/glm.hpp>
+
+namespace shoal {
+struct Key;
+}
 
 namespace shoal::window {
 
@@ -23,12 +26,16 @@ struct Row {
     bool free = false;            // slideSpan: two numbers that do not push each other
 };
 
+// By its description: of a key whose name is one word, and all that it may say.
+Row rowOf(const Key& key);
+Limit limitOf(const Key& key);
+
 bool slide(const Row& row, const Limit& limit, double& value);
 bool slide(const Row& row, const Limit& limit, int& value);
 bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
-bool pick(const Row& row, std::initializer_list<const char*> words, int& index);
+bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color);  // of each channel
 
 // Two sliders for a unit vector: above the horizon, and around from -z over +x. `angles` remembers them where
 // the vector cannot (straight up); rad.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "reference/fields.h"
+#include "scene/force_kinds.h"
 
 namespace shoal::window {
 
@@ -37,18 +38,19 @@ void addArrow(std::vector<Line>& lines, const glm::dvec3& from, const glm::dvec3
 
 }  // namespace
 
-glm::dvec3 fluidVelocity(const Scene& scene, const Parameters& parameters, const glm::dvec3& place,
-                         double time) {
+// m/s, with the sliders' factors: fields, and winds among the forces.
+static glm::dvec3 fluidVelocity(const Scene& scene, const Parameters& parameters, const glm::dvec3& place,
+                                double time) {
     glm::dvec3 out(0);
     for (size_t i = 0; i < scene.fields.size(); ++i) {
         const Field& field = scene.fields[i];
         const double factor = i < parameters.fields.size() ? parameters.fields[i] : 1;
         if (holds(field.box, place))
             out +=
-                parameters.wind * factor * field.weight * reference::fieldVelocity(field.shape, place, time);
+                parameters.wind * factor * field.weight * reference::fieldVelocity(*field.shape, place, time);
     }
     for (size_t i = 0; i < scene.forces.size(); ++i) {
-        const auto* wind = std::get_if<WindForce>(&scene.forces[i].shape);
+        const auto* wind = std::get_if<WindForce>(&*scene.forces[i].shape);
         if (!wind || i >= parameters.forces.size() || !parameters.forces[i].on) continue;
         out += parameters.forces[i].factor * momentOf(scene.forces[i].path, time).factor * wind->velocity;
     }

@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "render/line_drawer.h"
+#include "render/lines.h"
 #include "render/renderer.h"
-#include "render/spring_lines.h"
 #include "simulate/pick.h"
 #include "simulate/simulation.h"
 
@@ -41,9 +40,5 @@ class Explanations : public Overlay {
     std::vector<Line> arrows_;
     double fastest_ = 0;
 };
-
-// m/s, with the sliders' factors: fields, and winds among the forces.
-glm::dvec3 fluidVelocity(const Scene& scene, const Parameters& parameters, const glm::dvec3& place,
-                         double time);
 
 }  // namespace shoal::window

@@ -1,11 +1,10 @@
-#include "window/hot_reload.h"
-
 #include <algorithm>
 #include <iostream>
 #include <set>
 
 #include "core/printable.h"
 #include "run/data_paths.h"
+#include "window/running_scene.h"
 
 namespace shoal::window {
 

@@ -1,4 +1,4 @@
-#include "window/input.h"
+#include "window/interface.h"
 
 #include <backends/imgui_impl_glfw.h>
 

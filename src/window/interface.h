@@ -1,15 +1,69 @@
-// ImGui's context and backends, for as long as the window lives, and how the panels look.
+// ImGui's context and backends, for as long as the window lives, how the panels look, and the events of
+// pointer and keys (input.cpp).
 //
 // Panels are laid out in points: pixels of a screen of ordinary density. On a denser one, and with --scale, a
 // point is more pixels, and the font is made anew at that size, so that letters stay sharp.
 #pragma once
 
+#include <deque>
+#include <fstream>
 #include <memory>
 #include <optional>
+#include <set>
 
-#include "window/input.h"
+#include <imgui.h>
+
+struct GLFWwindow;
 
 namespace shoal::window {
+
+// Events of pointer and keys, in the order in which they came. A frame may take longer than a click or a key:
+// events since the last frame wait, and each frame takes as many as it can tell apart.
+class Input {
+  public:
+    // After ImGui's own backend was made without callbacks: these pass on to it.
+    explicit Input(GLFWwindow* window);
+    ~Input();
+    Input(const Input&) = delete;
+    Input& operator=(const Input&) = delete;
+
+    void next();    // what this frame holds; once a frame
+    void settle();  // after ImGui's backend has asked the window itself, which knows only how things are now
+
+    // ---- Keys, by GLFW's numbers
+
+    // `heard`: else keys are someone else's, such as a text that is typed.
+    void look(bool heard) { heard_ = heard; }
+    bool pressed(int key) const { return heard_ && pressed_.contains(key); }  // went down in this frame
+    bool held(int key) const { return down_.contains(key); }
+    bool control() const;  // is held
+
+  private:
+    struct Event {
+        enum class Kind { move, wheel, button, key, text } kind;
+        int code = 0;       // of the button or key; the letter
+        bool down = false;  // pressed, not released
+        int scan = 0, modifiers = 0;
+        double x = 0, y = 0;
+    };
+    struct Taken {
+        bool moved = false, rolled = false, ends = false;
+        std::set<int> released;  // keys
+    };
+    void listen();
+    bool fits(const Event& event, const Taken& taken) const;
+    void take(const Event& event, Taken& taken);
+    bool typesNext() const;
+    void add(const Event& event) { waiting_.push_back(event); }
+
+    GLFWwindow* window_;
+    std::deque<Event> waiting_;
+    std::set<int> down_, pressed_;  // keys
+    bool heard_ = true;
+    std::set<int> buttons_;  // that are held
+    ImVec2 place_{0, 0};     // of the pointer
+    std::ofstream frames_;   // $SHOAL_FRAMES: a byte for each frame that began with nothing waiting
+};
 
 class Interface {
   public:

@@ -91,15 +91,11 @@ bool hasRow(const Key& key) {
     }
 }
 
-void* memberOf(const Key& key, void* object) {
-    return static_cast<char*>(object) + key.member.offset;
-}
-
 // A number that stands for none, as of what lives for ever.
 bool isEndless(const Key& key, const void* value) {
     if (!value || key.usual.empty()) return false;
-    if (key.kind == Kind::number) return *static_cast<const double*>(value) > 1e15;
-    return key.kind == Kind::span && static_cast<const glm::dvec2*>(value)->y > 1e15;
+    if (key.kind == Kind::number) return *static_cast<const double*>(value) > largestNumber;
+    return key.kind == Kind::span && static_cast<const glm::dvec2*>(value)->y > largestNumber;
 }
 
 }  // namespace
@@ -138,7 +134,7 @@ bool KeyRows::drawKeys(const Description& keys, void* object, const Owns& owns) 
 
 // Draws the box to tick for a value that may be absent; its own row is below it.
 bool KeyRows::drawPresence(const Key& key, void* object) {
-    const void* value = key.member.look(memberOf(key, object));
+    const void* value = key.value(object);
     const bool endless = isEndless(key, value);
     bool there = value && !endless;
     const std::string label = inWords(key.name);
@@ -147,13 +143,12 @@ bool KeyRows::drawPresence(const Key& key, void* object) {
     const double middle =
         slider.steep ? std::sqrt(slider.least * slider.most) : 0.5 * (slider.least + slider.most);
     if (key.kind == Kind::number && !key.member.optional)
-        *static_cast<double*>(memberOf(key, object)) =
-            there ? middle : std::numeric_limits<double>::infinity();
+        *static_cast<double*>(key.place(object)) = there ? middle : std::numeric_limits<double>::infinity();
     else if (key.kind == Kind::span)
-        *static_cast<glm::dvec2*>(memberOf(key, object)) = glm::dvec2(there ? middle : 1e30);
+        *static_cast<glm::dvec2*>(key.place(object)) = glm::dvec2(there ? middle : 1e30);
     else if (!there)
-        key.member.reset(memberOf(key, object));
-    else if (void* made = key.member.make(memberOf(key, object)); key.kind == Kind::number)
+        key.member.reset(key.place(object));
+    else if (void* made = key.member.make(key.place(object)); key.kind == Kind::number)
         *static_cast<double*>(made) = middle;
     sliders_.erase(ImGui::GetID("slider"));
     return true;
@@ -163,7 +158,7 @@ bool KeyRows::drawKey(const Key& key, void* object) {
     bool changed = false;
     const bool mayEnd = !key.usual.empty() && (key.kind == Kind::number || key.kind == Kind::span);
     if (key.member.optional || mayEnd) changed = drawPresence(key, object);
-    void* value = const_cast<void*>(key.member.look(memberOf(key, object)));
+    void* value = const_cast<void*>(key.value(object));
     if (!value || isEndless(key, value)) return changed;
     if (key.kind == Kind::list) return drawList(key, value) || changed;
     if (key.kind == Kind::object && !key.member.optional) {

@@ -25,7 +25,7 @@ class KeyRows {
         const Description& keys = describe(&object);
         const S before = object;
         if (!drawKeys(keys, &object, owns)) return false;
-        const std::string broken = ruleBroken([&] { keys.check(object, Where(), largest); });
+        const std::string broken = ruleBroken([&] { keys.check(object, Where(), largestNumber); });
         if (broken.empty()) return true;
         object = before;
         ImGui::SetTooltip("%s", broken.c_str());
@@ -33,7 +33,6 @@ class KeyRows {
     }
 
   private:
-    static constexpr double largest = 1e15;
     bool drawKeys(const Description& keys, void* object, const Owns& owns);
     bool drawKey(const Key& key, void* object);
     bool drawPresence(const Key& key, void* object);

@@ -1,11 +1,10 @@
-#include "window/group_editors.h"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "window/edit_widgets.h"
+#include "window/panel.h"
 
 namespace shoal::window {
 
@@ -24,13 +23,13 @@ std::string titleOf(const Emitter& emitter, size_t index) {
 
 // Whether the group is `from`, or emits through a chain of deaths from its deaths: then `from` cannot emit
 // from the group's deaths.
-bool bearsFrom(const Scene& scene, const Group& group, const std::string& from, size_t depth = 0) {
+bool emitsFrom(const Scene& scene, const Group& group, const std::string& from, size_t depth = 0) {
     if (group.name == from || depth > scene.groups.size()) return true;
     if (!group.life) return false;
     for (const Emitter& emitter : group.life->emitters) {
         if (emitter.from != From::death) continue;
         for (const Group& source : scene.groups)
-            if (source.name == emitter.group && bearsFrom(scene, source, from, depth + 1)) return true;
+            if (source.name == emitter.group && emitsFrom(scene, source, from, depth + 1)) return true;
     }
     return false;
 }
@@ -39,7 +38,7 @@ bool bearsFrom(const Scene& scene, const Group& group, const std::string& from, 
 std::vector<std::string> dyingGroups(const Scene& scene, const Group& group) {
     std::vector<std::string> out;
     for (const Group& other : scene.groups)
-        if (other.life && !bearsFrom(scene, other, group.name)) out.push_back(other.name);
+        if (other.life && !emitsFrom(scene, other, group.name)) out.push_back(other.name);
     return out;
 }
 
@@ -106,7 +105,7 @@ bool LifeEditor::drawEmitters(Scene& scene) {
         life.emitters.push_back(emitter);
         changed = true;
     }
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Another one beside these, like the last.");
+    tip("Another one beside these, like the last.");
     return changed;
 }
 
@@ -119,7 +118,7 @@ bool LifeEditor::drawEmitter(Scene& scene, size_t index) {
                           {"of",
                            [&] {
                                return pickName(
-                                   {"of", "The group from whose deaths they are born."}, dying,
+                                   rowOf(*describe(&emitter).find("of")), dying,
                                    [](const std::string& name) { return name; }, emitter.group,
                                    emitter.group);
                            }},
@@ -148,7 +147,7 @@ bool LifeEditor::drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life)
         if (from == From::surface) return !scene.models.empty();
         return from != From::death || !dying.empty();
     };
-    beginRow({"from", "Where they are born, or from what."});
+    beginRow(rowOf(*describe(&emitter).find("from")));
     bool changed = false;
     if (!ImGui::BeginCombo("##from", name(emitter.from))) return false;
     for (int kind = 0; kind < kinds; ++kind) {
@@ -166,7 +165,7 @@ bool LifeEditor::drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life)
 bool LifeEditor::drawModel(const Scene& scene, Emitter& emitter) const {
     std::string chosen;
     if (!pickName(
-            {"model", "The model, of which every triangle emits by its area."}, scene.models,
+            rowOf(*describe(&emitter).find("model")), scene.models,
             [](const Model& model) { return model.name; }, scene.models[size_t(emitter.model)].name, chosen))
         return false;
     for (size_t m = 0; m < scene.models.size(); ++m)
@@ -191,7 +190,7 @@ bool LifeEditor::drawCapacity(const Group& group, Lifecycle& life) const {
     const Key& key = *describe(&life).find("capacity");
     const int least = std::max(1, group.count);
     const Limit limit{double(least), std::max(double(least), sliderOf(key, &life).most)};
-    bool changed = slide({"capacity", key.says.sentence.c_str(), "%d", true}, limit, life.capacity);
+    bool changed = slide({key.name.c_str(), key.says.sentence.c_str(), "%d", true}, limit, life.capacity);
     const std::optional<int> usual = usualCapacity(group.count, life);
     if (!usual || *usual == life.capacity) return changed;
     beginRow({"", ""});

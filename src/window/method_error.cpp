@@ -1,10 +1,12 @@
-#include "window/method_error.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <thread>
 
 #include "measure/accuracy_reference.h"
+#include "measure/method_runner.h"
+#include "run/data_paths.h"
+#include "window/panel.h"
 
 namespace shoal::window {
 
@@ -25,10 +27,15 @@ std::string lacking(const Plan& plan) {
 
 }  // namespace
 
-std::string methodError(const Scene& scene, const Simulation& simulation, const AccuracyDevice& device) {
+std::string methodError(const Scene& scene, const Simulation& simulation, gpu::ProgramCache& cache) {
     const Plan& plan = simulation.plan();
     const std::string lack = lacking(plan);
     if (!lack.empty()) return lack;
+    const AccuracyDevice device{.context = &simulation.context(),
+                                .shaderRoot = shaderRoot(),
+                                .cache = &cache,
+                                .cores = int(std::max(1u, std::thread::hardware_concurrency())),
+                                .path = simulation.path().path};
     try {
         const Scene few = withMolecules(scene, molecules);
         MethodRunner runner(few, {plan.groups.front().solver, plan.fieldSampling}, device);

@@ -83,10 +83,10 @@ static double pointRadius(const Group& group) {
 }
 
 // Reads back the state of all groups.
-void OpenScene::pick(const glm::dvec2& place, double aspect, int height) {
+void OpenScene::pick(int height) {
     constexpr double near = 5;  // pixels, that a vertex may be missed by
     const View now = view();
-    const Ray ray{now.eye, glm::normalize(onTargetPlane(now, place, aspect) - now.eye)};
+    const Ray ray{now.eye, glm::normalize(underPointer(now) - now.eye)};
     const double angle = near * now.fieldOfView / height;
     forget();
     double nearest = std::numeric_limits<double>::infinity();
@@ -117,16 +117,6 @@ void OpenScene::readPicked() {
                         running.scene.groups[group.index].molecule,
                         group.stiffness * simulation().parameters.stiffness);
     if (follows && numbers->alive) camera.follow(numbers->middle);
-}
-
-// Where a place is in the picture, in [0, 1] from the upper left corner; nothing: behind the eye.
-static std::optional<glm::dvec2> onScreen(const View& view, const glm::dvec3& place, double aspect) {
-    const glm::dvec3 ahead = glm::normalize(view.target - view.eye);
-    const glm::dvec3 right = glm::normalize(glm::cross(ahead, view.up)), up = glm::cross(right, ahead);
-    const glm::dvec3 to = place - view.eye;
-    const double depth = glm::dot(to, ahead), half = depth * std::tan(view.fieldOfView / 2);
-    if (!(depth > 0)) return {};
-    return glm::dvec2(0.5 + 0.5 * glm::dot(to, right) / (half * aspect), 0.5 - 0.5 * glm::dot(to, up) / half);
 }
 
 // ---- What is shown of the picked molecule
@@ -188,10 +178,8 @@ MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& gro
     return open ? action : MoleculeAction::close;
 }
 
-// A ring around it on the screen, at `place` in [0, 1] from the upper left corner.
-void markMolecule(const glm::dvec2& place, float radius) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const ImVec2 at(float(place.x) * screen.x, float(place.y) * screen.y);
+// A ring around it.
+void markMolecule(const ImVec2& at, float radius) {
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
     list.AddCircle(at, radius + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
     list.AddCircle(at, radius, IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
@@ -199,9 +187,10 @@ void markMolecule(const glm::dvec2& place, float radius) {
 
 }  // namespace
 
-void OpenScene::drawPicked(double aspect, float left) {
+void OpenScene::drawPicked(float left) {
     if (!explanations->picked || !numbers) return;
-    if (const auto at = onScreen(view(), numbers->middle, aspect)) markMolecule(*at, points(14));
+    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle))
+        markMolecule(*at, points(14));
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
     const MoleculeAction action = showMolecule(picked, group.name, group.molecule, *numbers, follows, left);

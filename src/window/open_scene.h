@@ -1,12 +1,12 @@
 // A scene that is open in the window, and all that the user moves of it.
 #pragma once
 
+#include <imgui.h>
+
 #include "window/explanations.h"
-#include "window/hot_reload.h"
 #include "window/orbit_camera.h"
 #include "window/panel.h"
 #include "window/running_scene.h"
-#include "window/scene_panel.h"
 
 namespace shoal::window {
 
@@ -36,15 +36,35 @@ struct OpenScene {
     // Saves a state that ran away; returns the sentence that tells the user.
     std::string saveForInspection(const Runaway& runaway) const;
 
-    // The molecule under a place of the picture, in [0, 1] from the upper left corner; or none any more.
-    void pick(const glm::dvec2& place, double aspect, int height);
+    // The molecule under the pointer, or none any more. `height`: of the window, pixels.
+    void pick(int height);
     void forget();      // what was picked
     void readPicked();  // its numbers, and moves the camera that follows it
     // Its numbers, from `left` on (in the interface's units) at the bottom of the window, and a ring around
-    // it. `aspect`: of the window, its width by its height.
-    void drawPicked(double aspect, float left);
+    // it.
+    void drawPicked(float left);
     View view() const;                   // of now
     void drawPicture(double lineWidth);  // pixels, of springs and arrows
+};
+
+// Where the pointer is on a plane through what the camera looks at.
+glm::dvec3 underPointer(const View& view);
+
+// Handles the pointer on the picture of a scene: it turns, moves and zooms the camera, picks a molecule, and
+// holds the forces that follow the mouse.
+class ScenePointer {
+  public:
+    // Forces of the mouse act while Shift and the left button are held: where the pointer is, at the distance
+    // of what the camera looks at.
+    static void holdForces(OpenScene& open);
+
+    // Between begin and end of the interface's frame. `height`: of the window, pixels.
+    void move(OpenScene& open, int height);
+
+  private:
+    void pickOnClick(OpenScene& open, int height);
+
+    std::optional<ImVec2> pressedAt_;  // where the left button went down
 };
 
 }  // namespace shoal::window

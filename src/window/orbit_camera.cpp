@@ -55,4 +55,29 @@ View OrbitCamera::view() const {
     return out;
 }
 
+Projector::Projector(const View& view, ImVec2 size)
+    : eye_(view.eye),
+      directions_(directionsOf(view)),
+      tangent_(std::tan(view.fieldOfView / 2)),
+      size_(size) {}
+
+double Projector::depth(const glm::dvec3& point) const {
+    return -glm::dot(point - eye_, directions_[2]);
+}
+
+std::optional<ImVec2> Projector::place(const glm::dvec3& point) const {
+    const double deep = depth(point);
+    if (!(deep > 1e-6)) return std::nullopt;
+    const double half = size_.y / 2 / (deep * tangent_);
+    const glm::dvec3 arm = point - eye_;
+    return ImVec2(float(size_.x / 2 + glm::dot(arm, directions_[0]) * half),
+                  float(size_.y / 2 - glm::dot(arm, directions_[1]) * half));
+}
+
+glm::dvec3 Projector::onPlane(ImVec2 place, const glm::dvec3& point) const {
+    const double deep = std::max(depth(point), 1e-6), scale = deep * tangent_ / (size_.y / 2);
+    return eye_ - directions_[2] * deep + directions_[0] * ((place.x - size_.x / 2) * scale) -
+           directions_[1] * ((place.y - size_.y / 2) * scale);
+}
+
 }  // namespace shoal::window

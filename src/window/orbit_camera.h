@@ -1,10 +1,15 @@
-// Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms.
+// How a window looks at a scene, and where in the window a place of the scene is.
 #pragma once
+
+#include <optional>
+
+#include <imgui.h>
 
 #include "render/view.h"
 
 namespace shoal::window {
 
+// Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms.
 class OrbitCamera {
   public:
     explicit OrbitCamera(const View& start);
@@ -23,6 +28,23 @@ class OrbitCamera {
     View start_;
     glm::dvec3 target_{0};
     double distance_ = 1, azimuth_ = 0, elevation_ = 0;  // m, rad
+};
+
+// From the scene to places in the window and back. Places: in the interface's units, from the upper left.
+class Projector {
+  public:
+    Projector(const View& view, ImVec2 size);
+
+    std::optional<ImVec2> place(const glm::dvec3& point) const;  // nothing: behind the eye
+    double depth(const glm::dvec3& point) const;                 // m, from the eye
+    // Where the ray through a place meets the plane through `point` that faces the eye.
+    glm::dvec3 onPlane(ImVec2 place, const glm::dvec3& point) const;
+
+  private:
+    glm::dvec3 eye_;
+    glm::dmat3 directions_;  // directionsOf()
+    double tangent_;         // of half the field of view
+    ImVec2 size_;
 };
 
 }  // namespace shoal::window

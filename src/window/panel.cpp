@@ -8,8 +8,8 @@
 
 #include "compile/generate.h"
 #include "run/data_paths.h"
+#include "window/edit_widgets.h"
 #include "window/interface.h"
-#include "window/time_plot.h"
 
 namespace shoal::window {
 
@@ -96,12 +96,12 @@ void Panel::follow(const Scene& scene) {
     fieldNames_.clear();
     for (size_t i = 0; i < scene.fields.size(); ++i)
         fieldNames_.push_back(scene.fields[i].name.empty()
-                                  ? concat(kindName(scene.fields[i].shape), " ", i + 1)
+                                  ? concat(kindName(*scene.fields[i].shape), " ", i + 1)
                                   : scene.fields[i].name);
     forceNames_.clear();
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Force& force = scene.forces[i];
-        const std::string name = force.name.empty() ? concat(kindName(force.shape), " ", i + 1) : force.name;
+        const std::string name = force.name.empty() ? concat(kindName(*force.shape), " ", i + 1) : force.name;
         forceNames_.push_back(force.mouse ? name + " (Shift)" : name);
     }
 }
@@ -133,7 +133,7 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
     ImGui::PushItemWidth(points(150));
     std::vector<Action> asked{drawClock(controls, simulation)};
     drawForces(controls, simulation);
-    asked.push_back(drawGroups(simulation));
+    asked.push_back(drawGroups());
     asked.push_back(drawMethod(controls, simulation));
     drawView(explanations, simulation);
     drawCost(simulation, renderer, frameSeconds, lastFrame);
@@ -147,7 +147,7 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
 Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
     Action action = Action::none;
     if (ImGui::Button("Scenes")) action = Action::scenes;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Choose another scene (O).");
+    tip("Choose another scene (O).");
     ImGui::SameLine();
     ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(sceneName_.c_str());
@@ -196,7 +196,7 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
     ImGui::PopID();
 }
 
-Panel::Action Panel::drawGroups(const Simulation&) {
+Panel::Action Panel::drawGroups() {
     if (!section("Molecules", true)) return Action::none;
     bool changed = false;
     Listed& group = groups_[size_t(group_)];

@@ -1,5 +1,4 @@
-// The panel: Decker's interface (forces, number and kind of molecules), the clock, how it is solved, and what
-// a frame costs.
+// The two panels of the viewer: how the scene runs, and what it says of its groups.
 #pragma once
 
 #include <optional>
@@ -9,9 +8,12 @@
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
+#include "window/key_rows.h"
 #include "window/running_scene.h"
 
 namespace shoal::window {
+
+// ---- How the scene runs
 
 // The values of the sliders. The simulation's parameters follow them over a fifth of a second, so that a
 // sudden move does not kick the springs.
@@ -29,6 +31,8 @@ struct Controls {
     void lead(Parameters& parameters, const Plan& plan, double seconds) const;
 };
 
+// Decker's interface (forces, number and kind of molecules), the clock, how it is solved, and what a frame
+// costs.
 class Panel {
   public:
     enum class Action { none, step, restart, rebuild, switchPath, resetCamera, scenes, measure };
@@ -48,7 +52,7 @@ class Panel {
   private:
     Action drawClock(Controls& controls, const Simulation& simulation);
     void drawForces(Controls& controls, const Simulation& simulation);
-    Action drawGroups(const Simulation& simulation);
+    Action drawGroups();
     Action drawMethod(Controls& controls, const Simulation& simulation);
     void drawView(Explanations& explanations, const Simulation& simulation);
     void drawCost(Simulation& simulation, Renderer& renderer, double frameSeconds,
@@ -68,6 +72,85 @@ class Panel {
     std::optional<int> solver_;           // chosen: of solverWords()
     std::vector<std::string> forceNames_, fieldNames_;
     std::string sceneName_;
+};
+
+// Draws the time of each pass in the last frames: stacked over time, and as a table in the same colours.
+void drawTimes(const gpu::PassTimers& simulation, const gpu::PassTimers& drawing);
+
+// Measures the error of a few molecules of each group of `scene`, from its start over half a second, by the
+// solver and substeps of the simulation against the double-precision reference: "error 1.2e-4 of its size
+// (RMS of 4 after 0.5 s)", or why there is none. Takes seconds.
+std::string methodError(const Scene& scene, const Simulation& simulation, gpu::ProgramCache& cache);
+
+// ---- What the scene says of its groups
+
+// Sliders for birth and death of one group.
+class LifeEditor {
+  public:
+    explicit LifeEditor(size_t group) : group_(group) {}
+
+    // Whether the user changed `scene`'s group in this frame.
+    bool drawEmitters(Scene& scene);
+    bool drawLife(Scene& scene);
+
+  private:
+    bool drawEmitter(Scene& scene, size_t index);
+    bool drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life) const;
+    bool drawModel(const Scene& scene, Emitter& emitter) const;
+    bool drawCapacity(const Group& group, Lifecycle& life) const;
+
+    size_t group_;
+    KeyRows life_;
+    std::vector<KeyRows> emitters_;
+};
+
+// Sliders for the looks of one group of point particles.
+class ParticleEditor {
+  public:
+    // Whether the user changed the type in this frame. `ages`: the group has a life cycle.
+    bool draw(ParticleType& type, bool ages);
+
+  private:
+    KeyRows rows_, image_;
+    std::vector<KeyRows> colors_;
+};
+
+// Each group's looks, birth and death, edited while it runs, and saved into the scene file.
+//
+// Edits take effect at once where they can; for those that need another plan the panel asks for a rebuild
+// when the user releases the widget.
+class ScenePanel {
+  public:
+    enum class Action { none, save, revert, rebuild };
+
+    explicit ScenePanel(const Scene& scene);
+
+    bool changed() const { return changed_; }  // in the last draw
+    bool pending() const { return pending_; }  // something was edited that does not run yet
+    // Edits running.scene and its choices. `unsaved`: it is not as its file.
+    Action draw(RunningScene& running, bool unsaved);
+    // The scene's groups are others than those that were edited: after a rebuild or one that failed.
+    void follow(const Scene& scene);
+    void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
+
+  private:
+    struct Edited {
+        size_t group = 0;  // of the scene
+        std::optional<LifeEditor> life;
+        std::optional<ParticleEditor> looks;
+        std::optional<KeyRows> school;
+        LifeCounts counts = {};
+        double countedAt = -1;  // s, of the wall clock
+    };
+    Action drawHead(const Scene& scene, bool unsaved);
+    void drawGroup(Edited& edited, RunningScene& running);
+    void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
+
+    std::vector<Edited> groups_;
+    std::string said_;
+    bool changed_ = false;
+    bool lives_ = false;    // some group has particles, a life cycle or a school
+    bool pending_ = false;  // a rebuild, when the user releases the widget
 };
 
 }  // namespace shoal::window

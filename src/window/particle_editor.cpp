@@ -1,5 +1,3 @@
-#include "window/group_editors.h"
-
 #include <imgui.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 
 #include "window/edit_widgets.h"
 #include "window/interface.h"
+#include "window/panel.h"
 
 namespace shoal::window {
 
@@ -55,13 +54,12 @@ void drawBar(const std::vector<ColorKey>& keys) {
                                ImVec2(x + mark, y + 1.5f * mark), ImGui::GetColorU32(ImGuiCol_Text));
     }
     ImGui::InvisibleButton("bar", ImVec2(width, height + 1.5f * mark));
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("Colour and opacity from birth to death, over black and over grey.");
+    tip("Colour and opacity from birth to death, over black and over grey.");
 }
 
 bool drawImage(ParticleImage& image, KeyRows& rows) {
     const std::string file = std::filesystem::path(image.file).filename().string();
-    beginRow({"image", "What each particle shows."});
+    beginRow(rowOf(*describe(static_cast<const ParticleType*>(nullptr)).find("image")));
     ImGui::TextUnformatted(concat(file, ", tiles ", image.firstTile, " to ", image.lastTile).c_str());
     // with other tiles the pixels would be read anew
     return rows.draw(image, {{"columns", {}}, {"rows", {}}});
@@ -76,8 +74,9 @@ bool drawColors(std::vector<ColorKey>& keys, std::vector<KeyRows>& rows) {
         ImGui::PushID(int(k));
         const auto age = [&] {
             double share = keys[k].age;
-            const Row row{"age", "The share of the life at which it looks so.", "%.0f %%", false, 100};
-            if (keys.size() == 1 || !slide(row, {0, 1}, share)) return false;
+            const Key& key = *describe(&keys[k]).find("age");
+            const Row row{key.name.c_str(), key.says.sentence.c_str(), "%.0f %%", false, 100};
+            if (keys.size() == 1 || !slide(row, limitOf(key), share)) return false;
             keys[k].age = ageBetween(keys, k, share);
             return true;
         };

@@ -1,12 +1,12 @@
-#include "window/scene_chooser.h"
-
 #include <imgui.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "scene/json/scene_files.h"
+#include "window/edit_widgets.h"
 #include "window/interface.h"
+#include "window/notices.h"
 
 namespace shoal::window {
 
@@ -51,7 +51,7 @@ std::string SceneChooser::draw(bool mustChoose, const std::string& message) {
     for (const ListedScene& scene : scenes_) {
         ImGui::PushID(scene.file.c_str());
         if (ImGui::Button(scene.name.c_str(), ImVec2(points(190), 0))) chosen = scene.file;
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", scene.file.c_str());
+        tip(scene.file.c_str());
         ImGui::SameLine();
         ImGui::AlignTextToFramePadding();
         const std::string shown =

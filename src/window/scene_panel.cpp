@@ -1,10 +1,8 @@
-#include "window/scene_panel.h"
+#include "window/panel.h"
 
 #include <imgui.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
 
 #include "window/edit_widgets.h"
@@ -32,19 +30,6 @@ std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
     return {};
 }
 
-bool pickColor(const char* label, const char* tip, const glm::dvec3& shown,
-               std::optional<glm::dvec3>& color) {
-    std::array<float, 3> value{float(shown.x), float(shown.y), float(shown.z)};
-    beginRow({label, tip});
-    if (!ImGui::ColorEdit3(concat("##", label).c_str(), value.data(), ImGuiColorEditFlags_Float))
-        return false;
-    glm::dvec3 out(0);
-    for (int i = 0; i < 3; ++i)
-        out[i] = std::clamp(std::round(double(value[size_t(i)]) * 1000) / 1000, 0.0, 1.0);
-    color = out;
-    return true;
-}
-
 // Sliders for the looks of a group of molecules; whether the user changed them in this frame. Colours are the
 // scene's and are saved; what the molecule's file says is changed for this run only, in `choice`.
 bool drawMaterial(Group& group, GroupChoice& choice) {
@@ -53,37 +38,31 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
     const glm::dvec3 second =
         group.secondColor.value_or(group.color.value_or(material.secondColor.value_or(material.color)));
     bool changed = false;
-    if (!group.colorBy) {
-        changed |=
-            pickColor("color", "Linear light; instances lie between this and the next.", first, group.color);
-        changed |= pickColor("second color", "Linear light.", second, group.secondColor);
-    }
-    const auto share = [&](const Row& row, double& value, std::optional<double>& chosen) {
-        if (!slide(row, {0, 1}, value)) return;
+    const auto color = [&](const char* name, glm::dvec3 shown, std::optional<glm::dvec3>& chosen) {
+        const Key& key = *describe(&group).find(name);
+        if (!pickColor({inWords(name).c_str(), key.says.sentence.c_str()}, {0, 1}, shown)) return;
+        chosen = shown;
+        changed = true;
+    };
+    const auto share = [&](const char* name, double& value, std::optional<double>& chosen) {
+        const Key& key = *describe(&material).find(name);
+        const std::string says =
+            key.says.sentence + " It is not saved here: the molecule's file has its own.";
+        if (!slide({name, says.c_str()}, limitOf(key), value)) return;
         chosen = value;
         changed = true;
     };
-    share({"roughness", "Not saved here: the molecule's file has its own."}, material.roughness,
-          choice.roughness);
-    if (!group.molecule.triangles.empty())
-        share({"translucency", "Light from behind. Not saved here: the molecule's file has its own."},
-              material.translucency, choice.translucency);
-    if (material.blend != Blend::none)
-        share({"opacity", "Not saved here: the molecule's file has its own."}, material.opacity,
-              choice.opacity);
+    if (!group.colorBy) {
+        color("color", first, group.color);
+        color("secondColor", second, group.secondColor);
+    }
+    share("roughness", material.roughness, choice.roughness);
+    if (!group.molecule.triangles.empty()) share("translucency", material.translucency, choice.translucency);
+    if (material.blend != Blend::none) share("opacity", material.opacity, choice.opacity);
     return changed;
 }
 
 }  // namespace
-
-std::optional<ScenePanel::Edited> ScenePanel::edited(const Scene& scene, size_t group) {
-    const Group& source = scene.groups[group];
-    Edited out{group, {}, {}, {}};
-    if (source.life) out.life.emplace(group);
-    if (source.particle) out.looks.emplace();
-    if (source.school) out.school.emplace();
-    return out;
-}
 
 ScenePanel::ScenePanel(const Scene& scene) {
     follow(scene);
@@ -92,10 +71,15 @@ ScenePanel::ScenePanel(const Scene& scene) {
 void ScenePanel::follow(const Scene& scene) {
     pending_ = lives_ = false;
     groups_.clear();
-    for (const Group& group : scene.groups)
+    for (size_t g = 0; g < scene.groups.size(); ++g) {
+        const Group& group = scene.groups[g];
         lives_ |= group.life || group.particle || group.school;
-    for (size_t g = 0; g < scene.groups.size(); ++g)
-        if (auto group = edited(scene, g)) groups_.push_back(std::move(*group));
+        Edited& edited = groups_.emplace_back();
+        edited.group = g;
+        if (group.life) edited.life.emplace(g);
+        if (group.particle) edited.looks.emplace();
+        if (group.school) edited.school.emplace();
+    }
 }
 
 ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved) {
@@ -121,12 +105,12 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved) {
 ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     Action action = Action::none;
     if (ImGui::Button("Save")) action = Action::save;
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Into the scene's file (Ctrl+S).");
+    tip("Into the scene's file (Ctrl+S).");
     ImGui::SameLine();
     if (!unsaved) ImGui::BeginDisabled();
     if (ImGui::Button("Revert")) action = Action::revert;
     if (!unsaved) ImGui::EndDisabled();
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Back to what was saved last.");
+    tip("Back to what was saved last.");
     ImGui::SameLine();
     const std::string file = std::filesystem::path(scene.file).filename().string();
     if (unsaved)
@@ -192,14 +176,13 @@ void ScenePanel::drawCounts(Edited& edited, Simulation& simulation, size_t planG
     const std::string live =
         concat(grouped(uint64_t(counts.live)), " of ", grouped(uint64_t(counts.capacity)), " alive");
     ImGui::ProgressBar(float(counts.live) / float(std::max(1, counts.capacity)), ImVec2(-1, 0), live.c_str());
-    if (ImGui::IsItemHovered()) ImGui::SetTooltip("Those that live now, and the capacity.");
+    tip("Those that live now, and the capacity.");
     if (counts.lost == 0)
         ImGui::TextDisabled("born %s", grouped(counts.born).c_str());
     else
         ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "born %s, lost %s", grouped(counts.born).c_str(),
                            grouped(counts.lost).c_str());
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip("So far; lost are those that found no place, or whose place was taken.");
+    tip("So far; lost are those that found no place, or whose place was taken.");
 }
 
 }  // namespace shoal::window

@@ -1,5 +1,3 @@
-#include "window/scene_pointer.h"
-
 #include <algorithm>
 #include <cmath>
 #include <iostream>
@@ -7,13 +5,13 @@
 
 #include "core/printable.h"
 #include "window/interface.h"
+#include "window/open_scene.h"
 
 namespace shoal::window {
 
-// In [0, 1] from the upper left corner.
-static glm::dvec2 placeOfPointer() {
+glm::dvec3 underPointer(const View& view) {
     const ImGuiIO& io = ImGui::GetIO();
-    return {io.MousePos.x / io.DisplaySize.x, io.MousePos.y / io.DisplaySize.y};
+    return Projector(view, io.DisplaySize).onPlane(io.MousePos, view.target);
 }
 
 static bool holdsForces(OpenScene& open) {
@@ -23,18 +21,18 @@ static bool holdsForces(OpenScene& open) {
            std::any_of(forces.begin(), forces.end(), [](const Force& force) { return force.mouse; });
 }
 
-void ScenePointer::holdForces(OpenScene& open, double aspect) {
+void ScenePointer::holdForces(OpenScene& open) {
     const std::vector<Force>& forces = open.simulation().plan().forces;
     const bool held = ImGui::GetFrameCount() > 0 && holdsForces(open);
     for (size_t i = 0; i < forces.size(); ++i) {
         if (!forces[i].mouse) continue;
         ForceControl& control = open.simulation().parameters.forces[i];
         control.on = held;
-        if (held) control.position = onTargetPlane(open.camera.view(), placeOfPointer(), aspect);
+        if (held) control.position = underPointer(open.camera.view());
     }
 }
 
-void ScenePointer::move(OpenScene& open, double aspect, int height) {
+void ScenePointer::move(OpenScene& open, int height) {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.WantCaptureMouse || holdsForces(open)) return;
     const double dx = double(io.MouseDelta.x / io.DisplaySize.y),
@@ -43,18 +41,18 @@ void ScenePointer::move(OpenScene& open, double aspect, int height) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
         open.camera.pan(dx, dy);
     if (io.MouseWheel != 0) open.camera.zoom(double(io.MouseWheel));
-    pickOnClick(open, aspect, height);
+    pickOnClick(open, height);
 }
 
 // A click, and not a drag that turns the camera.
-void ScenePointer::pickOnClick(OpenScene& open, double aspect, int height) {
+void ScenePointer::pickOnClick(OpenScene& open, int height) {
     const ImGuiIO& io = ImGui::GetIO();
     constexpr float still = 3;  // points
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) pressedAt_ = io.MousePos;
     if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || io.KeyShift || !pressedAt_) return;
     const ImVec2 from = *std::exchange(pressedAt_, {});
     if (std::hypot(io.MousePos.x - from.x, io.MousePos.y - from.y) > points(still)) return;
-    open.pick(placeOfPointer(), aspect, height);
+    open.pick(height);
     if (const auto& picked = open.explanations->picked)
         std::cout << "picked: " << printable(open.simulation().plan().groups[picked->group].name) << " "
                   << picked->molecule << std::endl;

@@ -1,5 +1,3 @@
-#include "window/time_plot.h"
-
 #include <imgui.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 
 #include "core/error.h"
 #include "window/interface.h"
+#include "window/panel.h"
 
 namespace shoal::window {
 

@@ -5,21 +5,16 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
-#include <thread>
 #include <utility>
 
+#include "core/error.h"
 #include "core/image.h"
-#include "core/many.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
+#include "render/picture.h"
 #include "run/checkpoints.h"
-#include "run/data_paths.h"
 #include "run/signals.h"
-#include "window/method_error.h"
 #include "window/open_scene.h"
-#include "window/recorder.h"
-#include "window/scene_chooser.h"
-#include "window/scene_pointer.h"
 #include "window/window_loop.h"
 
 namespace shoal::window {
@@ -123,7 +118,7 @@ class Viewer : public WindowLoop {
     void drawScene() {
         OpenScene& open = *open_;
         const gpu::Traffic before = context().traffic();
-        ScenePointer::holdForces(open, aspect());
+        ScenePointer::holdForces(open);
         const bool steps = !open.controls.paused || steps_;
         if (steps) {
             Simulation& simulation = open.simulation();
@@ -154,10 +149,10 @@ class Viewer : public WindowLoop {
         if (!hidden_) {
             wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
                                           *open.explanations, frameSeconds(), lastFrame_);
-            open.drawPicked(aspect(), points(328));
+            open.drawPicked(points(328));
         }
         drawScenePanel();
-        pointer_.move(open, aspect(), height());
+        pointer_.move(open, height());
         drawNotices();
     }
 
@@ -235,13 +230,7 @@ class Viewer : public WindowLoop {
     }
 
     void measureMethod() {
-        measure::AccuracyDevice device;
-        device.context = &context();
-        device.shaderRoot = shaderRoot();
-        device.cache = &cache();
-        device.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-        device.path = open_->simulation().path().path;
-        open_->panel.error = methodError(open_->running.scene, open_->simulation(), device);
+        open_->panel.error = methodError(open_->running.scene, open_->simulation(), cache());
         std::cout << open_->panel.error << std::endl;
     }
 

@@ -40,9 +40,8 @@ class WindowLoop {
     gpu::ProgramCache& cache() { return cache_; }
     Input& keys() { return interface_.input(); }
     double pixelsPerPoint() const { return interface_.pixelsPerPoint(); }
-    int width() const { return width_; }    // pixels
-    int height() const { return height_; }  // pixels
-    double aspect() const { return double(width_) / height_; }
+    int width() const { return width_; }                   // pixels
+    int height() const { return height_; }                 // pixels
     int shown() const { return shown_; }                   // frames
     double frameSeconds() const { return frameSeconds_; }  // wall clock, smoothed; 0: not known yet
     static double now();                                   // s

@@ -25,10 +25,11 @@
 #include "compile/plan.h"
 #include "core/image.h"
 #include "fuzz/mutate.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "scene/field_files/field_file.h"
+#include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 #include "scene/placement.h"
 #include "simulate/checkpoint.h"
@@ -128,12 +129,10 @@ std::string floats(const std::vector<float>& values) {
 
 Kind fields(const Scratch& scratch) {
     scratch.write("wind.raw.json", R"({"format": "shoal-field-1", "resolution": [2, 1, 1]})");
-    const FieldOptions options{.bounds = Box{{0, 0, 0}, {1, 1, 1}}};
-    Kind kind{"fields",
-              {{"wind.fga", smallField}},
-              [options, &scratch](const std::string& file, const std::string&) {
+    Kind kind{"fields", {{"wind.fga", smallField}}, [&scratch](const std::string& file, const std::string&) {
                   GridField field;
-                  addFrame(field, readFieldFile(file, options, scratch.path("wind.raw.json")), options, file);
+                  field.source.bounds = Box{{0, 0, 0}, {1, 1, 1}};
+                  addFrame(field, readFieldFile(file, field.source, scratch.path("wind.raw.json")), file);
               }};
     const std::vector<glm::dvec3> values(24, {1, -2, 0.5});
     using Format = VtiText::Format;

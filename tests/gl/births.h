@@ -8,12 +8,13 @@
 namespace shoal::test {
 
 // Birth and death need the fused path.
-inline bool canBear() {
+inline bool canSpawn() {
     return testContext().info().computeShaders && testPath() != Path::pingPong;
 }
 
 // One group of points without anything else, none of them at the start.
-inline Scene bearing(const Emitter& emitter, int capacity, const glm::dvec2& life = glm::dvec2(longestLife)) {
+inline Scene emitting(const Emitter& emitter, int capacity,
+                      const glm::dvec2& life = glm::dvec2(longestLife)) {
     Scene scene = sceneOf(point(1), SolverKind::leapfrog, {});
     Group& group = scene.groups[0];
     group.count = 0;

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "molecule/molecule_file.h"
+#include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::test {
@@ -165,7 +166,7 @@ void addShapes(std::vector<FeatureScene>& out) {
         Scene far = swarm(leaf(150, 1), 65, solver, {1e5, 2, -1e5});
         far.gravity = down;
         far.fields = {field(UniformField{{2, 0.5, 1}}), field(shear())};
-        std::get<ShearField>(far.fields[1].shape).origin = {1e5, 0, -1e5};
+        std::get<ShearField>(*far.fields[1].shape).origin = {1e5, 0, -1e5};
         far.colliders = {everyCollider()[0]};
         groupOf(far).drag = {3, 0.8};
         groupOf(far).velocity = {20, 0, 5};
@@ -243,59 +244,6 @@ Scene swarm(const Molecule& molecule, int count, SolverKind solver, const glm::d
 void setStableSubsteps(Scene& scene) {
     scene.solver.substeps = maxSubsteps;
     scene.solver.substeps = 1 + substepsNeeded(compile(scene), 1 / scene.frameRate, 1, 1, 1, 3);
-}
-
-std::vector<Field> everyField() {
-    GustField gust;
-    gust.direction = {2, 0.2, -1};
-    gust.speed = 3;
-    VortexField vortex;
-    vortex.origin = {1, 0, 0.5};
-    vortex.lift = 1;
-    AbcField abc;
-    abc.origin = {0.3, 0.1, 0};
-    TaylorGreenField cells;
-    cells.wavelength = 3;
-    CurlNoiseField eddies;
-    eddies.octaves = 2;
-    eddies.seed = 8;
-    GridField grid;
-    grid.resolution = {3, 4, 5};
-    grid.low = {-2, -1, -2};
-    grid.high = {2, 4, 2};
-    for (int i = 0; i < 60; ++i)
-        grid.values.emplace_back(0.3f * float(i % 5) - 0.5f, 0.1f * float(i % 11),
-                                 0.2f * float(i % 7) - 0.6f);
-    GridField film = grid;  // evenly in time, and not
-    film.times = {0.004, 0.02, 0.05};
-    film.values.resize(180);
-    for (size_t i = 60; i < 180; ++i)
-        film.values[i] = film.values[i - 60] * 1.5f - glm::vec3(0.1f, 0, 0.2f);
-    GridField loop = film;
-    loop.times = {0, 0.01, 0.02};
-    loop.repeats = true;
-    WavesField waves;
-    waves.depth = 3;
-    waves.trains = {{{1, 0, 0.5}, 0.3, 4, 0.2}, {{-1, 0, 1}, 0.1, 2, 1}};
-    const HurricaneField storm{{0.5, -1, 0.2}, 4, 0.7, 1.4, 0.3, 6, 0.1};
-    std::vector<Field> out{field(UniformField{{1, 0.2, -0.5}}),
-                           field(gust),
-                           field(shear()),
-                           field(vortex),
-                           field(abc),
-                           field(cells),
-                           field(eddies),
-                           field(grid),
-                           field(OscillatingField{{1, -0.4, 2}, 3, 0.6}),
-                           field(film),
-                           field(loop),
-                           field(waves),
-                           field(storm)};
-    out[9].weight = 0.2, out[10].weight = 0.2;
-    out[0].weight = 0.8;
-    out[2].weight = 0.5;
-    out[3].box = Box{{-1.5, -5, -1.5}, {1.5, 6, 1.5}};
-    return out;
 }
 
 HeightFieldCollider rolling(bool sampledNormals) {

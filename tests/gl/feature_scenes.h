@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "gl/numerics.h"
+#include "support/every_kind.h"
 
 namespace shoal::test {
 
@@ -26,8 +27,6 @@ Scene swarm(const Molecule& molecule, int count, SolverKind solver, const glm::d
 // So that the solver is stable with some room.
 void setStableSubsteps(Scene& scene);
 
-// Every kind, in the order of FieldShape.
-std::vector<Field> everyField();
 // Rolling heights of 4 m x 4 m about the origin.
 HeightFieldCollider rolling(bool sampledNormals);
 // A plane at y = 0 and a sphere and a height field that stand out of it.

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "gl/births.h"
+#include "scene/field_kinds.h"
+#include "simulate/fused.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 
@@ -19,7 +21,7 @@ Scene flowing(Allocator allocator, double rate, const glm::dvec2& life, int capa
     Emitter emitter = steady(rate);
     emitter.speed = {1, 2};
     emitter.spread = 0.5;
-    Scene scene = bearing(emitter, capacity, life);
+    Scene scene = emitting(emitter, capacity, life);
     scene.groups[0].life->allocator = allocator;
     return scene;
 }
@@ -34,14 +36,14 @@ glm::dvec3 closedForm(const glm::dvec3& v0, const glm::dvec3& g, const glm::dvec
 }  // namespace
 
 TEST_CASE("a path from a birth within the frame matches the closed form", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     const glm::dvec3 g(0, -9.81, 0), u(2, 0.5, -1);
     for (const double gamma : {1e-4, 1.5, 40.0}) {
         Emitter emitter = steady(777);
         emitter.position = {3.3, 2.2, 1.1};
         emitter.direction = {0.6, 0.8, 0};
         emitter.speed = {5, 5};
-        Scene scene = bearing(emitter, 2000);
+        Scene scene = emitting(emitter, 2000);
         scene.gravity = g;
         scene.groups[0].drag = {gamma, gamma};
         scene.fields.push_back({.name = "wind", .shape = UniformField{u}, .box = {}});
@@ -68,12 +70,12 @@ TEST_CASE("a path from a birth within the frame matches the closed form", "[birt
 }
 
 TEST_CASE("within the frame of its birth a point flies exactly", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const double gamma : {0.0, 1e-5, 0.3, 5.0, 600.0}) {
         Emitter emitter = steady(40000);
         emitter.direction = {0, 1, 0};
         emitter.speed = {7, 7};
-        Scene scene = bearing(emitter, 1000);
+        Scene scene = emitting(emitter, 1000);
         scene.gravity = {0, -9.81, 0};
         scene.groups[0].drag = {gamma, gamma};
         setSteps(scene, 1.0 / 60, 1);
@@ -92,12 +94,12 @@ TEST_CASE("within the frame of its birth a point flies exactly", "[births]") {
 }
 
 TEST_CASE("a moving emitter leaves no clumps", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter = steady(1000);
     ColliderPath path;
     path.keyframes = {{0, {{0, 0, 0}, {1, 0, 0, 0}}}, {1, {{30, 0, 0}, {1, 0, 0, 0}}}};
     emitter.path = path;
-    Simulation simulation = simulationOf(bearing(emitter, 1200));
+    Simulation simulation = simulationOf(emitting(emitter, 1200));
     run(simulation, 30);
     std::vector<double> places;
     for (const Living& one : livingOf(simulation))
@@ -109,13 +111,13 @@ TEST_CASE("a moving emitter leaves no clumps", "[births]") {
 }
 
 TEST_CASE("what an emitter on the way inherits is the velocity of its path", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter = burst(10, 0.1);
     ColliderPath path;
     path.keyframes = {{0, {{0, 0, 0}, {1, 0, 0, 0}}}, {1, {{6, 0, 3}, {1, 0, 0, 0}}}};
     emitter.path = path;
     emitter.inherit = 0.5;
-    Simulation simulation = simulationOf(bearing(emitter, 16));
+    Simulation simulation = simulationOf(emitting(emitter, 16));
     run(simulation, 12);
     const std::vector<Living> living = livingOf(simulation);
     REQUIRE(living.size() == 10);
@@ -126,7 +128,7 @@ TEST_CASE("what an emitter on the way inherits is the velocity of its path", "[b
 }
 
 TEST_CASE("lives end when they should, and their places come back", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const Allocator allocator : allocators) {
         INFO(name(allocator));
         Simulation simulation = simulationOf(flowing(allocator, 6000, {0.4, 0.6}, 4000));
@@ -148,7 +150,7 @@ TEST_CASE("lives end when they should, and their places come back", "[births]") 
 }
 
 TEST_CASE("the heap and the GPU keep what lives together", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const Allocator allocator : {Allocator::gpu, Allocator::heap}) {
         INFO(name(allocator));
         Simulation simulation = simulationOf(flowing(allocator, 60000, {0.2, 0.4}, 40000));
@@ -163,7 +165,7 @@ TEST_CASE("the heap and the GPU keep what lives together", "[births]") {
 }
 
 TEST_CASE("allocation on the GPU moves nothing, on the CPU four bytes a birth", "[births][traffic]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const Allocator allocator : allocators) {
         INFO(name(allocator));
         Simulation simulation = simulationOf(flowing(allocator, 6000, {0.4, 0.6}, 4000));
@@ -180,10 +182,10 @@ TEST_CASE("allocation on the GPU moves nothing, on the CPU four bytes a birth", 
 }
 
 TEST_CASE("births beyond the capacity are not born, and counted; the ring cuts lives short", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const Allocator allocator : allocators) {
         INFO(name(allocator));
-        Scene scene = bearing(burst(1000), 700);
+        Scene scene = emitting(burst(1000), 700);
         scene.groups[0].life->emitters.push_back(burst(100, 0.05));
         scene.groups[0].life->allocator = allocator;
         Simulation simulation = simulationOf(scene);
@@ -202,7 +204,7 @@ TEST_CASE("births beyond the capacity are not born, and counted; the ring cuts l
 }
 
 TEST_CASE("a saved run goes on to the same bits, whatever the allocator", "[births][checkpoint]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const Allocator allocator : allocators) {
         INFO(name(allocator));
         Scene scene = flowing(allocator, 3000, {0.1, 0.7}, 1500);
@@ -224,7 +226,7 @@ TEST_CASE("a saved run goes on to the same bits, whatever the allocator", "[birt
 }
 
 TEST_CASE("one side of the state, contact steps or two sides: births are the same", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Scene scene = flowing(Allocator::gpu, 3000, {0.1, 0.7}, 1500);
     scene.gravity = {0, -9.81, 0};
     Simulation two = simulationOf(scene);
@@ -251,7 +253,7 @@ TEST_CASE("one side of the state, contact steps or two sides: births are the sam
 }
 
 TEST_CASE("those at the start die of age, and their places are used", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Scene scene = sceneOf(point(1), SolverKind::leapfrog, std::vector<Item>(50));
     Lifecycle& life = scene.groups[0].life.emplace();
     life.capacity = 60;
@@ -273,10 +275,10 @@ TEST_CASE("those at the start die of age, and their places are used", "[births]"
 }
 
 TEST_CASE("what leaves its box dies, and what touches lives only so long", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter = burst(100);
     emitter.position = {0, 1, 0};
-    Scene scene = bearing(emitter, 100);
+    Scene scene = emitting(emitter, 100);
     scene.gravity = {0, -10, 0};
     SECTION("box") {
         scene.groups[0].life->within = Box{{-1, 0, -1}, {1, 2, 1}};
@@ -301,11 +303,11 @@ TEST_CASE("what leaves its box dies, and what touches lives only so long", "[bir
 }
 
 TEST_CASE("from a death others are born, where and as fast as it was", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter rocket = burst(20);
     rocket.speed = {10, 10};
     rocket.spread = 1;
-    Scene scene = bearing(rocket, 20, {0.31, 0.45});
+    Scene scene = emitting(rocket, 20, {0.31, 0.45});
     scene.gravity = {0, -9.81, 0};
     scene.groups[0].name = "rockets";
     Group sparks = scene.groups[0];
@@ -347,7 +349,7 @@ TEST_CASE("from a death others are born, where and as fast as it was", "[births]
 }
 
 TEST_CASE("molecules are born in their shape, and go on as molecules", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::bdf2Xpbd, SolverKind::bdf2Corotated}) {
         for (const bool apart : {true, false}) {
             INFO(shoal::name(solver) << ", life apart " << apart);
@@ -361,7 +363,7 @@ TEST_CASE("molecules are born in their shape, and go on as molecules", "[births]
             Emitter emitter = burst(40, 0.01);
             emitter.position = {100, 5, -3};
             emitter.speed = {2, 3};
-            Scene scene = bearing(emitter, 50, {0.5, 0.5});
+            Scene scene = emitting(emitter, 50, {0.5, 0.5});
             scene.solver.kind = solver;
             scene.groups[0].molecule = molecule;
             scene.groups[0].life->scale = {0.5, 1.5};
@@ -397,10 +399,10 @@ TEST_CASE("molecules are born in their shape, and go on as molecules", "[births]
 }
 
 TEST_CASE("a free place pushes nobody", "[births][contact]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     // half of a pile dies; the dead lie where the living are
     Emitter emitter = burst(1, 10);
-    Scene scene = bearing(emitter, 64, {0.05, 3});
+    Scene scene = emitting(emitter, 64, {0.05, 3});
     scene.groups[0].count = 40;
     for (int i = 0; i < 40; ++i)
         scene.groups[0].place.items.push_back(at({0.001 * i, 0, 0}));
@@ -430,7 +432,7 @@ TEST_CASE("a free place pushes nobody", "[births][contact]") {
 }
 
 TEST_CASE("numbers of an emitter change while it runs; another kind asks for another plan", "[births]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Simulation simulation = simulationOf(flowing(Allocator::gpu, 600, {5, 5}, 4000));
     run(simulation, 60);
     Lifecycle life = simulation.plan().groups[0].life->cycle;
@@ -450,14 +452,14 @@ TEST_CASE("numbers of an emitter change while it runs; another kind asks for ano
 }
 
 TEST_CASE("a capacity that the context cannot hold is refused", "[births]") {
-    if (!canBear()) return;
-    Scene scene = bearing(steady(1), 1 << 24);
+    if (!canSpawn()) return;
+    Scene scene = emitting(steady(1), 1 << 24);
     const std::string message = messageOf([&] { simulationOf(scene); });
     CHECK(message.find("at most") != std::string::npos);
 }
 
 TEST_CASE("the ping-pong path refuses births in one line", "[births]") {
-    Scene scene = bearing(steady(1), 10);
+    Scene scene = emitting(steady(1), 10);
     const Plan plan = compile(scene);
     CHECK(messageOf([&] {
               choosePath(plan, Path::pingPong, limitsOf(testContext().info()));

@@ -7,6 +7,7 @@
 
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
+#include "scene/field_kinds.h"
 #include "simulate/checkpoint.h"
 #include "support/catch.h"
 #include "support/scratch.h"

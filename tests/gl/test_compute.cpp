@@ -4,8 +4,7 @@
 
 #include "core/error.h"
 #include "gl/gl_test.h"
-#include "gpu/barrier.h"
-#include "gpu/buffer_texture.h"
+#include "gpu/buffer.h"
 #include "gpu/framebuffer.h"
 #include "gpu/program.h"
 #include "support/catch.h"

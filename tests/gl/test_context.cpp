@@ -6,8 +6,8 @@
 
 #include "core/error.h"
 #include "gl/gl_test.h"
+#include "gpu/context.h"
 #include "gpu/gl.h"
-#include "gpu/probe.h"
 #include "gpu/texture.h"
 #include "support/catch.h"
 

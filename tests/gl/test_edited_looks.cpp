@@ -34,7 +34,7 @@ Scene cloud(const ParticleType& type) {
     group.particle = type;
     group.molecule = moleculeOf(type);
     group.velocity = {0.5, 0.2, 0};
-    if (!canBear()) return scene;
+    if (!canSpawn()) return scene;
     group.life.emplace();
     group.life->capacity = group.count;
     group.life->life = {0.5, 1};

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "compile/birth_schedule.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "gl/births.h"
 #include "support/catch.h"
 #include "support/meshes.h"
@@ -17,19 +17,19 @@ using namespace shoal::test;
 
 namespace {
 
-constexpr int many = 20000;
+constexpr int number = 20000;
 constexpr double pi = std::numbers::pi;
 
-// Emits `many` newborns in one burst, and returns them at the end of their frame of birth.
+// Emits `number` newborns in one burst, and returns them at the end of their frame of birth.
 std::vector<Living> newborns(Emitter emitter, const Scene* with = nullptr, glm::dvec2 life = {1, 1}) {
-    emitter.bursts = {{0, many, 0}};
-    Scene scene = bearing(emitter, many, life);
+    emitter.bursts = {{0, number, 0}};
+    Scene scene = emitting(emitter, number, life);
     scene.seed = 20261;
     if (with) scene.models = with->models;
     Simulation simulation = simulationOf(scene);
     simulation.frame();
     std::vector<Living> out = livingOf(simulation);
-    REQUIRE(out.size() == many);
+    REQUIRE(out.size() == number);
     return out;
 }
 
@@ -60,7 +60,7 @@ double turnOf(double x, double y) {
 }  // namespace
 
 TEST_CASE("places of emitters are uniform in their shapes", "[emission]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter;
     SECTION("line") {
         emitter.from = Emitter::From::line;
@@ -129,7 +129,7 @@ TEST_CASE("places of emitters are uniform in their shapes", "[emission]") {
             (one.position.y < 0.5 ? below : above).push_back(one);
         }
         // 3 to 1, within 5 standard deviations: wrong once in 1.7e6
-        CHECK(std::abs(double(below.size()) - 0.75 * many) < 5 * std::sqrt(many * 0.75 * 0.25));
+        CHECK(std::abs(double(below.size()) - 0.75 * number) < 5 * std::sqrt(number * 0.75 * 0.25));
         checkUniform(below, "x", [](const Living& one) { return one.position.x; });
         checkUniform(below, "z", [](const Living& one) { return one.position.z; });
         // a triangle's share of its area below x
@@ -139,7 +139,7 @@ TEST_CASE("places of emitters are uniform in their shapes", "[emission]") {
 }
 
 TEST_CASE("directions, speeds and spans are as an emitter says", "[emission]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter;
     emitter.speed = {2, 5};
     emitter.direction = glm::normalize(glm::dvec3(1, 2, -2));
@@ -165,7 +165,7 @@ TEST_CASE("directions, speeds and spans are as an emitter says", "[emission]") {
 }
 
 TEST_CASE("outward of a point is any direction", "[emission]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter;
     emitter.along = Emitter::Along::outward;
     emitter.speed = {1, 1};
@@ -175,30 +175,30 @@ TEST_CASE("outward of a point is any direction", "[emission]") {
 }
 
 TEST_CASE("random births come at any moment of a frame, and evenly in the long run", "[emission]") {
-    if (!canBear()) return;
-    Emitter emitter = steady(60.0 * many);
+    if (!canSpawn()) return;
+    Emitter emitter = steady(60.0 * number);
     emitter.random = true;
-    Simulation simulation = simulationOf(bearing(emitter, 2 * many));
+    Simulation simulation = simulationOf(emitting(emitter, 2 * number));
     simulation.frame();
     checkUniform(livingOf(simulation), "moment", [](const Living& one) { return one.age * 60; });
 }
 
 TEST_CASE("two emitters, two groups and two seeds have nothing in common", "[emission]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Emitter emitter;
     emitter.from = Emitter::From::box;
     emitter.box = {{0, 0, 0}, {1, 1, 1}};
-    emitter.bursts = {{0, many / 2, 0}};
-    Scene scene = bearing(emitter, many);
+    emitter.bursts = {{0, number / 2, 0}};
+    Scene scene = emitting(emitter, number);
     scene.groups[0].life->emitters.push_back(emitter);
     Simulation simulation = simulationOf(scene);
     simulation.frame();
     const std::vector<Living> born = livingOf(simulation);
-    REQUIRE(born.size() == many);
+    REQUIRE(born.size() == number);
     // the difference of two independent uniforms, wrapped, is uniform
     std::vector<double> differences;
-    for (size_t i = 0; i < many / 2; ++i)
-        differences.push_back(std::fmod(born[i].position.x - born[i + many / 2].position.x + 1, 1.0));
+    for (size_t i = 0; i < number / 2; ++i)
+        differences.push_back(std::fmod(born[i].position.x - born[i + number / 2].position.x + 1, 1.0));
     checkUniform(differences, "of two emitters");
     scene.seed = 2;
     Simulation other = simulationOf(scene);

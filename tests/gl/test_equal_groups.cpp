@@ -3,7 +3,7 @@
 
 #include "compile/plan.h"
 #include "gl/gl_test.h"
-#include "gpu/debug_group.h"
+#include "gpu/gl.h"
 #include "gpu/program_cache.h"
 #include "gpu/texture.h"
 #include "render/renderer.h"

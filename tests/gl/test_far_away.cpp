@@ -4,6 +4,8 @@
 
 #include "gl/births.h"
 #include "gl/numerics.h"
+#include "scene/field_kinds.h"
+#include "scene/force_kinds.h"
 #include "support/catch.h"
 #include "support/colliders.h"
 
@@ -130,7 +132,7 @@ TEST_CASE("fields and forces 100 km out have their origins where they say", "[nu
 }
 
 TEST_CASE("the box that molecules live in is where it says 100 km out", "[births][far]") {
-    if (!test::canBear()) return;
+    if (!test::canSpawn()) return;
     std::vector<bool> alive[2];
     for (const int i : {0, 1}) {
         const dvec3 origin = i == 0 ? dvec3(0) : away;

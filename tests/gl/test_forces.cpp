@@ -5,7 +5,10 @@
 
 #include "gl/agreement.h"
 #include "reference/discrete.h"
+#include "scene/field_kinds.h"
+#include "scene/force_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 using namespace shoal;
 using test::at;
@@ -34,12 +37,7 @@ Scene storm(SolverKind kind, std::vector<test::Item> items) {
     scene.groups[0].velocity = {1, 0.5, 0};
     scene.groups[0].spin = {0.5, 2, -1};
     scene.fields.push_back(test::field(test::shear()));
-    scene.forces = {
-        forceOf(star({0, 1, 0}, 9)), forceOf(VortexLineForce{.position = {1, 0, 2}, .pull = 2, .turn = 3}),
-        forceOf(ThrustForce{0.8, 4}), forceOf(ThrustForce{-0.2, 1}), forceOf(WindForce{{0.5, 0, 1}})};
-    AttractForce even{.position = {0, 0, 5}, .strength = -2, .radius = 6};
-    even.falloff = AttractForce::Falloff::constant;
-    scene.forces.push_back(forceOf(even));
+    scene.forces = test::everyForce();
     setSteps(scene, 1 / 60.0, 4);
     return scene;
 }
@@ -85,7 +83,7 @@ TEST_CASE("a circular orbit comes back after its period, to the solver's order",
 TEST_CASE("leapfrog keeps an orbit's energy", "[forces]") {
     Scene scene = orbit(SolverKind::leapfrog, 4);
     scene.groups[0].velocity *= 0.8;  // an ellipse
-    const double strength = std::get<AttractForce>(scene.forces[0].shape).strength;
+    const double strength = std::get<AttractForce>(*scene.forces[0].shape).strength;
     Simulation simulation = test::simulationOf(scene);
     const auto energy = [&] {
         const reference::State now = test::stateOf(simulation.snapshot(0), 0);
@@ -342,7 +340,7 @@ TEST_CASE("sliders of forces moved at random lose nothing", "[forces][fuzz]") {
     for (int i = 0; i < 40; ++i)
         items.push_back(at({i % 7 - 3.5, i / 7 * 0.8, i % 3 - 1.2}, test::turned(), 0.75));
     Scene scene = storm(SolverKind::leapfrog, items);
-    std::get<AttractForce>(scene.forces[0].shape).most = 50;
+    std::get<AttractForce>(*scene.forces[0].shape).most = 50;
     Collider ground;
     ground.shape = PlaneCollider{{0, -5, 0}};
     scene.colliders.push_back(ground);

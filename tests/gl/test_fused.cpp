@@ -4,6 +4,7 @@
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
 #include "render/renderer.h"
+#include "simulate/fused.h"
 #include "support/catch.h"
 
 namespace shoal {

@@ -12,6 +12,7 @@
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
 #include "gpu/gl.h"
+#include "simulate/fused.h"
 #include "simulate/texture_state.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -24,7 +24,7 @@ int covered(const Scene& scene, int frames) {
 }  // namespace
 
 TEST_CASE("a molecule grows at birth, shrinks before its end, and is gone after it", "[births][picture]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Scene scene = sceneOfSquares({}, 1.2);
     Group& group = scene.groups[0];
     group.count = 0;
@@ -46,7 +46,7 @@ TEST_CASE("a molecule grows at birth, shrinks before its end, and is gone after 
 }
 
 TEST_CASE("those at the start are grown", "[births][picture]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Scene scene = sceneOfSquares({{0, 0, 0}}, 1.2);
     const int plain = covered(scene, 1);
     REQUIRE(plain > 1000);

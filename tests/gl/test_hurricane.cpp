@@ -46,7 +46,7 @@ std::vector<Seen> seenFromAbove(const Snapshot& state) {
 }  // namespace
 
 TEST_CASE("the hurricane's crosses lie along the wind, their inner ends ahead", "[hurricane][fused]") {
-    if (!canBear()) return;
+    if (!canSpawn()) return;
     Scene scene = readScene(std::string(SHOAL_SOURCE_DIR) + "/models/hurricane/hurricane.scene.json");
     scene.groups[0].count = 600;
     Simulation simulation = simulationOf(scene);

@@ -5,8 +5,10 @@
 #include "gl/agreement.h"
 #include "gl/numerics.h"
 #include "reference/discrete.h"
+#include "scene/force_kinds.h"
 #include "simulate/checkpoint.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/scratch.h"
 
 namespace shoal {

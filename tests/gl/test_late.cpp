@@ -8,6 +8,7 @@
 #include "gl/feature_scenes.h"
 #include "gl/numerics.h"
 #include "reference/discrete.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 namespace shoal {

@@ -1,8 +1,10 @@
-// Sequences of grids, waves and hurricanes on both paths, against the recurrence in double precision.
+// Every kind of field on both paths, against the recurrence in double precision.
 #include "gl/agreement.h"
 #include "gl/numerics.h"
 #include "reference/discrete.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 namespace shoal {
 
@@ -33,15 +35,17 @@ WavesField sea(std::optional<double> depth) {
 
 }  // namespace
 
-TEST_CASE("sequences, waves and hurricanes move molecules as the reference says", "[numerics][fields]") {
-    const std::vector<FieldShape> shapes = {film({0, 0.25, 0.5, 0.75}, false),
-                                            film({0.1, 0.2, 0.3}, true),
-                                            film({0.05, 0.2, 0.6}, false),
-                                            film({-0.1, 0, 0.17, 0.25}, true),
-                                            sea({}),
-                                            sea(3.0),
-                                            HurricaneField{{0.5, -1, 0.2}, 6, 1.5, 1.4, 0.4, 9, 0.2},
-                                            HurricaneField{{0, -1, 0}, -6, 1.5, 2.2, 0.4, 9}};
+TEST_CASE("every kind of field moves molecules as the reference says", "[numerics][fields]") {
+    std::vector<FieldShape> shapes = {film({0, 0.25, 0.5, 0.75}, false),
+                                      film({0.1, 0.2, 0.3}, true),
+                                      film({0.05, 0.2, 0.6}, false),
+                                      film({-0.1, 0, 0.17, 0.25}, true),
+                                      sea({}),
+                                      sea(3.0),
+                                      HurricaneField{{0.5, -1, 0.2}, 6, 1.5, 1.4, 0.4, 9, 0.2},
+                                      HurricaneField{{0, -1, 0}, -6, 1.5, 2.2, 0.4, 9}};
+    for (test::KindOfField& kind : test::kindsOfField())
+        shapes.push_back(std::move(kind.shape));
     const Molecule leaf = test::leaf(200, 1);
     std::vector<Path> paths = {Path::pingPong};
     if (test::canFuse()) paths.push_back(Path::fused);

@@ -5,7 +5,9 @@
 
 #include "gl/numerics.h"
 #include "reference/discrete.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 namespace shoal {
 

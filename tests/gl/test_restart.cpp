@@ -4,6 +4,7 @@
 
 #include "gl/numerics.h"
 #include "reference/fields.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -1,6 +1,6 @@
 // Molecules that are drawn with their skin, from the state of either path.
 #include "gl/render_scene.h"
-#include "molecule/bind_skin.h"
+#include "molecule/skin.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -159,7 +159,7 @@ TEST_CASE("a spread sort takes as many passes a frame as its share, and starts a
     Sorter sorter(testContext(), shaders, SortMethod::oddEvenMerge, 64);
     const Pairs input = randomPairs(64, 9);
     sorter.upload(input);
-    CHECK(sorter.network()->passes() == 21);
+    CHECK(sorter.passes() == 21);
     sorter.beginSpread(7);
     for (int frame = 0; frame < 6; ++frame)
         sorter.advance();

@@ -10,6 +10,7 @@
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
 #include "gpu/gl.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -7,6 +7,7 @@
 #include "core/cache_folder.h"
 #include "gpu/program_cache.h"
 #include "hard/table.h"
+#include "simulate/fused.h"
 #include "support/catch.h"
 
 namespace shoal::test {

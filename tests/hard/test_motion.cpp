@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hard/outcome.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 namespace shoal {

@@ -2,7 +2,9 @@
 #include <cmath>
 
 #include "hard/outcome.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 namespace shoal {
 

@@ -5,6 +5,7 @@
 #include "hard/outcome.h"
 #include "reference/discrete.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 namespace shoal {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 
 namespace shoal::test {
 

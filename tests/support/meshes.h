@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 
 namespace shoal::test {
 

@@ -53,31 +53,10 @@ inline glm::dvec3 yUp(double x, double y, double z) {
     return {x, z, -y};
 }
 
-// u = (2 + 0.8 z, 0.5 x - 0.1 x z, 0.3 y) with z up, without its product x z, which no shear has.
-inline ShearField shear() {
-    ShearField out;
-    out.velocity = {2, 0, 0};
-    out.gradient = glm::dmat3(0);
-    out.gradient[1][0] = 0.8;   // d ux / d y
-    out.gradient[0][2] = -0.5;  // d uz / d x
-    out.gradient[2][1] = -0.3;  // d uy / d z
-    return out;
-}
-
-inline Field field(FieldShape shape) {
+inline Field field(Boxed<FieldShape> shape) {
     Field out;
     out.shape = std::move(shape);
     return out;
-}
-
-inline reference::Problem fallInShear(const Molecule& molecule) {
-    reference::Problem out{.molecule = &molecule, .gravity = {0, -9.81, 0}, .drag = {1, 1}};
-    out.fields.push_back(field(shear()));
-    return out;
-}
-
-inline reference::State fallInShearStart(const reference::Problem& problem) {
-    return restState(problem, {.rotation = turned()}, {0.5, 0, 0}, yUp(0.6, -0.9, 0.4));
 }
 
 }  // namespace shoal::test

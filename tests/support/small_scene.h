@@ -44,7 +44,12 @@ inline const char* const smallScene = R"({
     {"type": "abc", "a": 1, "b": 2, "c": 3, "wavelength": 4},
     {"type": "taylorGreen", "speed": 2, "wavelength": 3},
     {"type": "curlNoise", "speed": 0.5, "length": 1, "period": 3, "octaves": 4},
-    {"type": "grid", "file": "wind.fga", "axes": "zUp", "scale": 2, "outside": "wrap", "origin": [0, 1, 0]}, {"type": "oscillating", "velocity": [0.5, 0, 2], "frequency": 1.5, "phase": -0.25}, {"type": "waves", "origin": [0, 2, 0], "depth": 3, "gravity": 9, "trains": [{"amplitude": 0.1, "wavelength": 4, "direction": [1, 0, 1], "phase": 0.5}]}, {"type": "hurricane", "origin": [1, 0, 0], "speed": 9, "radius": 4, "shape": 1.2, "inflow": 0.3, "height": 5, "coriolis": 0.001}
+    {"type": "grid", "file": "wind.fga", "axes": "zUp", "scale": 2, "outside": "wrap", "origin": [0, 1, 0]},
+    {"type": "oscillating", "velocity": [0.5, 0, 2], "frequency": 1.5, "phase": -0.25},
+    {"type": "waves", "origin": [0, 2, 0], "depth": 3, "gravity": 9,
+     "trains": [{"amplitude": 0.1, "wavelength": 4, "direction": [1, 0, 1], "phase": 0.5}]},
+    {"type": "hurricane", "origin": [1, 0, 0], "speed": 9, "radius": 4, "shape": 1.2,
+     "inflow": 0.3, "height": 5, "coriolis": 0.001}
   ],
   "colliders": [
     {"type": "plane", "normal": [0, 3, 0], "restitution": 0.9, "friction": 0, "draw": false},

@@ -5,11 +5,12 @@
 #include <set>
 
 #include "compile/plan.h"
-#include "measure/accuracy_tables.h"
-#include "measure/accuracy_times.h"
-#include "measure/pareto.h"
-#include "measure/sample.h"
+#include "measure/accuracy.h"
+#include "measure/calibrate.h"
+#include "measure/method_runner.h"
+#include "measure/report_scenes.h"
 #include "reference/fields.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 namespace shoal::measure {

@@ -7,6 +7,7 @@
 #include "bench/baseline.h"
 #include "molecule/molecule_file.h"
 #include "reference/discrete.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 #include "support/shader_physics.h"
 #include "support/shapes.h"

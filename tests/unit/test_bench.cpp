@@ -4,7 +4,6 @@
 #include <set>
 
 #include "bench/bench.h"
-#include "bench/verdict.h"
 #include "support/catch.h"
 
 namespace shoal::bench {

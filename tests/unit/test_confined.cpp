@@ -15,7 +15,7 @@
 #include "core/confined.h"
 #include "core/file.h"
 #include "core/image.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -3,10 +3,12 @@
 // writes these instead of comparing them.
 #include <cstdlib>
 
+#include "core/describe.h"
 #include "core/description_schema.h"
 #include "core/file.h"
-#include "molecule/rules.h"
-#include "scene/field_files/read_raw.h"
+#include "molecule/molecule_json.h"
+#include "scene/field_files/field_file.h"
+#include "scene/field_kinds.h"
 #include "scene/scene.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -171,16 +173,22 @@ TEST_CASE("the schemas say what the descriptions say", "[description]") {
 
 using Tables = std::vector<std::pair<std::string, const Description*>>;
 
-static void compareTables(const std::string& name, const Tables& tables) {
+// Puts a part between its mark and the next end.
+static void put(std::string& text, const std::string& mark, const std::string& part) {
+    INFO(mark);
+    const std::string head = "<!-- " + mark + " -->\n";
+    const size_t begin = text.find(head), end = text.find("<!-- end -->", begin);
+    REQUIRE((begin != std::string::npos && end != std::string::npos));
+    text.replace(begin + head.size(), end - begin - head.size(), part);
+}
+
+static void compareTables(const std::string& name, const Tables& tables, const Tables& kinds = {}) {
     const std::string file = SHOAL_SOURCE_DIR "/docs/" + name, committed = readFile(file);
     std::string text = committed;
-    for (const auto& [object, description] : tables) {
-        INFO(object);
-        const std::string head = "<!-- keys: " + object + " -->\n";
-        const size_t begin = text.find(head), end = text.find("<!-- end -->", begin);
-        REQUIRE((begin != std::string::npos && end != std::string::npos));
-        text.replace(begin + head.size(), end - begin - head.size(), tableOf(*description));
-    }
+    for (const auto& [object, description] : tables)
+        put(text, "keys: " + object, tableOf(*description));
+    for (const auto& [object, description] : kinds)
+        put(text, "kinds: " + object, kindsOf(*description));
     if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, text);
     CHECK((text == committed));
 }
@@ -209,6 +217,7 @@ TEST_CASE("the tables of the formats say what the descriptions say", "[descripti
                            {"select", descriptionOf<Selection>()},
                            {"field", descriptionOf<Field>()},
                            {"grid", descriptionOf<GridField>()},
+                           {"sequence", descriptionOf<FileSequence>()},
                            {"waves", descriptionOf<WavesField>()},
                            {"train", descriptionOf<WaveTrain>()},
                            {"hurricane", descriptionOf<HurricaneField>()},
@@ -221,7 +230,10 @@ TEST_CASE("the tables of the formats say what the descriptions say", "[descripti
                            {"surfacePair", descriptionOf<SurfaceRule>()},
                            {"school", descriptionOf<School>()},
                            {"water", descriptionOf<Water>()}};
-    compareTables("scene-format.md", tables);
+    compareTables("scene-format.md", tables,
+                  {{"field", descriptionOf<Field>()},
+                   {"force", descriptionOf<Force>()},
+                   {"collider", descriptionOf<Collider>()}});
     compareTables("exchange.md", {{"layout", descriptionOf<RawLayout>()}});
     compareTables("molecule-format.md", {{"molecule", descriptionOf<Molecule>()},
                                          {"defaults", &describeDefaults()},

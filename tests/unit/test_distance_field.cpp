@@ -5,7 +5,6 @@
 
 #include "geometry/closest_point.h"
 #include "geometry/distance_field.h"
-#include "geometry/distance_field_error.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/solids.h"

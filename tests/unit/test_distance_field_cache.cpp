@@ -1,7 +1,7 @@
 // Fields that are kept, and those that a scene asks for.
 #include <cstring>
 
-#include "geometry/distance_field_cache.h"
+#include "geometry/distance_field.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"

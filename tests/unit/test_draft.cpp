@@ -3,7 +3,7 @@
 
 #include "core/file.h"
 #include "core/json.h"
-#include "molecule/findings.h"
+#include "molecule/check.h"
 #include "molecule/molecule_file.h"
 #include "support/catch.h"
 

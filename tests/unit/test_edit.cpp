@@ -4,10 +4,10 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "author/document.h"
 #include "core/file.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
+#include "molecule/skin.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

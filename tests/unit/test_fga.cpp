@@ -1,5 +1,6 @@
 #include "core/error.h"
-#include "scene/field_files/read_fga.h"
+#include "scene/field_files/field_file.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 using namespace shoal;
@@ -22,15 +23,16 @@ const glm::vec3& cell(const GridField& grid, int x, int y, int z) {
 }
 
 // In the scene's axes and units.
-GridField read(const std::string& text, const FieldOptions& options = {}) {
+GridField read(const std::string& text, const GridSource& source = {}) {
     GridField grid;
-    addFrame(grid, parseFga(text, "field.fga"), options, "field.fga");
+    grid.source = source;
+    addFrame(grid, parseFga(text, "field.fga"), "field.fga");
     return grid;
 }
 
-std::string message(const std::string& text, const FieldOptions& options = {}) {
+std::string message(const std::string& text, const GridSource& source = {}) {
     try {
-        read(text, options);
+        read(text, source);
     } catch (const Error& error) {
         return error.what();
     }
@@ -62,9 +64,8 @@ TEST_CASE("fga with z up, right-handed", "[fga]") {
 }
 
 TEST_CASE("fga from Unreal, left-handed with z up, in centimetres", "[fga]") {
-    const FieldOptions options{.axes = FieldAxes::unreal, .scale = 0.01, .origin = {1, 2, 3}, .wrap = true};
-    const GridField grid = read(numbered(), options);
-    CHECK(grid.wrap);
+    const GridSource source{.axes = FieldAxes::unreal, .scale = 0.01, .origin = {1, 2, 3}};
+    const GridField grid = read(numbered(), source);
     CHECK(grid.resolution == glm::ivec3(2, 4, 3));
     CHECK(grid.low == glm::dvec3(1, 2, 3));
     CHECK(glm::distance(grid.high, glm::dvec3(1.02, 2.12, 3.06)) < 1e-12);

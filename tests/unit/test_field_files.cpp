@@ -5,9 +5,7 @@
 #include "core/file.h"
 #include "core/random.h"
 #include "scene/field_files/field_file.h"
-#include "scene/field_files/read_raw.h"
-#include "scene/field_files/read_vf.h"
-#include "scene/field_files/read_vti.h"
+#include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -99,7 +97,7 @@ TEST_CASE(".vf needs bounds, and Unity's axes are left-handed", "[fieldFiles]") 
                Contains("w.vf: this format does not say where the field lies: the scene needs \"bounds\""));
     const Scene scene = sceneOf(scratch, R"("file": "w.vf", "axes": "unity", "velocityScale": 2,
         "bounds": {"low": [-1, 0, -1], "high": [1, 1, 1]})");
-    const GridField& grid = std::get<GridField>(scene.fields[0].shape);
+    const GridField& grid = std::get<GridField>(*scene.fields[0].shape);
     CHECK(grid.low == glm::dvec3(-1, 0, -1));
     CHECK(grid.resolution == size);
     // the file's cell (1, 1, 3) is the scene's (1, 1, 0)
@@ -279,7 +277,7 @@ TEST_CASE("damaged .vti, .vf and raw files are refused or read", "[fieldFiles][m
         ++tried;
         try {
             GridField field;
-            addFrame(field, parseVti(text, "w.vti"), {}, "w.vti");
+            addFrame(field, parseVti(text, "w.vti"), "w.vti");
         } catch (const Error& error) {
             ++refused;
             REQUIRE(!error.location().file.empty());
@@ -304,7 +302,8 @@ TEST_CASE("damaged .vti, .vf and raw files are refused or read", "[fieldFiles][m
         flipped[random.next() % 40] ^= char(1 << random.next() % 8);
         try {
             GridField field;
-            addFrame(field, parseVf(flipped, "w.vf"), {.bounds = Box{}}, "w.vf");
+            field.source.bounds = Box{};
+            addFrame(field, parseVf(flipped, "w.vf"), "w.vf");
         } catch (const Error&) {
         }
     }
@@ -316,7 +315,7 @@ TEST_CASE("numbered files are a sequence in time", "[fieldFiles]") {
         scratch.write(concat("w-0", i, ".vti"),
                       VtiText{}.write(std::vector<glm::dvec3>(24, {double(i), 0, 0})));
     const Scene found = sceneOf(scratch, R"("file": "w-##.vti", "sequence": {"frameRate": 4, "start": 1})");
-    const GridField& grid = std::get<GridField>(found.fields[0].shape);
+    const GridField& grid = std::get<GridField>(*found.fields[0].shape);
     CHECK(grid.times == std::vector<double>{1, 1.25, 1.5});
     CHECK(!grid.repeats);
     CHECK(grid.period() == 0.75);
@@ -325,8 +324,8 @@ TEST_CASE("numbered files are a sequence in time", "[fieldFiles]") {
     const Scene chosen = sceneOf(
         scratch,
         R"("file": "w-##.vti", "sequence": {"first": 1, "last": 3, "step": 2, "times": [0, 7], "repeats": true})");
-    CHECK(std::get<GridField>(chosen.fields[0].shape).values[24] == glm::vec3(3, 0, 0));
-    CHECK(std::get<GridField>(chosen.fields[0].shape).period() == 14);
+    CHECK(std::get<GridField>(*chosen.fields[0].shape).values[24] == glm::vec3(3, 0, 0));
+    CHECK(std::get<GridField>(*chosen.fields[0].shape).period() == 14);
 
     const auto message = [&](const std::string& keys) { return messageOf([&] { sceneOf(scratch, keys); }); };
     CHECK_THAT(message(R"("file": "w-##.vti")"), Contains("numbered files need \"sequence\""));

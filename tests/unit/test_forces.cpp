@@ -1,15 +1,17 @@
 // The scene's forces before any GPU: the reader and what it refuses, paths, the numbers of a frame, which
 // group pays for what, and the shader's formulas, compiled as C++, against the double reference.
+#include <algorithm>
 #include <cmath>
 
 #include "compile/path.h"
 #include "core/json.h"
 #include "reference/forces.h"
+#include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
-#include "simulate/force_parameters.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/watchdog.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/message_of.h"
 #include "support/scratch.h"
 #include "support/shader_physics.h"
@@ -87,19 +89,31 @@ TEST_CASE("a scene's forces", "[forces][scene]") {
     REQUIRE(hive.path);
     CHECK(hive.path->repeats);
     CHECK(hive.path->keyframes[1].offset == dvec3(2, 0, 0));
-    const auto& attract = std::get<AttractForce>(hive.shape);
+    const auto& attract = std::get<AttractForce>(*hive.shape);
     CHECK(attract.position == dvec3(1, 2, 3));
     CHECK(attract.strength == 4);
     CHECK(attract.most == 20);
     CHECK(attract.radius == 0);
-    CHECK(std::get<AttractForce>(scene.forces[1].shape).falloff == AttractForce::Falloff::constant);
-    const auto& line = std::get<VortexLineForce>(scene.forces[2].shape);
+    CHECK(std::get<AttractForce>(*scene.forces[1].shape).falloff == AttractForce::Falloff::constant);
+    const auto& line = std::get<VortexLineForce>(*scene.forces[2].shape);
     CHECK(line.axis == dvec3(0, 0, 1));
     CHECK(line.turn == -4);
     CHECK(line.core == 0.25);
-    CHECK(std::get<ThrustForce>(scene.forces[3].shape).limit == 3);
-    CHECK(std::get<ThrustForce>(scene.forces[4].shape).rate == -0.5);
-    CHECK(std::get<WindForce>(scene.forces[5].shape).velocity == dvec3(1, 0, 0));
+    CHECK(std::get<ThrustForce>(*scene.forces[3].shape).limit == 3);
+    CHECK(std::get<ThrustForce>(*scene.forces[4].shape).rate == -0.5);
+    CHECK(std::get<WindForce>(*scene.forces[5].shape).velocity == dvec3(1, 0, 0));
+}
+
+TEST_CASE("every kind of force is there, and as its closed form says", "[forces]") {
+    std::vector<bool> there(std::variant_size_v<ForceShape::variant>);
+    for (const test::KindOfForce& kind : test::kindsOfForce()) {
+        there[kind.shape.index()] = true;
+        INFO(kindName(kind.shape));
+        if (!kind.known) continue;
+        const dvec3 found = reference::shapeAcceleration(kind.shape, kind.known->x);
+        CHECK(glm::length(found - kind.known->value) < 1e-12);
+    }
+    CHECK(std::find(there.begin(), there.end(), false) == there.end());
 }
 
 TEST_CASE("bad input: forces", "[forces][badInput]") {
@@ -214,7 +228,7 @@ TEST_CASE("a group pays for the forces that act on it", "[forces][kernel]") {
     CHECK(b.thrust);
     CHECK_FALSE(b.wind);  // it has no drag
     CHECK(plan.groups[0].forces.parameterCount == 1);
-    CHECK_THAT(plan.groups[1].forces.source, !Contains("forceWind"));
+    CHECK_THAT(plan.groups[1].forces.source, Contains("withWind(vec3 velocity)\n{\n    return velocity;\n}"));
 
     // what none acts on has the text of a scene without, but for its comment
     const std::string root = SHOAL_SOURCE_DIR "/shaders";
@@ -227,9 +241,9 @@ TEST_CASE("a group pays for the forces that act on it", "[forces][kernel]") {
 
     // numbers are not in the text
     Scene moved = scene;
-    std::get<AttractForce>(moved.forces[0].shape) = {
+    std::get<AttractForce>(*moved.forces[0].shape) = {
         .position = {7, 8, 9}, .strength = -3, .radius = 1, .most = 5};
-    std::get<ThrustForce>(moved.forces[1].shape) = {-5, 11};
+    std::get<ThrustForce>(*moved.forces[1].shape) = {-5, 11};
     CHECK(compile(moved).groups[1].forces.source == plan.groups[1].forces.source);
 }
 

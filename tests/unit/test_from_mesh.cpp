@@ -4,11 +4,10 @@
 #include <map>
 
 #include "author/from_mesh.h"
-#include "author/material_scale.h"
-#include "geometry/closed_surface.h"
-#include "molecule/bind_skin.h"
+#include "geometry/mesh.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
+#include "molecule/skin.h"
 #include "support/bent.h"
 #include "support/catch.h"
 #include "support/meshes.h"

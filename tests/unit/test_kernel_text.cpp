@@ -7,8 +7,10 @@
 #include <sstream>
 
 #include "compile/plan.h"
+#include "scene/field_kinds.h"
 #include "simulate/fused_kernel.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/shapes.h"
 
 using namespace shoal;
@@ -241,7 +243,7 @@ TEST_CASE("no slider changes a kernel's text", "[kernel]") {
         group.damping = 0.3;
         group.drag = {2, 3};
         group.release = Release{7.0, 0.125, 2};
-        std::get<GustField>(moved.fields[0].shape).speed = 11;
+        std::get<GustField>(*moved.fields[0].shape).speed = 11;
         moved.fields[1].weight = 0.25;
         moved.colliders[0].friction = 0.9;
         std::get<SphereCollider>(moved.colliders[1].shape).radius = 0.3;
@@ -273,16 +275,16 @@ TEST_CASE("a height field is looked up once a vertex and substep, a plane where 
 
 TEST_CASE("a kernel holds the branches that the group needs, and no other", "[kernel]") {
     using Set = std::set<std::string>;
-    const Set always{"LANES",          "BLOCK", "VERTICES",       "POSITION_ELEMENTS",
-                     "STATE_ELEMENTS", "FUSED", "SAMPLE_SUBSTEPS"};
+    const Set always{"LANES",          "BLOCK", "VERTICES",        "POSITION_ELEMENTS",
+                     "STATE_ELEMENTS", "FUSED", "SAMPLE_SUBSTEPS", "LEAPFROG"};
     const auto with = [&](Set more) {
         more.insert(always.begin(), always.end());
         return more;
     };
     CHECK(definesOf(sceneOf(test::point(1))) == with({"RECORDS"}));
     CHECK(definesOf(sceneOf(test::leaf(100, 1))) == with({"RECORDS", "SPRINGS"}));
-    const Set all = with({"RECORDS", "RELEASE", "PINS", "SPRINGS", "ACTUATION", "CONSTANTS", "FIELDS",
-                          "DIRECTIONAL_DRAG", "COLLIDE", "COMING_KICK", "SAMPLES_IN_BUFFER"});
+    const Set all = with({"RECORDS", "RELEASE", "PINS", "SPRINGS", "MUSCLES", "CONSTANTS", "FIELDS",
+                          "DIRECTIONAL_DRAG", "COLLIDE"});
     CHECK(definesOf(fullScene()) == all);
 
     struct Case {
@@ -292,7 +294,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
     };
     const Case cases[] = {
         {"COLLIDE",
-         {"respond(", "findContacts()\n{", "colliderParameters"},
+         {"respond(", "findContacts(int done)\n{", "colliderParameters"},
          [](Scene& s) { s.colliders.clear(); }},
         {"FIELDS", {"gustVelocity(", "fieldParameters"}, [](Scene& s) { s.fields.clear(); }},
         {"PINS", {"pullOnPins()\n{", "bool[](true"}, [](Scene& s) { s.groups[0].held = false; }},
@@ -303,7 +305,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
          [](Scene& s) {
              s.groups[0].drag = {1, 1};
          }},
-        {"COMING_KICK", {}, [](Scene& s) { s.solver.kind = SolverKind::euler, s.solver.substeps = 32; }},
+        {"LEAPFROG", {}, [](Scene& s) { s.solver.kind = SolverKind::euler, s.solver.substeps = 32; }},
         {"CONSTANTS",
          {"* scale, ", "+ phase"},
          [](Scene& s) {

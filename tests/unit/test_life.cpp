@@ -174,7 +174,7 @@ TEST_CASE("what makes no sense of an emitter is refused where it stands", "[life
                Contains("does not move"));
 }
 
-TEST_CASE("deaths that bear in a circle, of the immortal, or into a book on the CPU are refused", "[life]") {
+TEST_CASE("deaths that emit in a circle, of the immortal, or into a book on the CPU are refused", "[life]") {
     const Drops drops;
     const std::string own = R"("life": {"span": 1, "capacity": 10}, "emitters": [{"from": "death", "of": ")";
     CHECK_THAT(drops.error(own + R"(mist"}])", R"(, {"name": "mist", "particle": {},

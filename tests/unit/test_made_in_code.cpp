@@ -5,6 +5,8 @@
 
 #include "compile/plan.h"
 #include "molecule/molecule_file.h"
+#include "scene/field_kinds.h"
+#include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 
@@ -114,11 +116,11 @@ Scene goodScene() {
 
 template <typename F>
 F& field(Scene& scene, size_t i) {
-    return std::get<F>(scene.fields[i].shape);
+    return std::get<F>(*scene.fields[i].shape);
 }
 template <typename F>
 F& force(Scene& scene, size_t i) {
-    return std::get<F>(scene.forces[i].shape);
+    return std::get<F>(*scene.forces[i].shape);
 }
 template <typename C>
 C& collider(Scene& scene, size_t i) {

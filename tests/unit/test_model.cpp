@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

@@ -1,5 +1,4 @@
 // The motions of molecules, against closed forms.
-#include "molecule/modes.h"
 
 #include <cmath>
 

@@ -6,7 +6,9 @@
 #include "reference/discrete.h"
 #include "reference/fields.h"
 #include "reference/noise.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/shader_physics.h"
 #include "support/shapes.h"
 

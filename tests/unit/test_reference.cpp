@@ -7,7 +7,9 @@
 #include "reference/fields.h"
 #include "reference/noise.h"
 #include "reference/solve.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/shapes.h"
 
 namespace shoal::reference {

@@ -1,11 +1,14 @@
 // The reference's vector fields against closed forms and invariants.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "core/error.h"
 #include "reference/fields.h"
 #include "reference/noise.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 
 namespace shoal::reference {
 
@@ -57,6 +60,16 @@ TEST_CASE("closed-form fields", "[reference][field]") {
     green.speed = 2, green.wavelength = 8;
     same(fieldVelocity(green, {0, 2, 0}, 0), {2, 0, 0});
     same(fieldVelocity(green, {1, 1, 1}, 0), {1 / std::sqrt(2.0), -1 / std::sqrt(2.0), 0});
+}
+
+TEST_CASE("every kind of field is there, and as its closed form says", "[reference][field]") {
+    std::vector<bool> there(std::variant_size_v<FieldShape::variant>);
+    for (const test::KindOfField& kind : test::kindsOfField()) {
+        there[kind.shape.index()] = true;
+        INFO(kindName(kind.shape));
+        if (kind.known) same(fieldVelocity(kind.shape, kind.known->x, 0), kind.known->value);
+    }
+    CHECK(std::find(there.begin(), there.end(), false) == there.end());
 }
 
 TEST_CASE("fields add up with weight and box", "[reference][field]") {

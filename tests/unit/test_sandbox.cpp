@@ -1,12 +1,12 @@
 // --sandbox: nothing outside some folders is opened, whatever names it.
-#include "core/sandbox.h"
+#include "core/file.h"
 
 #include <filesystem>
 #include <span>
 
 #include "compile/plan.h"
 #include "core/image.h"
-#include "geometry/load_model.h"
+#include "geometry/mesh.h"
 #include "molecule/molecule_file.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/small_scene.h"
@@ -12,7 +13,7 @@ namespace {
 
 template <typename Shape>
 const Shape& shape(const Field& field) {
-    return std::get<Shape>(field.shape);
+    return std::get<Shape>(*field.shape);
 }
 
 bool close(const glm::dvec3& a, const glm::dvec3& b) {

@@ -9,12 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "compile/contact_plan.h"
 #include "compile/generate.h"
 #include "compile/generate_forces.h"
 #include "gpu/shader_source.h"
+#include "scene/field_kinds.h"
 #include "simulate/fused_kernel.h"
 #include "simulate/watchdog.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/scratch.h"
 #include "support/shapes.h"
 
@@ -71,7 +74,8 @@ class Validator {
         program.rewrite(source);
         add(program.compute, program.defines, header, std::move(source));
     }
-    void addBoth(const std::string& file, const Defines& defines) {
+    void addBoth(const std::string& file, Defines defines) {
+        defines.emplace_back("TEXTURES");
         add(file, defines, gpu::header330());
         add(file, defines, gpu::header300es());
     }
@@ -120,33 +124,21 @@ Field field(Shape shape, bool boxed = false) {
 }
 
 std::vector<Field> everyField() {
-    GridField clamped;
-    clamped.resolution = {2, 1, 1};
-    clamped.high = {1, 1, 1};
-    clamped.values.resize(2);
-    GridField wrapped = clamped;
+    std::vector<Field> out = test::everyField();
+    GridField wrapped;
+    wrapped.resolution = {2, 1, 1};
+    wrapped.high = {1, 1, 1};
+    wrapped.values.resize(2);
     wrapped.wrap = true;
-    GridField film = clamped;
-    film.values.resize(6);
-    film.times = {0, 1, 2};
-    GridField loop = film;
-    loop.times = {0, 1, 3};
-    loop.repeats = true;
-    WavesField waves;
-    waves.trains.resize(2);
     CurlNoiseField eddies;
     eddies.octaves = 4;
     eddies.seed = 0xffffffffu;  // beyond an int
     GustField vertical;
     vertical.direction = {0, 1, 0};
-    return {field(UniformField{}, true), field(GustField{}),
-            field(vertical, true),       field(ShearField{}),
-            field(VortexField{}),        field(AbcField{}),
-            field(TaylorGreenField{}),   field(eddies),
-            field(std::move(clamped)),   field(std::move(wrapped), true),
-            field(OscillatingField{}),   field(std::move(film)),
-            field(std::move(loop)),      field(std::move(waves)),
-            field(HurricaneField{})};
+    out.push_back(field(eddies));
+    out.push_back(field(vertical, true));
+    out.push_back(field(std::move(wrapped), true));
+    return out;
 }
 
 std::vector<Collider> everyCollider() {
@@ -168,14 +160,7 @@ std::vector<Collider> everyCollider() {
 }
 
 std::vector<Force> everyForce() {
-    std::vector<Force> out(5);
-    AttractForce even{.radius = 1};
-    even.falloff = AttractForce::Falloff::constant;
-    out[0].shape = AttractForce{.most = 10};
-    out[1].shape = even;
-    out[2].shape = VortexLineForce{};
-    out[3].shape = ThrustForce{};
-    out[4].shape = WindForce{};
+    std::vector<Force> out = test::everyForce();
     for (size_t i = 0; i < out.size(); ++i)
         out[i].name = concat("force ", i, "\n}}} #error \\");  // must not leave its comment
     return out;
@@ -238,7 +223,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     validator.addBoth("passes/fullscreen.vert", {});
     for (const Defines& set : combinations({"LEAPFROG", "SPRINGS", "FIELDS", "DIRECTIONAL_DRAG", "RECORDS"}))
         validator.addBoth("passes/advect.frag", set);
-    for (const Defines& set : combinations({"LEAPFROG", "FIELDS", "FORCES", "WIND"})) {
+    for (const Defines& set : combinations({"LEAPFROG", "FIELDS", "FORCES"})) {
         validator.addBoth("passes/advect.frag", set);
         validator.addBoth("passes/stage.frag", set);
     }
@@ -257,28 +242,29 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
             validator.addBoth("passes/restore.frag", set);
             validator.addBoth("passes/records.frag", set);
             set.emplace_back("SPRING_DAMPING");
-            if (set.front() == "LEAPFROG") set.emplace_back("PREDICT");
             validator.addBoth("passes/restore.frag", set);
             validator.addBoth("passes/records.frag", set);
         }
     }
-    for (const Defines& set : combinations({"AHEAD", "SPRINGS"}))
+    for (const Defines& set : combinations({"LEAPFROG", "DIRECTIONAL_DRAG", "SPRINGS"}))
         validator.addBoth("passes/normals.frag", set);
     validator.addBoth("passes/watch.frag", {fastestDefine()});
-    const Defines textures{"TEXTURES", "ROW_BITS 6", "LIST 24", "NEIGHBORS 4"};
+    const Defines textures{"ROW_BITS 6", "LIST 24", "NEIGHBORS 4"};
     const auto contact = [&](const char* file, Defines set = {}) {
         set.insert(set.end(), textures.begin(), textures.end());
         validator.addBoth(std::string("contact/") + file + ".frag", set);
     };
-    for (const char* file : {"spheres", "keys", "starts", "order", "slots", "find", "nearest", "apply"})
+    for (const char* file : {"spheres", "keys", "starts", "order", "slots", "find", "neighbors", "nearest",
+                             "effective", "apply"})
         contact(file);
-    for (const char* stage : {"CROWD", "BEGIN", "RELAX", "SETTLE", "KEEP"})
-        contact("respond", {stage});
+    for (const char* stage : {"guess", "relax", "friction", "correction"}) {
+        validator.generated.merge(responseStage(stage));
+        contact("respond");
+        validator.generated.erase("generated/stage.glsl");
+    }
     for (const char* file : {"spheres", "apply"})
         contact(file, {"PINS", "RELEASE"});
-    contact("keys", {"STAGGERED"});
-    contact("find", {"NEAR"});
-    contact("find", {"NEAR", "STAGGERED"});
+    contact("neighbors", {"STAGGERED"});
     CHECK(validator.count() > 120);
     validator.check();
 }
@@ -385,27 +371,27 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
              {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"}) {
             for (Defines set : combinations({"TEXTURED"})) {
                 set.insert(set.end(), lit.begin(), lit.end());
-                set.emplace_back("STATE_WIDTH 1024");
+                set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "BLEND noneBlend"});
                 validator.add(file, set, header);
             }
         }
-        for (Defines set : combinations({"SKIN_OFFSETS", "STATE_BUFFERS", "GROWS"})) {
+        for (Defines set : combinations({"SKIN_OFFSETS", "TEXTURES", "GROWS"})) {
             set.insert(set.end(), lit.begin(), lit.end());
-            set.insert(set.end(), {"SKIN_WEIGHTS 8", "STATE_WIDTH 1024", "BLOCK 64", "POSITION_ELEMENTS 3",
-                                   "STATE_ELEMENTS 6"});
+            set.insert(set.end(), {"BLEND noneBlend", "SKIN_WEIGHTS 8", "STATE_WIDTH 1024", "BLOCK 64",
+                                   "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"});
             validator.add("render/skinned.vert", set, header);
             validator.add("render/molecule.frag", set, header);
             set.push_back("DEPTH_ONLY");
             validator.add("render/skinned.vert", set, header);
         }
-        for (Defines set : {Defines{}, Defines{"PLANE"}, Defines{"PLANE", "GRID"}}) {
+        for (Defines set : {Defines{}, Defines{"PLANE"}}) {
             set.insert(set.end(), lit.begin(), lit.end());
             validator.add("render/surface.vert", set, header);
             validator.add("render/surface.frag", set, header);
         }
     }
     for (Defines set : combinations({"TEXTURED"})) {
-        set.insert(set.end(), {"STATE_WIDTH 1024", "DEPTH_ONLY"});
+        set.insert(set.end(), {"TEXTURES", "STATE_WIDTH 1024", "DEPTH_ONLY"});
         for (const char* file : {"render/molecule.vert", "render/molecule_shadow.frag", "render/points.vert",
                                  "render/points.frag"})
             validator.add(file, set, header);
@@ -414,14 +400,15 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
     for (const Defines& order : orders) {
         for (const char* turns : {"", "SLABS", "SLAB_DRAWS"}) {
             Defines set = order;
-            set.insert(set.end(), {"STATE_WIDTH 1024", "ORDERED", "BLENDED", "LINEAR_LIGHT"});
+            set.insert(set.end(),
+                       {"TEXTURES", "STATE_WIDTH 1024", "ORDERED", "BLEND alphaBlend", "LINEAR_LIGHT"});
             if (*turns != 0) set.emplace_back(turns);
             for (const char* file :
                  {"render/molecule.vert", "render/molecule.frag", "render/points.vert", "render/points.frag"})
                 validator.add(file, set, header);
         }
         Defines keys = order;
-        keys.emplace_back("STATE_WIDTH 1024");
+        keys.insert(keys.end(), {"TEXTURES", "STATE_WIDTH 1024"});
         validator.add("render/slabs.frag", order, header);
         if (order != orders[0]) {
             validator.add("render/order_keys.frag", keys, header);
@@ -431,21 +418,16 @@ TEST_CASE("the renderer's shaders are sound GLSL", "[shaders]") {
         validator.add("render/order_keys.comp", keys, gpu::header430());
         validator.add("render/slab_draws.comp", keys, gpu::header430());
     }
-    validator.add("render/molecule.frag", {"STATE_WIDTH 1024", "BLENDED", "FILTERS"}, header);
+    for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend"})
+        validator.add("render/molecule.frag", {blend}, header);
     for (const char* file : {"render/molecule.vert", "render/points.vert"})
-        validator.add(file, {"STATE_WIDTH 1024", "COLOR_BY"}, header);
+        validator.add(file, {"TEXTURES", "STATE_WIDTH 1024", "COLOR_BY"}, header);
     for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
-        validator.add(file, {"SHADOWS", "WATER"}, header);
-    for (const char* file : {"render/molecule.frag", "render/points.frag"})
-        for (const Defines& set : combinations({"WATER"})) {
-            Defines metallic = set;
-            metallic.emplace_back("METALLIC");
-            validator.add(file, metallic, header);
-        }
+        validator.add(file, {"SHADOWS", "WATER", "BLEND noneBlend"}, header);
     validator.add("render/sky.frag", {"WATER"}, header);
     validator.add("render/picture.frag", {"BEAMS"}, header);
-    for (const char* blend : {"ADDS", "FILTERS", "LIT"})
-        validator.add("particles/particle.frag", {"WATER", "HAZE", "BLENDED", blend}, header);
+    for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend", "BLEND alphaBlend"})
+        validator.add("particles/particle.frag", {"WATER", "LIT", "FACING cameraFacing", blend}, header);
     validator.add("water/rays.frag", {}, header);
     validator.add("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"}, header);
     validator.add("water/caustics.frag", {"TEXELS 512"}, header);
@@ -460,21 +442,23 @@ TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Validator validator;
     const std::vector<Defines> shapes = {
-        {"POINTS"},
-        {"SPRITES", "SIZES", "TURNS", "IMAGE", "TILES"},
-        {"SIZES", "GROWS", "TURNS", "COLORS", "IMAGE", "FLIP_AGAIN", "FADES", "LIFE"},
-        {"FACING_VELOCITY", "COLORS", "LIFE"},
-        {"FACING_FREE", "TURNS", "IMAGE", "FLIP_ONCE", "LIFE"}};
-    const std::vector<Defines> looks = {{"DEPTH_ONLY"},
-                                        {"LIT"},
-                                        {"BLENDED", "LIT", "SHADOWS", "SOFT", "HAZE", "ORDERED", "SLABS"},
-                                        {"BLENDED", "ADDS", "SOFT", "HAZE", "ORDERED", "SLAB_DRAWS"},
-                                        {"BLENDED", "FILTERS", "HAZE", "LINEAR_LIGHT"}};
+        {"POINTS", "FACING cameraFacing"},
+        {"SPRITES", "FACING cameraFacing", "SIZES", "TURNS", "IMAGE", "TILES tileOfSeed", "FADES false"},
+        {"FACING cameraFacing", "SIZES", "GROWS", "TURNS", "COLORS", "IMAGE", "TILES tilesAgain",
+         "FADES true", "LIFE"},
+        {"FACING velocityFacing", "COLORS", "LIFE"},
+        {"FACING freeFacing", "TURNS", "IMAGE", "TILES tilesOnce", "FADES false", "LIFE"}};
+    const std::vector<Defines> looks = {{"BLEND noneBlend", "DEPTH_ONLY"},
+                                        {"BLEND noneBlend", "LIT"},
+                                        {"BLEND alphaBlend", "LIT", "SHADOWS", "SOFT", "ORDERED", "SLABS"},
+                                        {"BLEND additiveBlend", "SOFT", "ORDERED", "SLAB_DRAWS"},
+                                        {"BLEND multiplicativeBlend", "LINEAR_LIGHT"}};
     for (const Defines& shape : shapes) {
         for (Defines set : looks) {
             const bool quads = shape[0] != "POINTS" && shape[0] != "SPRITES";
             set.insert(set.end(), shape.begin(), shape.end());
-            set.insert(set.end(), {"STATE_WIDTH 1024", "BATCH 64", quads ? "CORNERS 4" : "CORNERS 1"});
+            set.insert(set.end(),
+                       {"TEXTURES", "STATE_WIDTH 1024", "BATCH 64", quads ? "CORNERS 4" : "CORNERS 1"});
             validator.add("particles/particle.vert", set, gpu::header330());
             validator.add("particles/particle.frag", set, gpu::header330());
         }
@@ -511,13 +495,13 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     validator.generated["generated/colliders.glsl"] = generateColliders(everyCollider(), samples).source;
     validator.add("school/keys.comp", {}, gpu::header430());
     validator.add("school/order.comp", {}, gpu::header430());
-    for (const Defines& set : {Defines{}, Defines{"LIFE"}, Defines{"LIFE", "LIFE_APART"}}) {
-        Defines sizes = {"BLOCK 16", "POSITION_ELEMENTS 2", "STATE_ELEMENTS 4"};
+    for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
+                               Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
+        Defines sizes = {"BLOCK 16", "POSITION_ELEMENTS 2"};
         sizes.insert(sizes.end(), set.begin(), set.end());
         validator.add("school/body.comp", sizes, gpu::header430());
     }
-    for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2", "BODY"},
-                               Defines{"TARGETS 1", "BODY", "WALLS", "SAMPLES_IN_BUFFER"}}) {
+    for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2"}, Defines{"TARGETS 1", "WALLS"}}) {
         Defines all = {"CLOCK_PERIOD float(0.25)"};
         all.insert(all.end(), set.begin(), set.end());
         validator.add("school/steer.comp", all, gpu::header430());

@@ -1,7 +1,7 @@
 // Skins: their key in a molecule file, how they move, and which vertices they depend on.
 #include "core/random.h"
-#include "molecule/bind_skin.h"
 #include "molecule/molecule_file.h"
+#include "molecule/skin.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 

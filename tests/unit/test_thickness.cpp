@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "geometry/thickness.h"
+#include "geometry/mesh.h"
 #include "scene/selection.h"
 #include "support/catch.h"
 #include "support/meshes.h"

@@ -76,7 +76,7 @@ TEST_CASE("in a workgroup the lanes meet and take their own vertices", "[loops]"
     const std::string text =
         "void f()\n{\n    for (int j = 0; j < VERTICES; ++j) {\n        x[j] = u;\n    }\n}\n";
     CHECK(expanded(text, loops).text ==
-          "void f()\n{\n    meet();\n"
+          "void f()\n{\n    waitForGroup();\n"
           "    for (int j = int(gl_LocalInvocationID.x); j < VERTICES; j += LANES) {\n"
           "        x[j] = u;\n    }\n}\n");
 }

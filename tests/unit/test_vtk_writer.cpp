@@ -2,7 +2,6 @@
 #include <cstdlib>
 
 #include "scene/field_files/field_file.h"
-#include "scene/field_files/read_vti.h"
 #include "support/catch.h"
 #include "support/message_of.h"
 #include "support/scratch.h"
@@ -68,7 +67,7 @@ TEST_CASE(".vti as VTK writes them", "[fieldFiles][vtk]") {
                             .c_str()) == 0);
     for (int number = 0; number < 64; ++number) {
         INFO("file " << number);
-        const FileGrid grid = readVti(scratch.path(std::to_string(number) + ".vti"));
+        const FileGrid grid = readFieldFile(scratch.path(std::to_string(number) + ".vti"), {});
         REQUIRE(grid.resolution == glm::ivec3(7, 5, 9));
         CHECK(grid.low == glm::dvec3(0.75, 1.875, 2));
         size_t at = 0;
@@ -77,5 +76,6 @@ TEST_CASE(".vti as VTK writes them", "[fieldFiles][vtk]") {
                 for (int i = 0; i < 7; ++i)
                     REQUIRE(grid.values[at++] == glm::vec3(glm::dvec3(i + 0.5, -j, 8 * k + 0.25)));
     }
-    CHECK_THAT(messageOf([&] { readVti(scratch.path("lz4.vti")); }), Contains("vtkLZ4DataCompressor"));
+    CHECK_THAT(messageOf([&] { readFieldFile(scratch.path("lz4.vti"), {}); }),
+               Contains("vtkLZ4DataCompressor"));
 }

@@ -5,6 +5,7 @@
 
 #include "core/random.h"
 #include "reference/fields.h"
+#include "scene/field_kinds.h"
 #include "support/catch.h"
 
 namespace shoal::reference {

@@ -1,17 +1,8 @@
 #include "scene/field_files/field_file.h"
 
-#include <bit>
 #include <cmath>
-#include <cstring>
 
-#include <glm/gtc/packing.hpp>
-
-#include "core/error.h"
 #include "core/file.h"
-#include "scene/field_files/read_fga.h"
-#include "scene/field_files/read_raw.h"
-#include "scene/field_files/read_vf.h"
-#include "scene/field_files/read_vti.h"
 
 namespace shoal {
 
@@ -46,13 +37,13 @@ AxisMap axisMap(FieldAxes axes) {
     }
 }
 
-Box boundsOf(const FileGrid& grid, const AxisMap& map, const FieldOptions& options, const std::string& file) {
-    if (options.bounds) return *options.bounds;
+Box boundsOf(const FileGrid& grid, const AxisMap& map, const GridSource& source, const std::string& file) {
+    if (source.bounds) return *source.bounds;
     if (grid.low == grid.high)
         throw Error(Location{file, 0, 0, {}},
                     "this format does not say where the field lies: the scene needs \"bounds\"");
-    const glm::dvec3 a = map(grid.low * options.scale) + options.origin;
-    const glm::dvec3 b = map(grid.high * options.scale) + options.origin;
+    const glm::dvec3 a = map(grid.low * source.scale) + source.origin;
+    const glm::dvec3 b = map(grid.high * source.scale) + source.origin;
     const Box box{glm::min(a, b), glm::max(a, b)};
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(box.low[i]) < largest && std::abs(box.high[i]) < largest) ||
@@ -104,22 +95,22 @@ size_t countCells(const glm::dvec3& resolution, const Location& where) {
     return size_t(cells);
 }
 
-void addFrame(GridField& field, FileGrid&& grid, const FieldOptions& options, const std::string& file) {
-    const AxisMap map = axisMap(options.axes);
+void addFrame(GridField& field, FileGrid&& grid, const std::string& file) {
+    const GridSource& source = field.source;
+    const AxisMap map = axisMap(source.axes);
     const glm::ivec3 size(grid.resolution[map.source.x], grid.resolution[map.source.y],
                           grid.resolution[map.source.z]);
-    const Box box = boundsOf(grid, map, options, file);
+    const Box box = boundsOf(grid, map, source, file);
     const bool first = field.values.empty();
     if (first) {
         field.file = file;
         field.resolution = size;
         field.low = box.low;
         field.high = box.high;
-        field.wrap = options.wrap;
     } else {
         checkSame(field, size, box, file);
     }
-    const double scale = options.velocityScale.value_or(options.scale);
+    const double scale = source.velocityScale.value_or(source.scale);
     const size_t before = field.values.size();
     field.values.resize(before + grid.values.size());
     glm::vec3* out = field.values.data() + before;
@@ -139,36 +130,20 @@ void addFrame(GridField& field, FileGrid&& grid, const FieldOptions& options, co
             }
 }
 
-void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndian, std::span<float> out) {
-    const size_t size = bytesOf(type);
-    if (type == NumberType::float32 && bigEndian == (std::endian::native == std::endian::big)) {
-        std::memcpy(out.data(), bytes.data(), out.size_bytes());
-        return;
-    }
-    for (size_t i = 0; i < out.size(); ++i) {
-        uint64_t bits = 0;
-        for (size_t b = 0; b < size; ++b)
-            bits |= uint64_t(bytes[i * size + (bigEndian ? size - 1 - b : b)]) << (8 * b);
-        if (type == NumberType::float16)
-            out[i] = glm::unpackHalf1x16(uint16_t(bits));
-        else if (type == NumberType::float32)
-            out[i] = std::bit_cast<float>(uint32_t(bits));
-        else
-            out[i] = float(std::bit_cast<double>(bits));
-    }
-}
-
 const std::vector<std::string>& fieldFileEndings() {
     static const std::vector<std::string> endings = {".fga", ".vf", ".vti", ".raw"};
     return endings;
 }
 
-FileGrid readFieldFile(const std::string& file, const FieldOptions& options, const std::string& layout) {
+FileGrid readFieldFile(const std::string& file, const GridSource& source, const std::string& layout) {
     const std::string ending = lowerExtension(file);
-    if (ending == ".vf") return readVf(file);
-    if (ending == ".vti") return readVti(file, options.array);
-    if (ending == ".raw") return readRaw(file, readRawLayout(layout));
-    return readFga(file);
+    if (ending == ".raw") {
+        const RawLayout lie = parseRawLayout(readFile(layout), layout);
+        return parseRaw(readFile(file), lie, file);
+    }
+    const std::string bytes = readFile(file);
+    if (ending == ".vf") return parseVf(bytes, file);
+    return ending == ".vti" ? parseVti(bytes, file, source.array) : parseFga(bytes, file);
 }
 
 }  // namespace shoal

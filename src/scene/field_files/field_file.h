@@ -1,39 +1,27 @@
-// Grids of velocities from files of other programs: what all formats share.
+// Grids of velocities from files of other programs: the formats (a source each, read_*.cpp), what they share,
+// and numbered files (file_sequence.cpp).
 //
 //   a file  ->  FileGrid (its own axes and units)  ->  addFrame: GridField (the scene's)
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "core/error.h"
-#include "scene/field.h"
+#include "scene/field_files/numbers.h"
+#include "scene/field_kinds.h"
 
 namespace shoal {
 
+class Description;
+class Where;
+
 // A field holds at most this many cells, those of all frames together.
 inline constexpr long long maxFieldCells = 1ll << 24;
-
-// The axes that the file was written in, and how they become the scene's (right-handed, +Y up).
-enum class FieldAxes {
-    yUp,     // as they are
-    zUp,     // right-handed, +Z up: (x, y, z) -> (x, z, -y)
-    unreal,  // left-handed, +Z up: (x, y, z) -> (x, z, y)
-    unity,   // left-handed, +Y up: (x, y, z) -> (x, y, -z)
-};
-
-struct FieldOptions {
-    FieldAxes axes = FieldAxes::yUp;
-    double scale = 1;                          // m per unit of the file, for bounds and velocities
-    std::optional<double> velocityScale = {};  // m/s per unit of the file, instead of `scale`
-    glm::dvec3 origin{0};                      // m, added to the bounds in the scene's axes
-    std::optional<Box> bounds = {};            // m, in the scene's axes, instead of the file's
-    bool wrap = false;
-    std::string array = {};  // .vti: the name of the data array; empty: the one that there is
-};
 
 // Holds the contents of a file, in its own axes and units.
 struct FileGrid {
@@ -45,27 +33,82 @@ struct FileGrid {
 // The number of cells. Error at `where`: a resolution below 1, or more cells than a field may have.
 size_t countCells(const glm::dvec3& resolution, const Location& where);
 
-// Turns the grid into the scene's axes and units and appends it to the field; the first decides resolution
-// and bounds. Error, located in the file: no bounds where `options` has none, bounds or velocities beyond
-// single precision, a value that is not a number, another resolution or place than the first frame's.
-void addFrame(GridField& field, FileGrid&& grid, const FieldOptions& options, const std::string& file);
-
-// Numbers as bytes.
-enum class NumberType { float16, float32, float64 };
-inline size_t bytesOf(NumberType type) {
-    return type == NumberType::float16 ? 2 : type == NumberType::float32 ? 4 : 8;
-}
-// `out[i]` from the i-th number; as many as `out` has, which the bytes must hold.
-void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndian, std::span<float> out);
+// Turns the grid into the scene's axes and units, by the field's source, and appends it to the field; the
+// first decides resolution and bounds. Error, located in the file: no bounds where the source has none,
+// bounds or velocities beyond single precision, a value that is not a number, another resolution or place
+// than the first frame's.
+void addFrame(GridField& field, FileGrid&& grid, const std::string& file);
 
 // As floats, three a cell.
 inline std::span<float> asFloats(std::vector<glm::vec3>& values) {
     return {values.empty() ? nullptr : &values[0].x, 3 * values.size()};
 }
 
+// Vector fields as .fga text (Unreal, PopcornFX): comma-separated numbers, namely the resolution x, y, z,
+// the bounds' low x, y, z and high x, y, z, then one velocity x, y, z per cell, x fastest, then y, then z.
+//
+// Errors name line and column: something that is not a finite number, a resolution that is not a positive
+// whole number or too large, low bounds that are not below the high ones, a wrong count.
+FileGrid parseFga(const std::string& text, const std::string& file);
+
+// Vector fields as .vf (Unity's Visual Effect Graph; the format is described at
+// github.com/peeweek/VectorFieldFile): "VF_V", the resolution as three 16-bit numbers, then x, y, z of each
+// cell as 32-bit floats, x fastest, then y, then z; all little-endian. The file does not say where the field
+// lies.
+//
+// Error: not this format, "VF_F" (numbers that are not vectors), a resolution of 0 or too large, more or
+// fewer bytes than that takes.
+FileGrid parseVf(const std::string& bytes, const std::string& file);
+
+// Vector fields as .vti (VTK's ImageData as XML; "VTK File Formats", section "XML File Formats"): one array
+// of three components, of points or of cells, as text, as base64 within the file, or appended as base64 or
+// raw; little- or big-endian, lengths of 32 or 64 bits, as they are or compressed by zlib.
+//
+// Points become the centres of cells, so that the field reaches half a cell beyond them; cells stay cells.
+//
+// `array`: its name; empty: the active vectors, or the only array of three components.
+// Error, located: not XML, not one whole ImageData, no such array, several and none chosen, another number of
+// components or kind of number, a compression other than zlib's, fewer or more data than the extent takes, an
+// extent that is empty or too large, a spacing of 0, a direction that is not along the axes.
+FileGrid parseVti(const std::string& text, const std::string& file, const std::string& array = {});
+
+// Vector fields as raw numbers, with a JSON file that says how they lie ("shoal-field-1", docs/exchange.md).
+struct RawLayout {
+    glm::ivec3 resolution{0};
+    std::optional<Box> bounds;
+    NumberType encoding = NumberType::float32;
+    bool bigEndian = false;
+    bool planar = false;    // all x, then all y, then all z; else x, y, z of each cell
+    bool zFastest = false;  // cells: z fastest, then y, then x
+    int skip = 0;           // bytes before the first number
+};
+
+const Description& describe(const RawLayout*);
+
+// Error, located: not JSON, a key missing or not known, a resolution below 1 or too large.
+RawLayout parseRawLayout(const std::string& text, const std::string& file);
+
+// Error: more or fewer bytes than the layout takes.
+FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::string& file);
+
 // Any of the formats by the name's ending (.fga, .vf, .vti, .raw); `layout`: of .raw, the file that describes
 // it. Error, located: no such file, an ending that is none of these, and what each format refuses.
-FileGrid readFieldFile(const std::string& file, const FieldOptions& options, const std::string& layout = {});
+FileGrid readFieldFile(const std::string& file, const GridSource& source, const std::string& layout = {});
 const std::vector<std::string>& fieldFileEndings();
+
+// Numbered files: "wind-####.vti" with first, last and step stands for wind-0000.vti, wind-0001.vti, ...
+// The files of a source, with their times (s; none of a single file). Error, located: no such file, a number
+// missing in between, a pattern without "sequence" or the other way round, fewer than two files, times that
+// do not rise or are not one a file.
+struct TimedFiles {
+    std::vector<std::string> files;
+    std::vector<double> times;
+};
+TimedFiles filesOf(const GridSource& source, const Where& where);
+
+// The files that are there of a name with # for the number, in its order; none where it is no such name.
+std::vector<std::string> numberedFiles(const std::filesystem::path& path);
+// Error: a frame that does not come after the one before.
+void checkTimes(double before, double time, const Location& where);
 
 }  // namespace shoal

@@ -1,4 +1,4 @@
-#include "scene/field_files/file_sequence.h"
+#include "scene/field_files/field_file.h"
 
 #include <algorithm>
 #include <charconv>
@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "core/error.h"
-#include "core/sandbox.h"
+#include "core/file.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
@@ -72,74 +72,60 @@ void checkTimes(double before, double time, const Location& where) {
 
 namespace {
 
-std::vector<double> timesOf(JsonReader& r, size_t count) {
-    std::vector<double> times;
-    if (r.has("times")) {
-        r.get("times", times);
-        if (times.size() != count)
-            throw Error(r.at("times"),
-                        concat("expected ", count, " times, one a file, found ", times.size()));
-        for (size_t i = 1; i < count; ++i)
-            checkTimes(times[i - 1], times[i], r.at("times"));
-        return times;
-    }
-    double frameRate = 0, start = 0;
-    r.need("frameRate", frameRate, aboveZero());
-    r.get("start", start);
+std::vector<double> timesOf(const FileSequence& sequence, size_t count, const Where& where) {
+    std::vector<double> times = sequence.times;
+    if (where.given("times") && times.size() != count)
+        throw Error(where.at("times"),
+                    concat("expected ", count, " times, one a file, found ", times.size()));
+    for (size_t i = 1; i < times.size(); ++i)
+        checkTimes(times[i - 1], times[i], where.at("times"));
+    if (!times.empty()) return times;
+    where.require("frameRate");
     for (size_t i = 0; i < count; ++i)
-        times.push_back(start + double(i) / frameRate);
+        times.push_back(sequence.start + double(i) / *sequence.frameRate);
     return times;
+}
+
+std::vector<std::string> oneFile(const GridSource& source, const Where& where) {
+    std::error_code code;
+    if (source.file.find('#') != std::string::npos &&
+        !fs::exists(fs::path(where.here().file).parent_path() / source.file, code))
+        throw Error(where.at("file"), "numbered files need \"sequence\", with their \"frameRate\" at least");
+    return {needFile(where, "file", source.file)};
 }
 
 }  // namespace
 
-FileSequence readFileSequence(JsonReader& reader) {
-    FileSequence out;
-    auto r = reader.object("sequence");
-    if (!r) {
-        std::string written;
-        reader.need("file", written);
-        std::error_code code;
-        if (written.find('#') != std::string::npos &&
-            !fs::exists(fs::path(reader.file()).parent_path() / written, code))
-            throw Error(reader.at("file"),
-                        "numbered files need \"sequence\", with their \"frameRate\" at least");
-        out.files = {needFile(reader, "file")};
-        return out;
-    }
-    std::string written;
-    reader.need("file", written);
-    const std::optional<Pattern> found =
-        patternOf((fs::path(reader.file()).parent_path() / written).lexically_normal());
-    if (!found)
-        throw Error(reader.at("file"), "expected one run of # in the file's name, in place of the number");
-    const Pattern& pattern = *found;
-    int first = 0, last = 0, step = 1;
-    if (!r->has("first") || !r->has("last")) {
-        const std::vector<int> numbers = numbersIn(pattern);
+TimedFiles filesOf(const GridSource& source, const Where& where) {
+    if (!source.sequence) return {oneFile(source, where), {}};
+    const FileSequence& sequence = *source.sequence;
+    const Where inner = where.in("sequence");
+    const std::optional<Pattern> pattern =
+        patternOf((fs::path(where.here().file).parent_path() / source.file).lexically_normal());
+    if (!pattern)
+        throw Error(where.at("file"), "expected one run of # in the file's name, in place of the number");
+    std::vector<int> numbers;
+    if (!sequence.first || !sequence.last) {
+        numbers = numbersIn(*pattern);
         if (numbers.empty())
-            throw Error(reader.at("file"), "no such files: " + pattern.file(0) + " and so on");
-        first = numbers.front();
-        last = numbers.back();
+            throw Error(where.at("file"), "no such files: " + pattern->file(0) + " and so on");
     }
-    r->get("first", first, Range::atLeast(0));
-    r->get("last", last, Range::atLeast(0));
-    r->get("step", step, Range::atLeast(1));
+    const int first = sequence.first ? *sequence.first : numbers.front(),
+              last = sequence.last ? *sequence.last : numbers.back(), step = sequence.step;
     if (last <= first || (last - first) % step != 0 || (last - first) / step >= mostFiles)
-        throw Error(r->has("last") ? r->at("last") : r->here(),
+        throw Error(inner.given("last") ? inner.at("last") : inner.here(),
                     concat("expected 2 to ", mostFiles, " files from first to last, found numbers from ",
                            first, " to ", last, " in steps of ", step));
+    TimedFiles out;
     for (int number = first; number <= last; number += step) {
-        out.files.push_back(pattern.file(number));
+        out.files.push_back(pattern->file(number));
         std::error_code code;
         if (!fs::is_regular_file(out.files.back(), code))
-            throw Error(reader.at("file"),
+            throw Error(where.at("file"),
                         concat("no such file: ", out.files.back(), ", of the numbers ", first, " to ", last));
         if (number > last - step) break;  // the next might overflow
     }
-    out.times = timesOf(*r, out.files.size());
-    r->get("repeats", out.repeats);
-    r->finish();
+    out.times = timesOf(sequence, out.files.size(), inner);
     return out;
 }
 

@@ -1,10 +1,6 @@
-#include "scene/field_files/read_fga.h"
+#include "scene/field_files/field_file.h"
 
 #include <cmath>
-
-#include "core/error.h"
-#include "core/file.h"
-#include "scene/field_files/number_scanner.h"
 
 namespace shoal {
 
@@ -69,10 +65,6 @@ FileGrid parseFga(const std::string& text, const std::string& file) {
         throw Error(where, concat("expected ", expected, " values, found ", found));
     }
     return grid;
-}
-
-FileGrid readFga(const std::string& file) {
-    return parseFga(readFile(file), file);
 }
 
 }  // namespace shoal

@@ -1,8 +1,8 @@
-#include "scene/field_files/read_raw.h"
+#include "scene/field_files/field_file.h"
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "core/file.h"
-#include "core/file_format.h"
+#include "core/where.h"
 
 namespace shoal {
 
@@ -13,10 +13,7 @@ const Description& describe(const RawLayout*) {
     };
     static const Description it =
         Describe<R>("layout", "How the numbers of a .raw vector field lie.")
-            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
-            .told("format", R"({"const": "shoal-field-1"})",
-                  {"`\"shoal-field-1\"`", "The format of the file and its version."})
-            .needed()
+            .format("shoal-field-1")
             .key("resolution", &R::resolution,
                  {"", "The number of cells along x, y and z, at most 2^24 in all."})
             .needed()
@@ -37,17 +34,9 @@ const Description& describe(const RawLayout*) {
 }
 
 RawLayout parseRawLayout(const std::string& text, const std::string& file) {
-    const JsonValue root = parseJson(text, file);
-    JsonReader r(root, file);
-    needFormat(r, "shoal-field-1");
     RawLayout layout;
-    describe(&layout).read(r, layout);
-    r.finish();
+    describe(&layout).readFile(parseJson(text, file), file, layout);
     return layout;
-}
-
-RawLayout readRawLayout(const std::string& file) {
-    return parseRawLayout(readFile(file), file);
 }
 
 FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::string& file) {
@@ -79,10 +68,6 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
             grid.values[cell][int(k)] = layout.planar ? plain[k * cells + i] : plain[3 * i + k];
     }
     return grid;
-}
-
-FileGrid readRaw(const std::string& file, const RawLayout& layout) {
-    return parseRaw(readFile(file), layout, file);
 }
 
 }  // namespace shoal

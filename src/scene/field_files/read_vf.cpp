@@ -1,7 +1,4 @@
-#include "scene/field_files/read_vf.h"
-
-#include "core/error.h"
-#include "core/file.h"
+#include "scene/field_files/field_file.h"
 
 namespace shoal {
 
@@ -27,10 +24,6 @@ FileGrid parseVf(const std::string& bytes, const std::string& file) {
     takeNumbers(std::as_bytes(std::span(bytes).subspan(headerBytes)), NumberType::float32, false,
                 asFloats(grid.values));
     return grid;
-}
-
-FileGrid readVf(const std::string& file) {
-    return parseVf(readFile(file), file);
 }
 
 }  // namespace shoal

@@ -1,15 +1,10 @@
-#include "scene/field_files/read_vti.h"
+#include "scene/field_files/field_file.h"
 
 #include <array>
 #include <cmath>
 #include <cstring>
 
 #include <pugixml.hpp>
-
-#include "core/error.h"
-#include "core/file.h"
-#include "scene/field_files/number_scanner.h"
-#include "scene/field_files/vtk_data.h"
 
 namespace shoal {
 
@@ -295,10 +290,6 @@ class Reader {
 
 FileGrid parseVti(const std::string& text, const std::string& file, const std::string& array) {
     return Reader(text, file).grid(array);
-}
-
-FileGrid readVti(const std::string& file, const std::string& array) {
-    return parseVti(readFile(file), file, array);
 }
 
 }  // namespace shoal

@@ -1,4 +1,4 @@
-#include "scene/field_files/vtk_data.h"
+#include "scene/field_files/numbers.h"
 
 #include <algorithm>
 #include <array>

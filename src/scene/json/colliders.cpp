@@ -3,8 +3,8 @@
 #include <cmath>
 #include <span>
 
-#include "core/description.h"
-#include "geometry/distance_field_cache.h"
+#include "core/describe.h"
+#include "geometry/distance_field.h"
 #include "scene/height_field.h"
 #include "scene/json/reader.h"
 
@@ -19,69 +19,58 @@ void checkRectangle(const glm::dvec2& low, const glm::dvec2& high, const Where& 
                                                  ", found ", high[i], " against ", low[i]));
 }
 
-HeightFieldCollider readImageHeights(JsonReader& r) {
-    const std::string file = needFile(r, "image");
-    glm::dvec2 low(0), high(0), heights(0);
-    r.need("low", low);
-    r.need("high", high);
-    r.need("heights", heights);
-    checkRectangle(low, high, r);
+HeightFieldCollider heightsOfImage(const HeightSource& source, const Where& where) {
+    const std::string file = needFile(where, "image", source.image);
+    checkRectangle(source.low, source.high, where);
     const HeightImage image = readHeightPng(file);
     if (image.width < 2 || image.height < 2)
         throw Error(Location{file, 0, 0, {}}, concat("expected an image of at least 2 by 2 pixels, found ",
                                                      image.width, " by ", image.height));
-    return heightFieldFromImage(image, low, high, heights);
+    return heightFieldFromImage(image, source.low, source.high, source.heights);
 }
 
-HeightFieldCollider readModelHeights(JsonReader& r, const std::vector<Model>& models,
-                                     std::vector<Warning>& warnings) {
-    const Model& model = models[size_t(needModel(r, "model", models))];
-    int resolution = 257;
-    r.get("resolution", resolution, Range::between(2, 4096));
+HeightFieldCollider heightsOfModel(const HeightSource& source, const Where& where,
+                                   const SceneReading& reading) {
+    const Model& model = reading.models[size_t(needModel(where, "model", source.model, reading.models))];
+    const int resolution = source.resolution;
     const Mesh& mesh = model.mesh;
     if (!(mesh.low.x < mesh.high.x && mesh.low.z < mesh.high.z))
-        throw Error(r.at("model"), "expected a model that covers an area in x and z, found one seen edge-on");
+        throw Error(where.at("model"),
+                    "expected a model that covers an area in x and z, found one seen edge-on");
     int missed = 0;
     HeightFieldCollider heights = heightFieldFromMesh(mesh, resolution, resolution, &missed);
     if (missed > 0)
-        warnings.push_back({r.at("model"), concat(missed, " of ", resolution * resolution,
-                                                  " height samples have no surface of model \"", model.name,
-                                                  "\" beneath; they take its lowest height")});
+        reading.warnings.push_back(
+            {where.at("model"),
+             concat(missed, " of ", resolution * resolution, " height samples have no surface of model \"",
+                    model.name, "\" beneath; they take its lowest height")});
     return heights;
 }
 
-// All keys of a height field.
-void readHeightField(JsonReader& r, HeightFieldCollider& heights, SceneReading* reading) {
-    if (r.has("image") == r.has("model"))
-        throw Error(r.here(), "expected either \"image\" or \"model\" for a height field");
-    heights = r.has("image") ? readImageHeights(r) : readModelHeights(r, reading->models, reading->warnings);
-    int normals = 0;
-    r.choose("normals", {"stored", "sampled"}, normals);
-    heights.sampledNormals = normals == 1;
+void load(HeightFieldCollider& out, const Where& where, SceneReading& reading) {
+    if (where.given("image") == where.given("model"))
+        throw Error(where.here(), "expected either \"image\" or \"model\" for a height field");
+    HeightFieldCollider heights =
+        where.given("image") ? heightsOfImage(out.source, where) : heightsOfModel(out.source, where, reading);
+    heights.source = out.source;
+    heights.sampledNormals = out.sampledNormals;
+    out = std::move(heights);
 }
 
-// All keys of a distance field.
-void readDistanceField(JsonReader& r, DistanceFieldCollider& out, SceneReading* reading) {
-    const Model& model = reading->models[size_t(needModel(r, "model", reading->models))];
-    out.model = model.name;
+void load(DistanceFieldCollider& out, const Where& where, SceneReading& reading) {
+    const Model& model = reading.models[size_t(needModel(where, "model", out.model, reading.models))];
     FieldRequest& request = out.request;
-    request.thickness = Collider().thickness;
-    r.get("thickness", request.thickness, Range::atLeast(0));
-    if (r.has("resolution") && r.has("error"))
-        throw Error(r.at("error"), "expected either \"resolution\" or \"error\", found both");
-    int resolution = 0;
-    if (r.get("resolution", resolution, Range::between(leastResolution, mostResolution)))
-        request.resolution = resolution;
-    getOptional(r, "error", request.error, aboveZero());
-    getOptional(r, "shell", request.shell, aboveZero());
+    request.thickness = where.number("thickness", Collider().thickness);  // a key of every collider
+    if (request.resolution && request.error)
+        throw Error(where.at("error"), "expected either \"resolution\" or \"error\", found both");
     try {
-        out.field = distanceFieldOf(model.mesh, request, reading->baking, reading->warnings);
+        out.field = distanceFieldOf(model.mesh, request, reading.baking, reading.warnings);
     } catch (const Error& error) {
         const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
-        throw Error(r.at(key), concat("model \"", model.name, "\": ", error.message()));
+        throw Error(where.at(key), concat("model \"", model.name, "\": ", error.message()));
     }
     for (const std::string& warning : fieldWarnings(out.field, request))
-        reading->warnings.push_back({r.at("model"), concat("model \"", model.name, "\" ", warning)});
+        reading.warnings.push_back({where.at("model"), concat("model \"", model.name, "\" ", warning)});
 }
 
 void checkHeights(const HeightFieldCollider& field, const Where& where) {
@@ -111,55 +100,68 @@ void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
 
 }  // namespace
 
-const Description& describe(const HeightFieldCollider*) {
-    static const char* const number = R"({"type": "integer", "minimum": 2, "maximum": 4096, "default": 257})";
-    static const char* const pair = R"({"$ref": "#/$defs/vector2"})";
+static const Description& describe(const HeightSource*) {
+    using H = HeightSource;
+    const std::string image = "is of an image", model = "is of a model";
     static const Description it =
-        Describe<HeightFieldCollider>("heightField", "Heights over a rectangle in x and z, solid below.")
-            .byHand<SceneReading>(
-                "image", R"({"type": "string", "minLength": 1})",
-                {"the name of a grey PNG",
-                 "The heights, of 8 or 16 bits; the left column is the lowest x, the top row the lowest z."},
-                readHeightField)
-            .told("low", pair, {"two numbers, m", "The x and z of the first sample, with `image`."})
-            .told("high", pair, {"two numbers, m", "The x and z of the last sample, with `image`."})
-            .told("heights", pair, {"two numbers, m", "The heights of black and of white, with `image`."})
-            .told("model", R"({"type": "string"})",
-                  {"the name of a model",
-                   "The model whose highest surface counts, over its bounding box; samples without a surface "
-                   "take its "
-                   "lowest height."})
-            .told("resolution", number,
-                  {"whole number from 2 to 4096", "The number of samples along x and along z, with `model`."})
-            .told("normals", R"({"enum": ["stored", "sampled"], "default": "stored"})",
-                  {"`\"stored\"`, `\"sampled\"`",
-                   "Whether normals are kept beside the heights, or taken from three samples."})
-            .rule(checkHeights, R"({"oneOf": [
-                      {"required": ["image", "low", "high", "heights"],
-                       "not": {"anyOf": [{"required": ["model"]}, {"required": ["resolution"]}]}},
-                      {"required": ["model"],
-                       "not": {"anyOf": [{"required": ["image"]}, {"required": ["low"]}, {"required": ["high"]},
-                                         {"required": ["heights"]}]}}]})");
+        Describe<H>("source", "Where heights come from.")
+            .key("image", &H::image,
+                 {"the name of a grey PNG",
+                  "The heights, of 8 or 16 bits; the left column is the lowest x, the top row the lowest z."})
+            .key("low", &H::low, {"m", "The x and z of the first sample."})
+            .needed()
+            .only("image", {}, image)
+            .key("high", &H::high, {"m", "The x and z of the last sample."})
+            .needed()
+            .only("image", {}, image)
+            .key("heights", &H::heights, {"m", "The heights of black and of white."})
+            .needed()
+            .only("image", {}, image)
+            .key("model", &H::model,
+                 {"the name of a model",
+                  "The model whose highest surface counts, over its bounding box; samples without a surface "
+                  "take its lowest height."})
+            .key("resolution", &H::resolution,
+                 {"", "The number of samples along x and along z.", Range::between(2, 4096)})
+            .only("model", {}, model);
+    return it;
+}
+
+const Description& describe(const HeightFieldCollider*) {
+    using H = HeightFieldCollider;
+    static const Description it =
+        Describe<H>("heightField", "Heights over a rectangle in x and z, solid below.")
+            .keysOf(&H::source)
+            .word("normals", &H::sampledNormals, {"stored", "sampled"},
+                  {"", "Whether normals are kept beside the heights, or taken from three samples."})
+            .derive<SceneReading>(load)
+            .rule(checkHeights, R"({"oneOf": [{"required": ["image"]}, {"required": ["model"]}]})");
+    return it;
+}
+
+static const Description& describe(const FieldRequest*) {
+    using R = FieldRequest;
+    static const Description it =
+        Describe<R>("request", "How fine a distance field is.")
+            .key("resolution", &R::resolution,
+                 {"", "The number of cells along the model's longest side.",
+                  Range::between(leastResolution, mostResolution)})
+            .usually(concat(defaultResolution, " without `error`"))
+            .key("error", &R::error,
+                 {"m", "The grid is refined until no probe near the surface is off by more.", aboveZero()})
+            .key("shell", &R::shell, {"m", "The thickness of a model that is not closed.", aboveZero()})
+            .usually("two cells");
     return it;
 }
 
 const Description& describe(const DistanceFieldCollider*) {
-    static const char* const length = R"({"type": "number", "minimum": 1e-9})";
+    using D = DistanceFieldCollider;
     static const Description it =
-        Describe<DistanceFieldCollider>("distanceField",
-                                        "The surface of a model, by signed distances on a grid.")
-            .byHand<SceneReading>("model", R"({"type": "string", "minLength": 1})",
-                                  {"the name of a model", "The model."}, readDistanceField)
+        Describe<D>("distanceField", "The surface of a model, by signed distances on a grid.")
+            .key("model", &D::model, {"the name of a model", "The model."})
             .needed()
-            .told(
-                "resolution", R"({"type": "integer", "minimum": 4, "maximum": 2048})",
-                {"whole number from 4 to 2048",
-                 "The number of cells along the model's longest side; 96 without `resolution` and `error`."})
-            .told(
-                "error", length,
-                {"number above 0, m", "The grid is refined until no probe near the surface is off by more."})
-            .told("shell", length,
-                  {"number above 0, m", "The thickness of a model that is not closed; two cells without it."})
+            .keysOf(&D::request)
+            .derive<SceneReading>(load)
             .rule(checkDistances, R"({"not": {"required": ["resolution", "error"]}})");
     return it;
 }

@@ -1,9 +1,10 @@
 // "groups": which molecules or particles, how many, where they sit, and what happens to them.
 #include <algorithm>
 
-#include "core/description.h"
+#include "core/describe.h"
+#include "core/description_schema.h"
 #include "molecule/molecule_file.h"
-#include "molecule/rules.h"
+#include "molecule/molecule_json.h"
 #include "scene/json/reader.h"
 #include "scene/selection.h"
 
@@ -63,12 +64,10 @@ void readDrag(JsonReader& r, Group& group, void*) {
     group.drag.tangent = group.drag.normal;
 }
 
-constexpr const char* dragSchema = R"({"anyOf": [
-    {"type": "number", "minimum": 0},
-    {"type": "object", "additionalProperties": false, "required": ["normal", "tangent"], "properties": {
-        "comment": {"$ref": "#/$defs/comment"},
-        "normal": {"type": "number", "minimum": 0}, "tangent": {"type": "number", "minimum": 0}}}],
-    "default": 0})";
+std::string dragSchema() {
+    return concat(R"({"anyOf": [{"type": "number", "minimum": 0}, )",
+                  writeJson(schemaOf(describe(static_cast<const Drag*>(nullptr)))), R"(], "default": 0})");
+}
 
 // ---- Life
 
@@ -177,7 +176,9 @@ void checkGroup(const Group& group, const Where& where) {
                 throw Error(where.at(key), concat("\"", key, "\" has no effect beside \"colorBy\""));
 }
 
-const Description& describeGroup() {
+}  // namespace
+
+const Description& describe(const Group*) {
     using G = Group;
     static const auto readMoleculeOf = [](JsonReader& r, G& group, void*) {
         if (r.has("molecule") && !r.has("particle")) group.molecule = readMolecule(needFile(r, "molecule"));
@@ -203,7 +204,7 @@ const Description& describeGroup() {
                                               "What molecules or particles of the group are born from.")
             .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
-            .byHand("drag", dragSchema,
+            .byHand("drag", dragSchema(),
                     {"number of at least 0, 1/s; or an object",
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)
@@ -247,6 +248,8 @@ const Description& describeGroup() {
 }
 
 // ---- What only the whole scene can tell
+
+namespace {
 
 void checkModelIndex(int model, const std::vector<Model>& models, const Location& where) {
     if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
@@ -317,10 +320,6 @@ void checkDeaths(const std::vector<Group>& groups) {
 }
 
 }  // namespace
-
-const Description& describe(const Group*) {
-    return describeGroup();
-}
 
 void deriveLife(Group& group, const Where& where) {
     if (!group.life) return;

@@ -1,8 +1,8 @@
 // "models": meshes that stand still.
 #include <cmath>
 
-#include "core/description.h"
-#include "geometry/load_model.h"
+#include "core/describe.h"
+#include "geometry/mesh.h"
 #include "scene/json/reader.h"
 
 namespace shoal {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "core/sandbox.h"
+#include "core/file.h"
 
 namespace shoal {
 
@@ -20,40 +20,42 @@ void refuseHugeNumbers(const JsonValue& value, const std::string& file, const st
         if (key != "seed" && key != "count") refuseHugeNumbers(member, file, path + "." + key);
 }
 
-std::string needFile(JsonReader& reader, const std::string& key) {
-    std::string written;
-    reader.need(key, written);
-    if (written.empty()) throw Error(reader.at(key), "expected the name of a file, found an empty string");
+std::string needFile(const Where& where, const std::string& key, const std::string& written) {
+    const Location at = where.at(key);
+    if (written.empty()) throw Error(at, "expected the name of a file, found an empty string");
     if (written.find('\0') != std::string::npos)
-        throw Error(reader.at(key), "expected the name of a file, found a null character in it");
-    const fs::path path = (fs::path(reader.file()).parent_path() / written).lexically_normal();
+        throw Error(at, "expected the name of a file, found a null character in it");
+    const fs::path path = (fs::path(at.file).parent_path() / written).lexically_normal();
     std::error_code code;
-    if (!mayOpen(path)) throw Error(reader.at(key), concat("\"", written, "\" ", outsideSandbox));
-    if (!fs::exists(path, code)) throw Error(reader.at(key), "no such file: " + path.string());
-    if (fs::is_directory(path, code))
-        throw Error(reader.at(key), "expected a file, found a folder: " + path.string());
+    if (!mayOpen(path)) throw Error(at, concat("\"", written, "\" ", outsideSandbox));
+    if (!fs::exists(path, code)) throw Error(at, "no such file: " + path.string());
+    if (fs::is_directory(path, code)) throw Error(at, "expected a file, found a folder: " + path.string());
     return path.string();
 }
 
-int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models) {
-    std::string name;
-    reader.need(key, name);
+std::string needFile(JsonReader& reader, const std::string& key) {
+    std::string written;
+    reader.need(key, written);
+    return needFile(Where(reader), key, written);
+}
+
+int needModel(const Where& where, const std::string& key, const std::string& name,
+              const std::vector<Model>& models) {
     std::vector<std::string> names;
     for (const Model& model : models)
         names.push_back(model.name);
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end()) {
         const std::string hint = names.empty() ? " (the scene has no models)" : suggestion(name, names);
-        throw Error(reader.at(key), "no model is named \"" + name + "\"" + hint);
+        throw Error(where.at(key), "no model is named \"" + name + "\"" + hint);
     }
     return static_cast<int>(found - names.begin());
 }
 
-bool getOptional(JsonReader& reader, const std::string& key, std::optional<double>& out, Range range) {
-    double value = 0;
-    if (!reader.get(key, value, range)) return false;
-    out = value;
-    return true;
+int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models) {
+    std::string name;
+    reader.need(key, name);
+    return needModel(Where(reader), key, name, models);
 }
 
 void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name) {

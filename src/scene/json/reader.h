@@ -5,15 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "core/description.h"
 #include "core/json_values.h"
 #include "core/where.h"
-#include "geometry/distance_field_cache.h"
+#include "geometry/distance_field.h"
 #include "scene/scene.h"
 
 namespace shoal {
-
-// The GPU computes in single precision: squares of larger numbers would overflow there.
-constexpr double largestNumber = 1e15;
 
 // Refuses numbers beyond largestNumber anywhere in the file, seeds and counts apart.
 void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path = "$");
@@ -38,12 +36,12 @@ std::vector<Warning> warningsOf(const Group& group, const Where& where);
 // A key that names a file: its path, relative to the folder of the file that names it.
 // Error at the key: absent, empty, or no such file.
 std::string needFile(JsonReader& reader, const std::string& key);
+std::string needFile(const Where& where, const std::string& key, const std::string& written);
 
 // A key that names a model: its index.
 int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models);
-
-// An optional number that keeps apart "absent" and any value.
-bool getOptional(JsonReader& reader, const std::string& key, std::optional<double>& out, Range range);
+int needModel(const Where& where, const std::string& key, const std::string& name,
+              const std::vector<Model>& models);
 
 // Refuses a name that an earlier element already has. An element's own name may be empty.
 void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "core/description.h"
+#include "core/describe.h"
 #include "core/file.h"
-#include "core/file_format.h"
 #include "core/json.h"
+#include "core/where.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
@@ -52,10 +52,7 @@ void checkParts(const Scene& scene, const Where& where) {
 const Description& describe(const Scene*) {
     static const Description it =
         Describe<Scene>("scene", "A scene: everything that a run needs. What is left out is not simulated.")
-            .told("$schema", R"({"type": "string"})", {"string", "The schema, for editors."})
-            .told("format", R"({"const": "shoal-scene-1"})",
-                  {"`\"shoal-scene-1\"`", "The format of the file and its version."})
-            .needed()
+            .format("shoal-scene-1")
             .key("name", &Scene::name, {"", "Its name."})
             .key("seed", &Scene::seed, {"", "The seed of places, colours, phases and release."})
             .key("frameRate", &Scene::frameRate,
@@ -82,18 +79,16 @@ const Description& describe(const Scene*) {
 
 Scene parseScene(const std::string& text, const std::string& file, const FieldBaking& baking) {
     const JsonValue root = parseJson(text, file);
-    JsonReader r(root, file);
-    needFormat(r, "shoal-scene-1");
     refuseHugeNumbers(root, file);
 
     Scene scene;
     scene.file = file;
-    r.get("comment", scene.comment);
     SceneReading reading{scene.models, baking, scene.warnings};
-    describe(&scene).read(r, scene, &reading);
-    r.finish();
+    describe(&scene).readFile(root, file, scene, &reading);
+    if (const JsonValue* comment = root.find("comment")) scene.comment = comment->text;
+    JsonReader whole(root, file);
     for (size_t g = 0; g < scene.groups.size(); ++g)
-        for (Warning& warning : warningsOf(scene.groups[g], Where(r).in("groups", g)))
+        for (Warning& warning : warningsOf(scene.groups[g], Where(whole).in("groups", g)))
             scene.warnings.push_back(std::move(warning));
     return scene;
 }

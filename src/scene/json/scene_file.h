@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/cache_folder.h"
-#include "geometry/distance_field_cache.h"
+#include "geometry/distance_field.h"
 #include "scene/scene.h"
 
 namespace shoal {

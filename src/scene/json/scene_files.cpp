@@ -6,8 +6,7 @@
 
 #include "core/file.h"
 #include "core/json.h"
-#include "core/sandbox.h"
-#include "scene/field_files/file_sequence.h"
+#include "scene/field_files/field_file.h"
 
 namespace shoal {
 

@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/many.h"
+#include "core/error.h"
 #include "window/edit_widgets.h"
-#include "window/editor/panels.h"
+#include "window/editor/editor.h"
 #include "window/interface.h"
 
 namespace shoal::window {

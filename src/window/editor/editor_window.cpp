@@ -11,8 +11,7 @@
 #include "core/file_watch.h"
 #include "core/printable.h"
 #include "molecule/molecule_file.h"
-#include "window/editor/panels.h"
-#include "window/editor/pointer.h"
+#include "window/editor/editor.h"
 #include "window/window_loop.h"
 
 namespace shoal::window {
@@ -185,8 +184,7 @@ class EditorWindow : public WindowLoop {
         const double lift = free > 0 ? panelArea().bottom / free * std::tan(out.fieldOfView / 2) *
                                            glm::length(out.eye - out.target)
                                      : 0;
-        const glm::dvec3 ahead = glm::normalize(out.target - out.eye),
-                         up = glm::cross(glm::normalize(glm::cross(ahead, out.up)), ahead);
+        const glm::dvec3 up = directionsOf(out)[1];
         out.eye += followed_ - up * lift;
         out.target += followed_ - up * lift;
         return out;

@@ -32,32 +32,6 @@ ImU32 rgb(float r, float g, float b, float opacity) {
 
 }  // namespace
 
-Projector::Projector(const View& view, ImVec2 size) : eye_(view.eye), size_(size) {
-    ahead_ = glm::normalize(view.target - view.eye);
-    right_ = glm::normalize(glm::cross(ahead_, view.up));
-    up_ = glm::cross(right_, ahead_);
-    tangent_ = std::tan(view.fieldOfView / 2);
-}
-
-double Projector::depth(const glm::dvec3& point) const {
-    return glm::dot(point - eye_, ahead_);
-}
-
-std::optional<ImVec2> Projector::place(const glm::dvec3& point) const {
-    const double deep = depth(point);
-    if (!(deep > 1e-6)) return std::nullopt;
-    const double half = size_.y / 2 / (deep * tangent_);
-    const glm::dvec3 arm = point - eye_;
-    return ImVec2(float(size_.x / 2 + glm::dot(arm, right_) * half),
-                  float(size_.y / 2 - glm::dot(arm, up_) * half));
-}
-
-glm::dvec3 Projector::onPlane(ImVec2 place, const glm::dvec3& point) const {
-    const double deep = std::max(depth(point), 1e-6), scale = deep * tangent_ / (size_.y / 2);
-    return eye_ + ahead_ * deep + right_ * ((place.x - size_.x / 2) * scale) -
-           up_ * ((place.y - size_.y / 2) * scale);
-}
-
 ImU32 strainColor(double share, float opacity) {
     const float t = float(std::clamp(share, -1.0, 1.0));
     const float s = std::abs(t);

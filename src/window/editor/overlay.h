@@ -9,25 +9,9 @@
 #include <imgui.h>
 
 #include "author/edit.h"
-#include "render/view.h"
+#include "window/orbit_camera.h"
 
 namespace shoal::window {
-
-// From the scene to places in the window and back. Places: in the interface's units, from the upper left.
-class Projector {
-  public:
-    Projector(const View& view, ImVec2 size);
-
-    std::optional<ImVec2> place(const glm::dvec3& point) const;  // nothing: behind the eye
-    double depth(const glm::dvec3& point) const;                 // m, from the eye
-    // Where the ray through a place meets the plane through `point` that faces the eye.
-    glm::dvec3 onPlane(ImVec2 place, const glm::dvec3& point) const;
-
-  private:
-    glm::dvec3 eye_, ahead_, right_, up_;
-    double tangent_;
-    ImVec2 size_;
-};
 
 // Settings of what is drawn over the picture, and the elements to highlight.
 struct EditorOverlay {

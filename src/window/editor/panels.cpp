@@ -1,4 +1,4 @@
-#include "window/editor/panels.h"
+#include "window/editor/editor.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -164,9 +164,11 @@ void drawSolver(StageSettings& s, const EditorStage& stage) {
     const std::string now = s.solver ? name(*s.solver) : concat("auto: ", name(stage.solver()));
     if (ImGui::BeginCombo("##solver", now.c_str())) {
         if (ImGui::Selectable("auto", !s.solver)) s.solver.reset();
-        for (const SolverKind kind : {SolverKind::euler, SolverKind::verlet, SolverKind::leapfrog,
-                                      SolverKind::rk4, SolverKind::xpbd, SolverKind::bdf2Xpbd})
-            if (ImGui::Selectable(name(kind), s.solver == kind)) s.solver = kind;
+        for (const Solver& one : solvers()) {
+            // Its matrix does not follow springs that are changed while it runs.
+            if (one.kind == SolverKind::bdf2Corotated) continue;
+            if (ImGui::Selectable(one.name, s.solver == one.kind)) s.solver = one.kind;
+        }
         ImGui::EndCombo();
     }
     tip(stage.solverWhy().c_str());

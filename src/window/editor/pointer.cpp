@@ -1,4 +1,4 @@
-#include "window/editor/pointer.h"
+#include "window/editor/editor.h"
 
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>

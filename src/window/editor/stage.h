@@ -9,7 +9,7 @@
 
 #include "core/image.h"
 #include "gpu/program_cache.h"
-#include "molecule/modes.h"
+#include "molecule/analysis.h"
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 

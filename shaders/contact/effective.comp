@@ -1,0 +1,32 @@
+// A lane a slot in contact: contact/effective.glsl.
+#include "contact/active.glsl"
+#include "contact/effective.glsl"
+
+#ifdef TRIANGLES
+layout(std430, binding = 0) writeonly buffer Normals { vec4 normals[]; };  // two a slot: contact/effective_sum.comp
+#else
+layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
+#endif
+#ifdef WALLS
+uniform samplerBuffer walls;  // by sphere: xyz normal, w distance
+#endif
+
+void main()
+{
+    int taken = activeSlot();
+    int slot = max(taken, 0);
+    Sphere own = sphereAt(slot);
+    NormalSum sum = normalsOf(slot, own, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
+#ifdef WALLS
+    vec4 wall = texelFetch(walls, sphereOf(slot));
+    if (wall.w < 1e20 && own.weight > 0.0) sum = withNormal(sum, wall.xyz);
+#endif
+    if (taken >= 0) {
+#ifdef TRIANGLES
+        normals[2 * slot] = vec4(sum.diagonal, 0.0);
+        normals[2 * slot + 1] = vec4(sum.beside, 0.0);
+#else
+        effectiveCounts[slot] = floatBitsToUint(largestEigenvalue(sum));
+#endif
+    }
+}

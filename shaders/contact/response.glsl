@@ -1,0 +1,50 @@
+// What a response reads of the spheres in contact.
+#include "contact/records.glsl"
+#include "contact/lists.glsl"
+#include "physics/pair.glsl"
+
+uniform FLOATS materials;  // x restitution, y friction, by group * groupCount + group
+uniform int groupCount;
+uniform float stepTime;    // s, of a contact step
+uniform float restSpeed;   // m/s
+
+struct Sphere {
+    vec3 place;     // m, local (physics/cells.glsl)
+    uint label;     // group * 2^26 + molecule
+    vec3 velocity;  // m/s, before the response
+    float weight;   // 1/kg, 0 where held
+    float radius;   // m
+};
+
+Sphere sphereAt(int slot)
+{
+    uvec4 place = fetch(places, slot);
+    uvec4 motion = fetch(motions, motionOf(slot));
+    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), uintBitsToFloat(motion.w),
+                  uintBitsToFloat(fetch(cells, slot).w));
+}
+
+// Seen from `a`; the same to the bit from either side. `side`: 1 for one of the two, -1 for the other.
+PairContact contactOf(Sphere a, Sphere b, float side)
+{
+    return pairContact(localDifference(a.place, b.place, cell), a.velocity - b.velocity, a.radius + b.radius, stepTime,
+                       restSpeed, side);
+}
+
+vec2 materialOf(Sphere a, Sphere b)
+{
+    return fetch(materials, int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
+}
+
+// Whether the list of a slot holds another: one that is full may not, and then neither takes the contact.
+bool holds(int slot, int other)
+{
+    int listed = int(fetch(counts, slot).x);
+    bool found = listed <= LIST;
+    int e = found ? LIST : 0;
+    while (e < LIST) {
+        found = found || entryOf(slot, e) == other;
+        ++e;
+    }
+    return found;
+}

@@ -1,0 +1,62 @@
+// The fused step: reads each molecule once, runs all substeps of the frame, writes it once. Needs fused/lane.glsl or
+// fused/group.glsl, and loadParameters() of src/simulate/fused_kernel.cpp.
+#include "fused/watch.glsl"
+#include "fused/normals.glsl"
+#include "physics/anchor.glsl"
+#ifdef LIFE
+#include "particles/age.glsl"
+#endif
+
+// The anchor follows the molecule by steps of its lattice, exactly.
+bool followAnchor()
+{
+    waitForGroup();
+    vec3 shift = anchorShift(x[0]);
+    for (int i = 0; i < VERTICES; ++i) {
+        x[i] -= shift;
+    }
+    anchor += shift;
+    return shift != vec3(0.0);
+}
+
+void main()
+{
+    int molecule = ownMolecule();
+    loadState(molecule);
+    loadParameters();
+    loadRecord(molecule);
+#ifdef STEERED
+    loadSteering(molecule);
+#endif
+    bool wasReleased = released;
+    bool moved = false;
+#ifdef RECORDS
+    moved = followAnchor();
+#endif
+    beginSolver();
+    sampleFrame();
+    run();
+    finishSolver();
+#ifdef LIFE
+    bool wasTaken = taken();
+    if (wasTaken) {
+        growOlder(molecule);
+    } else {
+        loadState(molecule);  // what has died stays as it was
+        moved = false;
+    }
+#endif
+    storeState(molecule);
+#ifdef WATCH
+#ifdef LIFE
+    if (wasTaken)
+#endif
+    watch();
+#endif
+#ifdef RECORDS
+    if (writesRecord() && (moved || released != wasReleased)) newRecords[molecule] = recordNow();
+#endif
+#ifdef NORMALS
+    writeNormals(molecule);
+#endif
+}

@@ -1,0 +1,230 @@
+// Spawns newborns, a lane each: its place, what its emitter gives it, and its flight from the moment of its birth to the
+// end of the frame, exact in a uniform field and of second order in the frame elsewhere. A molecule flies in its rest
+// shape, in which its springs have no force.
+//
+// Its place is LISTED, or one after another from `firstPlace`, around the capacity.
+#include "fused/store.glsl"
+
+#ifdef HISTORY
+vec3 dx[VERTICES];
+vec3 dv[VERTICES];
+#endif
+
+#include "generated/packing.glsl"
+#include "physics/anchor.glsl"
+#include "physics/random.glsl"
+#include "particles/control.glsl"
+#include "particles/emit.glsl"
+#include "state/samples.glsl"
+
+#ifdef LISTED
+layout(std430, binding = 3) readonly buffer Places { uint places[]; };
+#else
+uniform int firstPlace;
+#endif
+#ifdef CONSTANTS
+layout(std430, binding = 2) writeonly buffer NewConstants { vec4 newConstants[]; };
+#endif
+layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
+layout(std430, binding = 6) buffer Control { uint control[]; };
+#ifdef DEATH_RUNS
+layout(std430, binding = 5) readonly buffer Died { uint died[]; };
+uniform ivec4 deathRuns[DEATH_RUNS];  // emitter, births for each, start of the source's list, unused
+#endif
+
+uniform int controlBase;
+uniform int placeCount;
+uniform int runCount;
+uniform int givenBorn;         // negative: as many as the GPU has found places for, which are no longer free
+uniform ivec4 runs[RUNS];      // first newborn, emitter, its number there, births at each moment; 0: at random
+uniform vec4 runTimes[RUNS];   // s from the frame's start: first moment, interval
+uniform int groupSeed;
+uniform vec2 lifeSpan;         // s, least and most
+uniform vec2 newbornScale;
+uniform vec3 newbornSpin;      // rad/s, either way
+uniform float newbornPhase;    // rad, at most
+
+struct Source {
+    int molecule;
+    float since;  // s, from the death to the frame's end
+};
+
+struct Start {
+    vec3 lattice;   // m
+    vec3 place;     // m, from there
+    vec3 velocity;  // m/s
+};
+
+// The first of `count` triangles whose share of the area ends beyond x.
+int triangleAt(int base, int count, float x)
+{
+    int low = 0;
+    int high = count - 1;
+    while (low < high) {
+        int middle = (low + high) / 2;
+        if (sampleAt(base + 3 * middle).w > x) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+#include "generated/emitters.glsl"
+
+// 1 - exp(-y), without a difference that cancels.
+float decayOf(float y)
+{
+    float z = 0.5 * y;
+    float q = z * z;
+    float series = 2.0 * exp(-z) * z * (1.0 + q / 6.0 * (1.0 + q / 20.0 * (1.0 + q / 42.0)));
+    return abs(y) < 1.0 ? series : 1.0 - exp(-y);
+}
+
+float phiOf(float rate, float h)
+{
+    return abs(rate * h) < 1e-6 ? h : decayOf(rate * h) / rate;
+}
+
+// (h - phi) / rate, by its series where h and phi are near.
+float bendOf(float rate, float h)
+{
+    float y = rate * h;
+    float series = h * h * (0.5 - y / 6.0 * (1.0 - y / 4.0 * (1.0 - y / 5.0 * (1.0 - y / 6.0 * (1.0 - y / 7.0)))));
+    return abs(y) < 0.5 ? series : (h - phiOf(rate, h)) / rate;
+}
+
+// The step's coefficients for one of another length.
+void setStep(float h)
+{
+    substep = h;
+    decay = vec2(decayOf(dragRate.x * h), decayOf(dragRate.y * h));
+    phi = vec2(phiOf(dragRate.x, h), phiOf(dragRate.y, h));
+    flightBend = vec2(bendOf(dragRate.x, h), bendOf(dragRate.y, h));
+}
+
+// A thrust over any time, s.
+void thrustFor(float time)
+{
+#ifdef THRUST
+    for (int i = 0; i < VERTICES; ++i) {
+        w[i] = v[i];
+    }
+    vec3 mean = meanVelocity();
+    gain(thrustedOver(mean, time) - mean);
+#endif
+}
+
+void flyOn(float since)
+{
+    setStep(since);
+    thrustFor(0.5 * since);
+    for (int i = 0; i < VERTICES; ++i) {
+        probe[i] = x[i] + v[i] * (0.5 * since);
+    }
+#ifdef DIRECTIONAL_DRAG
+    surfaceNormals();
+#endif
+    sampleSubstep(frameDuration - 0.5 * since);
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) {
+            x[i] += flight(v[i], fluid[i], FALL(i), normal[i]);
+            v[i] = dragged(v[i], fluid[i], FALL(i), normal[i]);
+        }
+    }
+    thrustFor(0.5 * since);
+}
+
+void shape(Start start)
+{
+    vec3 step = latticeNear(start.place);
+    vec3 base = start.place - step;
+    anchor = start.lattice + step;
+    released = false;
+    scale = mix(newbornScale.x, newbornScale.y, drawn(seed, bornScale));
+    phase = newbornPhase * drawn(seed, bornPhase);
+    vec4 rotation = newbornRotation();
+    vec3 spin = newbornSpin * (2.0 * vec3(drawn(seed, bornSpin), drawn(seed, bornSpin + 1u),
+                                          drawn(seed, bornSpin + 2u)) - 1.0);
+    for (int i = 0; i < VERTICES; ++i) {
+        vec3 arm = turned(rotation, restPlace[i]) * scale;
+        x[i] = base + arm;
+        v[i] = isHeld(pinned[i]) ? vec3(0.0) : start.velocity + cross(spin, arm);
+        fluid[i] = vec3(0.0);
+        normal[i] = vec3(0.0);
+    }
+#ifdef HISTORY
+    for (int i = 0; i < VERTICES; ++i) {
+        dx[i] = vec3(0.0);
+        dv[i] = vec3(0.0);
+    }
+    dx[0].x = NO_HISTORY;
+#endif
+}
+
+// Returns the emitter of newborn i, and sets its seed, the molecule whose death emits it, if one does, and
+// its birth in s from the frame's start.
+int findRun(int i, out Source source, out float at)
+{
+    source = Source(0, 0.0);
+#ifdef DEATH_RUNS
+    int run = -1;
+    for (int d = 0; d < DEATH_RUNS; ++d) {
+        if (i >= int(control[controlBase + controlFirsts + d])) run = d;
+    }
+    if (run >= 0) {
+        ivec4 from = deathRuns[run];
+        int j = i - int(control[controlBase + controlFirsts + run]);
+        source.molecule = int(died[from.z + j / from.y]);
+        float label;
+        readDeath(from.x, source.molecule, label, source.since);
+        source.since = min(source.since, frameDuration);
+        seed = hashSeed(hashSeed(uint(abs(label)) ^ uint(groupSeed), uint(from.x)), uint(j % from.y)) >> 8u;
+        at = frameDuration - source.since;
+        return from.x;
+    }
+#endif
+    int r = 0;
+    for (int k = 1; k < RUNS; ++k) {
+        if (k < runCount && i >= runs[k].x) r = k;
+    }
+    int j = i - runs[r].x;
+    seed = hashSeed(hashSeed(uint(groupSeed), uint(runs[r].y)), uint(runs[r].z) + uint(j)) >> 8u;
+    float moment = runs[r].w > 0 ? float(j / max(runs[r].w, 1)) : drawn(seed, bornTime);
+    at = clamp(runTimes[r].x + runTimes[r].y * moment, 0.0, frameDuration);
+    return runs[r].y;
+}
+
+void main()
+{
+    int i = int(gl_GlobalInvocationID.x);
+    int born = givenBorn < 0 ? int(control[controlBase + controlBorn]) : givenBorn;
+    if (i >= born) return;
+    loadParameters();
+#ifdef LISTED
+    int molecule = int(places[i]);
+#else
+    int molecule = (firstPlace + i) % placeCount;
+#endif
+    Source source;
+    float at;
+    int emitter = findRun(i, source, at);
+    Start start;
+    emitFrom(emitter, seed, at - 0.5 * frameDuration, source, start);
+    shape(start);
+    age = frameDuration - at;
+    span = mix(lifeSpan.x, lifeSpan.y, drawn(seed, bornLife));
+    flyOn(age);
+    storeState(molecule);
+    newRecords[molecule] = recordNow();
+#ifdef CONSTANTS
+    newConstants[molecule] = vec4(scale, phase, 0.0, 0.0);
+#endif
+    if (givenBorn < 0) return;
+    uint bit = 1u << (uint(molecule) & 31u);
+    uint before = atomicAnd(freeBits[molecule >> 5], ~bit);
+#ifndef LISTED
+    if ((before & bit) == 0u) atomicAdd(control[controlBase + controlLost], 1u);  // a life cut short
+#endif
+}

@@ -1,0 +1,378 @@
+// Builds a description (core/description.h) key by key:
+//   const Description& describe(const SphereCollider*) {
+//       static const Description it = Describe<SphereCollider>("sphere", "A sphere that is solid inside.")
+//           .key("center", &SphereCollider::center, {"m", "Its centre."})
+//           .key("radius", &SphereCollider::radius, {"m", "Its radius.", aboveZero()});
+//       return it;
+//   }
+//
+// Nested structs, lists and variants are found through the overload `describe(const T*)`: a kind of a variant
+// that has none does not compile.
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "core/boxed.h"
+#include "core/description.h"
+
+namespace shoal {
+
+// The struct of a key whose object may be absent.
+template <typename S>
+std::optional<S> readDescribed(JsonReader& reader, const std::string& key) {
+    std::optional<JsonReader> inner = reader.object(key);
+    if (!inner) return {};
+    S out;
+    describe(&out).read(*inner, out);
+    inner->finish();
+    return out;
+}
+
+// Builds a description key by key.
+template <typename S>
+class Describe {
+  public:
+    // `name`: the word of a variant's alternative, or what the object is called in docs.
+    Describe(std::string name, std::string sentence) {
+        it_.name_ = std::move(name);
+        it_.sentence_ = std::move(sentence);
+        it_.usual_ = &usual();
+        it_.type_ = &typeid(S);
+    }
+
+    // Numbers, whole numbers, seeds, flags, texts, vectors, objects and lists of objects, by their types; any
+    // of them may be optional.
+    template <typename M>
+    Describe& key(const char* name, M S::*member, Says says) {
+        return add(name, kindOf<M>(), member, std::move(says));
+    }
+    template <typename M>
+    Describe& direction(const char* name, M S::*member, Says says) {
+        return add(name, Key::Kind::direction, member, std::move(says));
+    }
+    template <typename M>
+    Describe& color(const char* name, M S::*member, Says says) {
+        says.range.least = 0;
+        return add(name, Key::Kind::color, member, std::move(says));
+    }
+    Describe& span(const char* name, glm::dvec2 S::*member, Says says) {
+        return add(name, Key::Kind::span, member, std::move(says));
+    }
+    Describe& ends(const char* name, glm::dvec2 S::*member, Says says) {
+        return add(name, Key::Kind::ends, member, std::move(says));
+    }
+    template <typename M>
+    Describe& box(const char* name, M S::*member, Says says, bool flat = false) {
+        add(name, Key::Kind::box, member, std::move(says));
+        last().flatBox = flat;
+        return *this;
+    }
+    Describe& rotation(const char* name, glm::dquat S::*member, Says says) {
+        return add(name, Key::Kind::rotation, member, std::move(says));
+    }
+    // One of some words; the member is an enumeration, whose values are their indices.
+    template <typename Enum>
+    Describe& word(const char* name, Enum S::*member, std::vector<std::string> words, Says says) {
+        add(name, Key::Kind::word, member, std::move(says));
+        last().words = std::move(words);
+        last().member.index = [](const void* at) { return int(*static_cast<const Enum*>(at)); };
+        last().member.choose = [](void* at, int index) {
+            *static_cast<Enum*>(at) = Enum(index);
+            return at;
+        };
+        return *this;
+    }
+    // Describes an optional enumeration, whose first word stands for nothing.
+    template <typename Enum>
+    Describe& word(const char* name, std::optional<Enum> S::*member, std::vector<std::string> words,
+                   Says says) {
+        add(name, Key::Kind::word, member, std::move(says));
+        last().words = std::move(words);
+        last().member = {.offset = last().member.offset};
+        last().member.index = [](const void* at) {
+            const auto& value = *static_cast<const std::optional<Enum>*>(at);
+            return value ? int(*value) + 1 : 0;
+        };
+        last().member.choose = [](void* at, int index) {
+            *static_cast<std::optional<Enum>*>(at) =
+                index > 0 ? std::optional(Enum(index - 1)) : std::nullopt;
+            return at;
+        };
+        return *this;
+    }
+    // An object whose keys are of this struct as well.
+    Describe& part(const char* name, const Description& keys, std::string sentence) {
+        EXPECTS(keys.isOf(typeid(S)));
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = Key::Kind::object;
+        key.says.sentence = std::move(sentence);
+        key.objects = {&keys};
+        return *this;
+    }
+    // A list of objects that is not a member itself. `make` gives it, made where there is none; `look` gives
+    // null where there is none.
+    template <auto make, auto look>
+    Describe& list(const char* name, std::string sentence) {
+        using Element = typename std::remove_reference_t<decltype(make(std::declval<S&>()))>::value_type;
+        using List = std::vector<Element>;
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = Key::Kind::list;
+        key.says.sentence = std::move(sentence);
+        reach<List>(key);
+        key.member.make = [](void* at) -> void* { return &make(*static_cast<S*>(at)); };
+        key.member.look = [](const void* at) -> const void* { return look(*static_cast<const S*>(at)); };
+        return *this;
+    }
+    // The keys of a struct within this one, beside this one's own.
+    template <typename M>
+    Describe& keysOf(M S::*member) {
+        const S& sample = usual();
+        const ptrdiff_t offset =
+            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        for (Key key : describe(static_cast<const M*>(nullptr)).keys()) {
+            EXPECTS(key.kind != Key::Kind::byHand);
+            key.member.offset += offset;
+            it_.keys_.push_back(std::move(key));
+        }
+        return *this;
+    }
+    // A word that chooses what the variant holds: the names of the alternatives' descriptions.
+    template <typename M>
+    Describe& alternatives(const char* name, M S::*member, Says says) {
+        add(name, Key::Kind::variant, member, std::move(says));
+        addAlternatives<M>(variantIn(static_cast<const M*>(nullptr)));
+        return needed();
+    }
+    // A key that `read` takes; `schema` is the JSON Schema of its value.
+    template <typename Context = void>
+    Describe& byHand(const char* name, std::string schema, Says says,
+                     std::type_identity_t<std::function<void(JsonReader&, S&, Context*)>> read,
+                     std::function<JsonValue(const S&, const void*)> write = {}) {
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = Key::Kind::byHand;
+        key.says = std::move(says);
+        key.schema = std::move(schema);
+        key.read = [read](JsonReader& reader, void* object, void* context) {
+            read(reader, *static_cast<S*>(object), static_cast<Context*>(context));
+        };
+        if (write) writes(std::move(write));
+        return *this;
+    }
+
+    // The keys of a whole file, such as one of "shoal-scene-1".
+    Describe& format(const std::string& name) {
+        it_.format_ = name;
+        const auto nothing = [](JsonReader&, S&, void*) {};
+        byHand("$schema", R"({"type": "string"})", {"string", "The schema, for editors."}, nothing);
+        byHand("format", concat("{\"const\": \"", name, "\"}"),
+               {concat("`\"", name, "\"`"), "The format of the file and its version."}, nothing);
+        return needed();
+    }
+
+    // These concern the key before: a file must have it; 0 stands for a file that has it not; a text has at
+    // least one character.
+    Describe& needed() {
+        last().needed = true;
+        return *this;
+    }
+    Describe& unlessZero() {
+        last().unlessZero = true;
+        return *this;
+    }
+    Describe& notEmpty() {
+        last().notEmpty = true;
+        return *this;
+    }
+    // The key before means something only where `key`, which stands before it, says one of the words.
+    Describe& only(const char* key, std::vector<std::string> words, std::string because) {
+        EXPECTS(it_.find(key));
+        last().only.push_back({key, std::move(words), std::move(because)});
+        return *this;
+    }
+    // Sets the default, in words, of the key before.
+    Describe& usually(std::string words) {
+        last().usual = std::move(words);
+        return *this;
+    }
+    // Sets how the key before is read instead.
+    template <typename Context>
+    Describe& reads(void (*read)(JsonReader&, S&, Context&)) {
+        last().read = [read](JsonReader& reader, void* object, void* context) {
+            read(reader, *static_cast<S*>(object), *static_cast<Context*>(context));
+        };
+        return *this;
+    }
+    // Sets what is written for the key before instead of its member; null: the key is left out.
+    Describe& writes(std::function<JsonValue(const S&, const void* context)> write) {
+        last().write = [write](const void* object, const void* context) {
+            return write(*static_cast<const S*>(object), context);
+        };
+        return *this;
+    }
+    // Where the object stands.
+    Describe& location(Location S::*member) {
+        const S& sample = usual();
+        it_.location_ =
+            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        return *this;
+    }
+    // Sets what follows from the keys that a file gives, such as a default that depends on another key; it
+    // runs before the rule.
+    Describe& derive(void (*follow)(S&, const Where&)) {
+        it_.derive_ = [follow](void* object, const Where& where, void*) {
+            follow(*static_cast<S*>(object), where);
+        };
+        return *this;
+    }
+    template <typename Context>
+    Describe& derive(void (*follow)(S&, const Where&, Context&)) {
+        it_.derive_ = [follow](void* object, const Where& where, void* context) {
+            follow(*static_cast<S*>(object), where, *static_cast<Context*>(context));
+        };
+        return *this;
+    }
+    // A rule between keys: throws an Error where it is broken. `schema`: as much of it as JSON Schema can
+    // say.
+    Describe& rule(void (*holds)(const S&, const Where&), const char* schema = "") {
+        it_.schema_ = schema;
+        it_.rule_ = [holds](const void* object, const Where& where) {
+            holds(*static_cast<const S*>(object), where);
+        };
+        return *this;
+    }
+
+    operator Description() { return std::move(it_); }
+
+  private:
+    static const S& usual() {
+        static const S it{};
+        return it;
+    }
+    Key& last() { return it_.keys_.back(); }
+
+    template <typename M>
+    Describe& add(const char* name, Key::Kind kind, M S::*member, Says says) {
+        Key& key = it_.keys_.emplace_back();
+        key.name = name;
+        key.kind = kind;
+        key.says = std::move(says);
+        const S& sample = usual();
+        key.member.offset =
+            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        reach<M>(key);
+        return *this;
+    }
+
+    template <typename M>
+    struct Within {
+        using type = M;
+        static constexpr bool optional = false, list = false;
+    };
+    template <typename M>
+    struct Within<std::optional<M>> {
+        using type = M;
+        static constexpr bool optional = true, list = false;
+    };
+    template <typename M>
+    struct Within<std::vector<M>> {
+        using type = M;
+        static constexpr bool optional = false, list = true;
+    };
+
+    template <typename M>
+    static constexpr Key::Kind kindOf() {
+        using T = typename Within<M>::type;
+        if (std::is_same_v<M, std::vector<std::string>>) return Key::Kind::texts;
+        if (Within<M>::list) return Key::Kind::list;
+        if (std::is_same_v<T, double>) return Key::Kind::number;
+        if (std::is_same_v<T, int>) return Key::Kind::whole;
+        if (std::is_same_v<T, glm::ivec3>) return Key::Kind::whole3;
+        if (std::is_same_v<T, uint32_t>) return Key::Kind::seed;
+        if (std::is_same_v<T, uint64_t>) return Key::Kind::longSeed;
+        if (std::is_same_v<T, bool>) return Key::Kind::flag;
+        if (std::is_same_v<T, std::string>) return Key::Kind::text;
+        if (std::is_same_v<T, glm::dvec2>) return Key::Kind::vector2;
+        if (std::is_same_v<T, glm::dvec3>) return Key::Kind::vector3;
+        return Key::Kind::object;
+    }
+
+    template <typename M>
+    static void reach(Key& key) {
+        using T = typename Within<M>::type;
+        if constexpr (Within<M>::optional) {
+            key.member.optional = true;
+            key.member.reset = [](void* at) { static_cast<M*>(at)->reset(); };
+            key.member.make = [](void* at) -> void* { return &static_cast<M*>(at)->emplace(); };
+            key.member.look = [](const void* at) -> const void* {
+                const M& value = *static_cast<const M*>(at);
+                return value ? &*value : nullptr;
+            };
+        }
+        if constexpr (Within<M>::list) {
+            key.member.count = [](const void* at) { return static_cast<const M*>(at)->size(); };
+            key.member.erase = [](void* at, size_t i) {
+                auto& list = *static_cast<M*>(at);
+                list.erase(list.begin() + ptrdiff_t(i));
+            };
+            key.member.clear = [](void* at) { static_cast<M*>(at)->clear(); };
+            key.member.append = [](void* at) -> void* { return &static_cast<M*>(at)->emplace_back(); };
+            key.member.element = [](const void* at, size_t i) -> const void* {
+                return &(*static_cast<const M*>(at))[i];
+            };
+        }
+        if (key.kind == Key::Kind::object || key.kind == Key::Kind::list) {
+            if constexpr (std::is_class_v<T> && requires(const T* t) { describe(t); })
+                key.objects = {&describe(static_cast<const T*>(nullptr))};
+            EXPECTS(!key.objects.empty());
+        }
+    }
+
+    // Null pointers that tell the type of a variant, and of one in a box.
+    template <typename... T>
+    static const std::variant<T...>* variantIn(const std::variant<T...>*) {
+        return nullptr;
+    }
+    template <typename V>
+    static auto variantIn(const Boxed<V>*) {
+        return variantIn(static_cast<const V*>(nullptr));
+    }
+    template <typename M>
+    static auto& inside(M& member) {
+        if constexpr (requires { *member; })
+            return *member;
+        else
+            return member;
+    }
+    template <typename M, typename... T>
+    void addAlternatives(const std::variant<T...>*) {
+        using Variant = std::variant<T...>;
+        Key& key = last();
+        key.objects = {&describe(static_cast<const T*>(nullptr))...};
+        for (const Description* one : key.objects)
+            key.words.push_back(one->name());
+        key.member.index = [](const void* at) { return int(inside(*static_cast<const M*>(at)).index()); };
+        key.member.choose = [](void* at, int index) {
+            Variant& variant = inside(*static_cast<M*>(at));
+            return emplace(variant, size_t(index), std::index_sequence_for<T...>());
+        };
+        key.member.held = [](const void* at) {
+            const Variant& variant = inside(*static_cast<const M*>(at));
+            return std::visit([](const auto& one) { return static_cast<const void*>(&one); }, variant);
+        };
+    }
+    template <typename Variant, size_t... I>
+    static void* emplace(Variant& variant, size_t index, std::index_sequence<I...>) {
+        void* out = nullptr;
+        (void)((I == index && (out = &variant.template emplace<I>(), true)) || ...);
+        return out;
+    }
+
+    Description it_;
+};
+
+}  // namespace shoal

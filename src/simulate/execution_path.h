@@ -1,0 +1,87 @@
+// What a Simulation asks of an execution path, which holds the state of a plan and moves it: `Fused` (OpenGL
+// 4.3) or `PingPong` (OpenGL 3.3). What only one of them has the other answers with nothing.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+#include "compile/path.h"
+#include "gpu/pass_timers.h"
+
+namespace shoal {
+
+namespace gpu {
+class ProgramCache;
+}
+struct Frame;
+struct StateView;
+
+struct SimulationOptions {
+    // Normals are computed at the end of each frame, for the renderer and for exports.
+    bool drawn = true;
+    gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::off;
+    Path path = Path::automatic;
+    bool inPlace = false;            // fused: half the memory of the state
+    Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
+    gpu::ProgramCache* cache = nullptr;
+    bool watchdog = true;  // simulate/watchdog.h
+};
+
+// Gives tests, benchmarks and reports the results of contact between molecules.
+class ContactResult {
+  public:
+    virtual ~ContactResult() = default;
+    // Contacts that were left out, of all steps so far, because a sphere touched more than a list holds.
+    virtual uint32_t dropped() const = 0;
+    // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
+    // ascending. For tests and reports: reads the lists back.
+    virtual std::vector<std::pair<int, int>> found() const = 0;
+    virtual int listLength() const = 0;  // contacts that one sphere may have
+    virtual size_t bytes() const = 0;    // on the device
+};
+
+struct LifeCounts {
+    int capacity = 0;
+    int live = 0;       // taken places
+    int mark = 0;       // one past the last of them: as far as a step reaches
+    uint64_t born = 0;  // so far
+    uint64_t lost = 0;  // so far: births that found no place; allocator ring: lives that a birth cut short
+};
+
+class ExecutionPath {
+  public:
+    virtual ~ExecutionPath() = default;
+
+    virtual void step(const Frame& frame, gpu::PassTimers& timers) = 0;
+    virtual void computeNormals(gpu::PassTimers& timers) = 0;  // of the state as it is, where drawn
+    virtual StateView view() const = 0;
+
+    // State bytes are counted as they cross the bus. `time`: of the state, s.
+    virtual void write(size_t group, const GroupState& groupState, double time) = 0;
+    virtual GroupState read(size_t group) const = 0;
+    // Reads one molecule, with its scale and phase in `looks`.
+    virtual GroupState readOne(size_t group, size_t molecule) const = 0;
+    virtual std::vector<glm::vec3> readNormals(size_t group) const = 0;
+    // The groups before the last frame; nothing where they are gone.
+    virtual std::optional<std::vector<GroupState>> readBefore() const { return {}; }
+
+    // Whether the last frame since disarm() left a state that ran away (fused: or one before it). Waits for
+    // it, and reads 4 bytes.
+    virtual bool alarmed() const = 0;
+    virtual void disarm() = 0;
+
+    virtual const ContactResult* contact() const = 0;  // null: there is none
+    virtual Lanes lanes(size_t) const { return Lanes::automatic; }
+    virtual LifeCounts lifeCounts(size_t) const { return {}; }
+    // Other numbers for a group, from the next frame on. False, and nothing changes: it has none of the kind,
+    // or what differs needs another plan.
+    virtual bool changeLife(size_t, const Lifecycle&) { return false; }
+    virtual bool changeSchool(size_t, const School&) { return false; }
+};
+
+}  // namespace shoal
