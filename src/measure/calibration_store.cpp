@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "core/contract.h"
 #include "core/file.h"
 
 namespace shoal::measure {
@@ -60,7 +61,8 @@ void addGroup(Hash& hash, const GroupPlan& group) {
 
 // The shaders that a kernel is made of.
 void addShaders(Hash& hash, const std::string& root) {
-    for (const char* folder : {"fused", "physics", "solver", "passes", "lib"}) {
+    for (const char* folder : {"fused", "passes", "physics", "solver", "state", "step"}) {
+        EXPECTS(fs::is_directory(fs::path(root) / folder));
         std::vector<fs::path> files;
         std::error_code none;
         for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(root) / folder, none))
