@@ -1,4 +1,4 @@
-// A stage of contact/respond.glsl.
+// The last stage of contact/respond.glsl: velocity from the correction of penetration.
 #include "contact/respond.glsl"
 
 uniform FLOATS kept;  // w: the share of its correction that a sphere keeps as velocity (contact/friction.glsl)

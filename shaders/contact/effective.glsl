@@ -1,5 +1,6 @@
-// How many contacts of a sphere push the same way: an upper bound of the largest eigenvalue of the sum of n n^T over their
-// normals (physics/pair.glsl). It scales the Jacobi step of contact/relax.glsl, which without it would not be stable.
+// The effective number of a sphere's contacts: an upper bound of the largest eigenvalue of the sum of n n^T over their normals
+// (physics/pair.glsl), which is their number where all push the same way. It scales the Jacobi steps of contact/relax.glsl so
+// that they are stable.
 #include "contact/response.glsl"
 
 NormalSum normalsOf(int slot, Sphere own, int listed)

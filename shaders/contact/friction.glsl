@@ -1,4 +1,4 @@
-// A stage of contact/respond.glsl.
+// The stage of contact/respond.glsl that is repeated in each round of friction.
 #include "contact/respond.glsl"
 
 #ifndef TEXTURES

@@ -1,4 +1,4 @@
-// A stage of contact/respond.glsl.
+// The first stage of contact/respond.glsl.
 #include "contact/respond.glsl"
 
 void respond(int slot, int listed)

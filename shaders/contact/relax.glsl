@@ -1,4 +1,4 @@
-// A stage of contact/respond.glsl.
+// The stage of contact/respond.glsl that is repeated until contacts have their speeds, or nearly.
 #include "contact/respond.glsl"
 
 vec3 impulseAhead(int slot)

@@ -18,7 +18,7 @@ uniform FLOATS velocities;      // written by contact/spread.comp
 #endif
 uniform FLOATS impulses;        // N s, of the last stage
 uniform FLOATS earlier;         // of the one before
-uniform float momentum;         // Nesterov's: an iteration goes on beyond the last by this share of the change
+uniform float momentum;         // Nesterov's, the share of the last change by which an iteration extrapolates
 uniform float frictionShare;    // of what friction may do, in one of several rounds
 #ifdef WALLS
 uniform samplerBuffer walls;         // by sphere: xyz normal, w distance

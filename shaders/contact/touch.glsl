@@ -9,7 +9,7 @@ layout(std430, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
 
 uniform int listStride;
-uniform bool last;  // of the searches: what is listed now stays
+uniform bool last;  // no other search adds to what this one lists
 #endif
 #ifdef SELF
 uniform usamplerBuffer apart;    // ContactGroup::apart

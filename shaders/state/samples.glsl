@@ -1,4 +1,4 @@
-// Sampled fields: grids and height fields share one table of 4-vectors, read by index.
+// Sampled fields: grids and height fields share one table of 4-vectors, read by index: a buffer or, with TEXTURES, a texture.
 #ifdef TEXTURES
 uniform sampler2D samples;
 

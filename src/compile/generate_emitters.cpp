@@ -171,9 +171,8 @@ class EmitterText {
 const char* rotationText(Placement::Turn turn) {
     switch (turn) {
     case Placement::Turn::any:
-        return "    return anyRotation(drawn(seed, bornTurn), drawn(seed, bornTurn + 1u), drawn(seed, "
-               "bornTurn "
-               "+ 2u));\n";
+        return "    return anyRotation(drawn(seed, bornTurn), drawn(seed, bornTurn + 1u),\n"
+               "                       drawn(seed, bornTurn + 2u));\n";
     case Placement::Turn::yaw:
         return "    float angle = 3.14159265 * drawn(seed, bornTurn);\n"
                "    return vec4(0.0, sin(angle), 0.0, cos(angle));\n";

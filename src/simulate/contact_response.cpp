@@ -39,7 +39,7 @@ void MoleculeContact::runNearest(double stepTime, double restSpeed, const Totals
     settled();
 }
 
-// How many of the contacts that act on the same vertices push the same way.
+// The effective number of contacts that act on the same vertices.
 void MoleculeContact::runEffective(double stepTime, double restSpeed,
                                    const std::vector<GroupBuffers>& state) {
     Textures textures = bindResponse(effective_, stepTime, restSpeed);
