@@ -1,5 +1,5 @@
-// What most sources include, parsed once for each kind of target (cmake/ShoalRooms.cmake). A source still
-// includes what it uses: `./dev lint` compiles without this header.
+// The headers that most sources include, parsed once for each kind of target (cmake/ShoalRooms.cmake). A
+// source still includes what it uses: `./dev lint` compiles without this header.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// What a response reads of the spheres in contact.
+// The spheres in contact, as a response reads them.
 #include "contact/records.glsl"
 #include "contact/lists.glsl"
 #include "physics/pair.glsl"

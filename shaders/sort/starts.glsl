@@ -4,7 +4,7 @@ uniform usamplerBuffer sorted;  // x key, y index
 
 layout(std430, binding = 0) writeonly buffer Starts { uint starts[]; };
 
-// Of `count` slots and `keys` keys; `key`: of this slot.
+// Writes what this slot, of `count`, settles; `key` is its own, of `keys`.
 void writeStarts(int slot, uint key, int count, int keys)
 {
     uint next = slot == 0 ? 0u : texelFetch(sorted, slot - 1).x + 1u;

@@ -1,6 +1,5 @@
 // `shoal bench sort`: the sorts in million items a second, beside what others published.
 #include <algorithm>
-#include <cstdio>
 #include <iostream>
 
 #include "app/bench.h"
@@ -42,16 +41,10 @@ std::vector<Target> targets(const Report& report) {
     return out;
 }
 
-std::string cell(const char* format, double value) {
-    char text[64];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
-
 void printRates(const Report& report) {
     std::cout << "million items/s, by the shortest time     ";
     for (const SortTable& table : report.tables)
-        std::cout << cell("%10.0f", table.side) << cell(" x %-4.0f", table.side);
+        std::cout << measure::formatted("%10.0f", table.side) << measure::formatted(" x %-4.0f", table.side);
     std::cout << "\n";
     const auto begin = [](std::string label) {
         label.resize(std::max<size_t>(label.size(), 40), ' ');
@@ -65,13 +58,13 @@ void printRates(const Report& report) {
             continue;
         }
         for (const SortTable& table : report.tables)
-            std::cout << cell("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6);
+            std::cout << measure::formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6);
         std::cout << "\n";
     }
     for (const PublishedSort& published : publishedSorts()) {
         begin(published.where);
         for (size_t i = 0; i < report.tables.size(); ++i)
-            std::cout << cell("%17.2f", published.millionItems[i]);
+            std::cout << measure::formatted("%17.2f", published.millionItems[i]);
         std::cout << "\n";
     }
 }
@@ -84,13 +77,16 @@ void printTimes(const Report& report) {
         for (const SortTime& time : table.times) {
             if (!time.leftOut.empty()) continue;
             std::cout << "  " << time.name << std::string(32 - std::min<size_t>(32, time.name.size()), ' ')
-                      << (time.passes > 0 ? cell("%6.0f", time.passes) : "     -")
-                      << cell("%10.3f", time.seconds.min * 1e3) << cell("%11.3f", time.seconds.median * 1e3)
-                      << cell("%9.0f", time.seconds.samples);
+                      << (time.passes > 0 ? measure::formatted("%6.0f", time.passes) : "     -")
+                      << measure::formatted("%10.3f", time.seconds.min * 1e3)
+                      << measure::formatted("%11.3f", time.seconds.median * 1e3)
+                      << measure::formatted("%9.0f", time.seconds.samples);
             const double passes = time.copy ? 1 : time.passes;
             if (passes > 0)
-                std::cout << cell("%13.2f", passes * 16e-9 * double(table.pairs()) / time.seconds.min);
-            if (const auto share = table.shareOfCopy(time)) std::cout << cell("%5.0f%%", 100 * *share);
+                std::cout << measure::formatted("%13.2f",
+                                                passes * 16e-9 * double(table.pairs()) / time.seconds.min);
+            if (const auto share = table.shareOfCopy(time))
+                std::cout << measure::formatted("%5.0f%%", 100 * *share);
             std::cout << "\n";
         }
     }

@@ -1,13 +1,13 @@
 #include "app/measure.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <iomanip>
 #include <sstream>
 
 #include "bench/case.h"
 #include "core/error.h"
 #include "core/printable.h"
+#include "measure/timing.h"
 
 namespace shoal::app {
 
@@ -15,18 +15,8 @@ using namespace measure;
 
 namespace {
 
-std::string number(const char* format, double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 std::string exponent(double value) {
-    return number("%.1e", value);
-}
-// Three digits that count.
-std::string nanoseconds(double seconds) {
-    const double value = seconds * 1e9;
-    return number(value < 10 ? "%.2f" : value < 100 ? "%.1f" : "%.0f", value);
+    return formatted("%.1e", value);
 }
 
 std::string steps(const AccuracyPoint& point) {
@@ -42,8 +32,8 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
     for (const AccuracyGroup& group : a.groups)
         out << "  " << printable(group.name) << ": " << many(group.vertices, "vertex", "vertices") << ", "
             << many(group.springs, "spring", "springs") << ", up to "
-            << number("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured << ", time of "
-            << bench::grouped(group.timed) << "\n";
+            << formatted("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured
+            << ", time of " << bench::grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
         out << "too stiff, so that no errors are given: " << printable(a.tooStiff) << "\n";
     else if (!a.chaotic.empty())
@@ -144,7 +134,7 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
             << (one->cost.atLargestStep ? "at the largest step, " : "")
             << bench::grouped(int(one->cost.stepsPerSecond + 0.5)) << " steps a second";
         if (euler && solver.kind != SolverKind::euler)
-            out << "; " << number("%.2g", euler->cost.time / one->cost.time) << " times as fast as euler";
+            out << "; " << formatted("%.2g", euler->cost.time / one->cost.time) << " times as fast as euler";
         out << "\n";
     }
 }
@@ -238,7 +228,7 @@ std::string oneLine(const Calibration& one) {
                   one.substeps == 1 ? " substep" : " substeps", " a frame, fields by ",
                   shoal::name(one.method.sampling), "; ", sampleText(one), "; ", nanoseconds(one.cost),
                   " ns per vertex and simulated second, ",
-                  one.kept ? "as found before" : concat("found in ", number("%.1f", one.seconds), " s"));
+                  one.kept ? "as found before" : concat("found in ", formatted("%.1f", one.seconds), " s"));
 }
 
 std::string asText(const Calibration& one) {

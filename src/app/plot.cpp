@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <limits>
@@ -27,16 +26,6 @@ namespace fs = std::filesystem;
 namespace {
 
 // ---- gnuplot
-
-std::string findGnuplot() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::string candidate = (folder.empty() ? "." : folder) + "/gnuplot";
-        if (access(candidate.c_str(), X_OK) == 0 && !fs::is_directory(candidate)) return candidate;
-    }
-    return {};
-}
 
 int memoryFile(const char* what) {
     const int out = memfd_create(what, MFD_CLOEXEC);
@@ -85,7 +74,7 @@ int runGnuplot(const std::string& program, const std::string& script, int output
 void drawWithGnuplot(const std::string& file, const std::string& script) {
     PartFile part(fs::absolute(file));
     std::string log;
-    const int code = runGnuplot(findGnuplot(), script, part.file(), log);
+    const int code = runGnuplot(findProgram("gnuplot"), script, part.file(), log);
     std::error_code error;
     const bool written = fs::exists(part.path(), error) && fs::file_size(part.path(), error) > 0;
     if (code != 0 || !written)
@@ -394,7 +383,7 @@ std::string accuracyScript(const std::string& output, const AccuracyPanel& panel
 }  // namespace
 
 void needGnuplot(const std::string& file) {
-    if (findGnuplot().empty())
+    if (findProgram("gnuplot").empty())
         throw Error(
             "--plot needs the gnuplot command, which is not installed (on Debian and Ubuntu: apt install "
             "gnuplot-nox)");

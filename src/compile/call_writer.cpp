@@ -8,8 +8,49 @@
 
 namespace shoal {
 
-std::string CallWriter::component(size_t slot, int from, int count) const {
-    return concat(array_, "[", first_ + slot, "].", std::string("xyzw").substr(size_t(from), size_t(count)));
+NumberLayout::Slice NumberLayout::put(const glm::dvec3& value, int count) {
+    auto space = std::find_if(free_.begin(), free_.end(), [&](const Slice& s) { return s.count >= count; });
+    if (space == free_.end()) {
+        parameters.push_back(glm::vec4(0));
+        space = free_.insert(free_.end(), {parameters.size() - 1, 0, 4});
+    }
+    const Slice out{space->slot, space->from, count};
+    for (int i = 0; i < count; ++i)
+        parameters[out.slot][out.from + i] = float(value[i]);
+    space->from += count;
+    space->count -= count;
+    return out;
+}
+
+NumberLayout::Point NumberLayout::put(const glm::dvec3& point, std::optional<bool> far) {
+    const SplitPoint split = far == false ? SplitPoint{glm::dvec3(0), point} : splitPoint(point);
+    Point out{put(split.rest, 3), {}};
+    if (far.value_or(split.isFar())) out.lattice = put(split.lattice, 3);
+    return out;
+}
+
+// Components of an argument that is numbers; 0: it is something else.
+static int widthOf(GlslCall::Kind kind) {
+    using Kind = GlslCall::Kind;
+    return kind == Kind::vector ? 3 : kind == Kind::pair ? 2 : kind == Kind::number ? 1 : 0;
+}
+
+std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far) {
+    NumberLayout layout;
+    for (const GlslCall::Argument& one : call.arguments()) {
+        if (one.kind == GlslCall::Kind::from)
+            layout.put(one.value, std::optional(far));
+        else if (const int width = widthOf(one.kind))
+            layout.put(one.value, width);
+        else
+            EXPECTS(one.kind == GlslCall::Kind::text);
+    }
+    return std::move(layout.parameters);
+}
+
+std::string CallWriter::textOf(const Slice& slice) const {
+    return concat(array_, "[", first_ + slice.slot, "].",
+                  std::string("xyzw").substr(size_t(slice.from), size_t(slice.count)));
 }
 
 std::string CallWriter::slot(const glm::dvec3& v, double w) {
@@ -17,44 +58,38 @@ std::string CallWriter::slot(const glm::dvec3& v, double w) {
     return concat(array_, "[", first_ + parameters.size() - 1, "]");
 }
 
-// Takes the first room that is left for so many components, else a slot of their own.
-std::string CallWriter::numbers(const glm::dvec3& value, int count) {
-    auto space =
-        std::find_if(free_.begin(), free_.end(), [&](const Space& s) { return s.next + count <= 4; });
-    if (space == free_.end()) {
-        parameters.push_back(glm::vec4(0));
-        space = free_.insert(free_.end(), {parameters.size() - 1, 0});
-    }
-    for (int i = 0; i < count; ++i)
-        parameters[space->slot][space->next + i] = float(value[i]);
-    const std::string out = component(space->slot, space->next, count);
-    space->next += count;
-    return out;
-}
-
 std::string CallWriter::fromPoint(const glm::dvec3& point, std::optional<bool> far) {
     const auto known =
         std::find_if(points_.begin(), points_.end(), [&](const auto& one) { return one.first == point; });
     if (known != points_.end()) return known->second;
-    SplitPoint split = far == false ? SplitPoint{glm::dvec3(0), point} : splitPoint(point);
-    const std::string rest = numbers(split.rest, 3);
-    const bool two = far.value_or(split.isFar());
-    const std::string from = two ? concat("(anchor - ", numbers(split.lattice, 3), ")") : "anchor";
-    points_.emplace_back(point, concat("(", from, " - ", rest, ")"));
+    const Point at = put(point, far);
+    const std::string from = at.lattice ? concat("(anchor - ", textOf(*at.lattice), ")") : "anchor";
+    points_.emplace_back(point, concat("(", from, " - ", textOf(at.rest), ")"));
     return points_.back().second;
 }
 
+// Returns where they begin.
+size_t CallWriter::addSamples(const GlslCall::Argument& argument) {
+    EXPECTS(samples_);
+    const size_t base = samples_->size();
+    if (argument.samples) samples_->reserve(base + argument.samples->size());
+    if (argument.samples)
+        for (const glm::vec3& value : *argument.samples)
+            samples_->emplace_back(value, 0.0f);
+    for (const double number : argument.numbers)
+        samples_->emplace_back(float(number), 0.0f, 0.0f, 0.0f);
+    return base;
+}
+
 std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bool> far) {
-    using Kind = GlslCall::Argument::Kind;
+    using Kind = GlslCall::Kind;
     switch (one.kind) {
     case Kind::from:
         return fromPoint(one.value, far) + " + position";
     case Kind::vector:
-        return numbers(one.value, 3);
     case Kind::pair:
-        return numbers(one.value, 2);
     case Kind::number:
-        return numbers(one.value, 1);
+        return textOf(put(one.value, widthOf(one.kind)));
     case Kind::text:
         return one.text;
     case Kind::clock: {
@@ -64,21 +99,9 @@ std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bo
         if (one.clock.kind == FieldClock::Kind::frames) return concat(c, ".x, ", c, ".y + time");
         return concat(c, ".x, uint(", c, ".y) + 65536u * uint(", c, ".z)");
     }
-    case Kind::samples: {
-        EXPECTS(samples_);
-        const size_t base = samples_->size();
-        samples_->reserve(base + one.samples->size());
-        for (const glm::vec3& value : *one.samples)
-            samples_->emplace_back(value, 0.0f);
-        return concat(base);
-    }
-    case Kind::numbers: {
-        EXPECTS(samples_);
-        const size_t base = samples_->size();
-        for (const double number : one.numbers)
-            samples_->emplace_back(float(number), 0.0f, 0.0f, 0.0f);
-        return concat(base);
-    }
+    case Kind::samples:
+    case Kind::numbers:
+        return concat(addSamples(one));
     case Kind::call:
         return text(one.inner.front(), far);
     }

@@ -12,15 +12,41 @@
 
 namespace shoal {
 
-class CallWriter {
+// Lays numbers out in 4-vectors of parameters: each takes the first room that is left for it.
+class NumberLayout {
   public:
+    struct Slice {  // so many components of a parameter
+        size_t slot = 0;
+        int from = 0, count = 0;
+    };
+    struct Point {  // a SplitPoint
+        Slice rest;
+        std::optional<Slice> lattice;
+    };
+    Slice put(const glm::dvec3& value, int count);
+    // `far`: whether the point takes both parts; by default as it needs them.
+    Point put(const glm::dvec3& point, std::optional<bool> far);
+
+    std::vector<glm::vec4> parameters;
+
+  private:
+    std::vector<Slice> free_;
+};
+
+// The parameters of a call that has neither clocks nor samples, laid out as its text names them.
+std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far);
+
+class CallWriter : private NumberLayout {
+  public:
+    using NumberLayout::parameters;
+
     // Parameters are elements of `array`, from `first` on. `samples` is the plan's table, where calls read
     // it.
     explicit CallWriter(std::string array, size_t first = 0, std::vector<glm::vec4>* samples = nullptr)
         : array_(std::move(array)), first_(first), samples_(samples) {}
 
-    // The text of a call. `far`: whether its point takes two parameters (SplitPoint); by default as the point
-    // needs them. The layout of the parameters depends on nothing else but the kinds of the arguments.
+    // The text of a call. `far`: of its point (NumberLayout). The layout of the parameters depends on nothing
+    // else but the kinds of the arguments.
     std::string text(const GlslCall& call, std::optional<bool> far = {});
     // The sum of some.
     std::string text(const GlslCalls& calls);
@@ -29,22 +55,16 @@ class CallWriter {
     // The way from a point to the anchor.
     std::string fromPoint(const glm::dvec3& point, std::optional<bool> far = {});
 
-    std::vector<glm::vec4> parameters;
     std::vector<ClockSlot> clocks;
 
   private:
-    struct Space {  // components of the last slots that no number has taken yet
-        size_t slot = 0;
-        int next = 0;
-    };
-    std::string component(size_t slot, int from, int count) const;
-    std::string numbers(const glm::dvec3& value, int count);
+    std::string textOf(const Slice& slice) const;
+    size_t addSamples(const GlslCall::Argument& argument);
     std::string argument(const GlslCall::Argument& argument, std::optional<bool> far);
 
     std::string array_;
     size_t first_;
     std::vector<glm::vec4>* samples_;
-    std::vector<Space> free_;
     std::vector<std::pair<glm::dvec3, std::string>> points_;  // that are there already, and their texts
 };
 

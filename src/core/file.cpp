@@ -1,7 +1,9 @@
 #include "core/file.h"
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
+#include <sstream>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -57,6 +59,17 @@ std::string readFile(const fs::path& path, size_t maxBytes) {
                         concat("is larger than ", maxBytes, " bytes, the most that is read"));
     }
     return bytes;
+}
+
+std::string findProgram(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string candidate = (folder.empty() ? "." : folder) + "/" + name;
+        if (access(candidate.c_str(), X_OK) == 0 && !std::filesystem::is_directory(candidate))
+            return candidate;
+    }
+    return {};
 }
 
 std::string lowerExtension(const fs::path& path) {

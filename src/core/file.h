@@ -31,6 +31,9 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
 // Error: writeFile would not succeed now. For those who write late what should be known early.
 void checkWritable(const std::filesystem::path& path);
 
+// The program of that name by PATH; empty: there is none.
+std::string findProgram(const std::string& name);
+
 // "a folder", "a FIFO", "a socket" or "a device", of what is no regular file.
 std::string kindOf(mode_t mode);
 

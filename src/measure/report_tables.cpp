@@ -1,25 +1,17 @@
 #include "measure/report_scenes.h"
 
 #include <cmath>
-#include <cstdio>
 #include <sstream>
+
+#include "measure/timing.h"
 
 namespace shoal::measure {
 
 namespace {
 
-std::string number(const char* format, double value) {
-    char text[40];
-    std::snprintf(text, sizeof text, format, value);
-    return text;
-}
 // Two digits that count, three above 100.
 std::string times(double ratio) {
-    return number(ratio < 9.95 ? "%.1f" : "%.0f", ratio);
-}
-std::string nanoseconds(double seconds) {
-    const double value = seconds * 1e9;
-    return number(value < 10 ? "%.2f" : value < 100 ? "%.1f" : "%.0f", value);
+    return formatted(ratio < 9.95 ? "%.1f" : "%.0f", ratio);
 }
 std::string power(double k) {
     return concat("k = 1e", int(std::lround(std::log10(k))));

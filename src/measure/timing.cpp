@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -67,6 +68,17 @@ int pinRasteriserThreads() {
         sched_setaffinity(std::stoi(task.path().filename().string()), sizeof set, &set);
     }
     return pinned;
+}
+
+std::string formatted(const char* format, double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, format, value);
+    return text;
+}
+
+std::string nanoseconds(double seconds) {
+    const double value = seconds * 1e9;
+    return formatted(value < 10 ? "%.2f" : value < 100 ? "%.1f" : "%.0f", value);
 }
 
 }  // namespace shoal::measure

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace shoal::measure {
@@ -53,6 +54,10 @@ void takeTurns(const VisitPlan& plan, Visit visit) {
     takeTurns(
         plan, [](int) {}, visit);
 }
+
+// A number by a format of printf; a time in nanoseconds, of three digits that count.
+std::string formatted(const char* format, double value);
+std::string nanoseconds(double seconds);
 
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU
 // rasteriser share one core half of the time, which doubles the noise. Returns how many there were.

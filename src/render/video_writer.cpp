@@ -7,9 +7,7 @@
 
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
 #include <cstring>
-#include <sstream>
 #include <vector>
 
 #include "core/error.h"
@@ -20,19 +18,8 @@
 namespace shoal {
 
 // Where the command is, or empty. Looked up here so that a missing program is told from one that failed.
-static std::string findFfmpeg() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "/usr/local/bin:/usr/bin:/bin");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        const std::string candidate = (folder.empty() ? "." : folder) + "/ffmpeg";
-        if (access(candidate.c_str(), X_OK) == 0 && !std::filesystem::is_directory(candidate))
-            return candidate;
-    }
-    return {};
-}
-
 bool VideoWriter::installed() {
-    return !findFfmpeg().empty();
+    return !findProgram("ffmpeg").empty();
 }
 
 void VideoWriter::checkInstalled() {
@@ -71,7 +58,7 @@ class EndingSignalsHeld {
 }  // namespace
 
 void VideoWriter::start(double frameRate) {
-    const std::string program = findFfmpeg();
+    const std::string program = findProgram("ffmpeg");
     if (program.empty()) checkInstalled();
     const bool vp9 = lowerExtension(file_) == ".webm";
     // ffmpeg chooses the container by the extension, which part_ has, too.

@@ -27,7 +27,7 @@ struct SphereCollider {
     double radius = 1;  // m
 };
 
-// What heights are read from: an image, or a model seen from above.
+// Heights are read from an image, or from a model seen from above.
 struct HeightSource {
     std::string image;           // a file
     glm::dvec2 low{0}, high{0};  // m: x and z of its first and last sample

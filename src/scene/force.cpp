@@ -12,7 +12,7 @@ template class Boxed<ForceShape>;
 
 // ---- The kinds
 
-// What a shader takes for a radius (m): without end one whose square a float holds.
+// Returns the radius (m) for a shader: without end it is one whose square a float holds.
 static double reach(double radius) {
     return radius > 0 ? radius : 1e18;
 }

@@ -58,10 +58,8 @@ void MoleculeContact::runEffective(double stepTime, double restSpeed,
             .add("counts", counts_.texture)
             .add("normals", normals_.texture)
             .add("shapes", groups_[g].shapes.texture);
-        program.set("firstSphere", first);
-        program.set("partSpheres", part.count * contact_->groups[g].spheresOf);
         program.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
-        dispatch(program, size_t(part.count) * size_t(contact_->groups[g].spheresOf));
+        dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
 }
@@ -101,10 +99,8 @@ void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Total
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
         program.set("momentum", totals.momentum);
-        program.set("firstSphere", first);
-        program.set("partSpheres", part.count * contact_->groups[g].spheresOf);
         program.storage("Velocities", 0, velocities_.buffer);
-        dispatch(program, size_t(part.count) * size_t(contact_->groups[g].spheresOf));
+        dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
 }
@@ -120,8 +116,7 @@ void MoleculeContact::apply(const std::vector<GroupBuffers>& state, const Array&
             .add("shifts", shifts_.texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
-        program.set("firstSphere", first);
-        program.set("partSpheres", part.count * contact_->groups[g].spheresOf);
+        setSpheres(program, g, part, first);
         store(program, "State", 0, buffers.currentState(part));
         if (ofVertices)
             dispatch(program,

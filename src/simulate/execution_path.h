@@ -1,4 +1,4 @@
-// What a Simulation asks of an execution path, which holds the state of a plan and moves it: `Fused` (OpenGL
+// An execution path holds the state of a plan and moves it, as a Simulation asks: `Fused` (OpenGL
 // 4.3) or `PingPong` (OpenGL 3.3). What only one of them has the other answers with nothing.
 #pragma once
 

@@ -51,9 +51,8 @@ class Writer {
     template <typename Pull>
     void write(const GroupForces::One& one, Pull pull) {
         pull.position = placeOf(one.force, pull.position);
-        CallWriter writer("");
-        writer.text(pull.call(), isFar(plan_.forces[one.force]));
-        std::copy(writer.parameters.begin(), writer.parameters.end(), out_.begin() + ptrdiff_t(one.slot));
+        const std::vector<glm::vec4> own = parametersOf(pull.call(), isFar(plan_.forces[one.force]));
+        std::copy(own.begin(), own.end(), out_.begin() + ptrdiff_t(one.slot));
     }
 
     // All winds share one slot.

@@ -187,6 +187,15 @@ void MoleculeContact::dispatch(const Program& program, size_t count) const {
     program.dispatch(int((count + groupLanes - 1) / groupLanes));
 }
 
+// Sets which spheres a program handles, those of one part, and returns their number.
+size_t MoleculeContact::setSpheres(const Program& program, size_t group, const GroupBuffers::Part& part,
+                                   int first) const {
+    const int spheres = part.count * contact_->groups[group].spheresOf;
+    program.set("firstSphere", first);
+    program.set("partSpheres", spheres);
+    return size_t(spheres);
+}
+
 void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
@@ -208,9 +217,6 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
             if (tables_->sampleTexels) textures.add("samples", tables_->sampleTexels);
             setWalls(program, group, frame);
         }
-        const int spheres = part.count * group.spheresOf;
-        program.set("firstSphere", first);
-        program.set("partSpheres", spheres);
         program.set("label", int(uint32_t(g) << 26) + part.first);
         program.set("keyMask", (1 << contact_->tableBits) - 1);
         program.set("cell", float(contact_->cell));
@@ -221,7 +227,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
         program.storage("Places", 1, spherePlaces_.buffer);
         program.storage("Motions", 2, motions_.buffer);
         program.storage("Cells", 3, sphereCells_.buffer);
-        dispatch(program, size_t(spheres));
+        dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
 }

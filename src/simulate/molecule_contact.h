@@ -91,6 +91,8 @@ class MoleculeContact : public ContactResult {
         size_t last = 0, earlier = 1, next = 2;
         float momentum = 0;  // by how much it goes on beyond the last
     };
+    size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
+                      int first) const;
     Textures bindResponse(const gpu::Program& program, double stepTime, double restSpeed) const;
     void runNearest(double stepTime, double restSpeed, const Totals& totals);
     void runEffective(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state);

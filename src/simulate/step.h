@@ -61,11 +61,8 @@ std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& gro
 // hand are taken in the middle of the frame, and hold over it: an error of second order in the frame.
 // (Solvers with history ask for forces at the ends of their substeps, and get the middle of those.)
 //
-// Parameters of one, from its slot:
-//   attract      position, strength        radius, most
-//   vortexLine   position, pull            axis, turn         core, radius
-//   thrust       exp(rate h), exp(rate h/2), limit, rate
-// and last the sum of the winds. The strengths of what is switched off are 0.
+// One has its call's (compile/call_writer.h) from its slot on, a thrust exp(rate h), exp(rate h / 2), limit
+// and rate; the sum of the winds is last. The strengths of what is switched off are 0.
 std::vector<glm::vec4> forceParameters(const Plan& plan, const GroupPlan& group, const Frame& frame);
 
 // Step, kickDrift and lag of shaders/physics/collide.glsl.

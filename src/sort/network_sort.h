@@ -19,7 +19,7 @@
 
 namespace shoal {
 
-// What is sorted, by its key.
+// An item that is sorted, by its key.
 struct KeyIndex {
     uint32_t key = 0, index = 0;
     bool operator==(const KeyIndex&) const = default;

@@ -34,16 +34,6 @@ Row rowOf(const std::string& label, const Key& key, std::string& format, const S
     return row;
 }
 
-bool pickColor(const Row& row, glm::dvec3& color, double most) {
-    std::array<float, 3> value{float(color.x), float(color.y), float(color.z)};
-    beginRow(row);
-    if (!ImGui::ColorEdit3("##color", value.data(), ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
-        return false;
-    for (int i = 0; i < 3; ++i)
-        color[i] = std::clamp(std::round(double(value[size_t(i)]) * 1000) / 1000, 0.0, most);
-    return true;
-}
-
 bool pickWord(const Row& row, const Key& key, void* value) {
     int index = key.member.index(value);
     beginRow(row);
@@ -199,7 +189,7 @@ bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, c
     case Kind::direction:
         return turnDirection(row.tip, *static_cast<glm::dvec3*>(value), angles_[ImGui::GetID("angles")]);
     case Kind::color:
-        return pickColor(row, *static_cast<glm::dvec3*>(value), std::min(key.says.range.most, 1000.0));
+        return pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, *static_cast<glm::dvec3*>(value));
     case Kind::flag:
         return tick(row, *static_cast<bool*>(value));
     case Kind::word:

@@ -38,7 +38,7 @@ bool drawNumber(Editor& editor, const Key& key, double& value) {
 
 template <typename S>
 double& numberOf(const Key& key, S& object) {
-    return *static_cast<double*>(key.member.make(reinterpret_cast<char*>(&object) + key.member.offset));
+    return *static_cast<double*>(key.member.make(key.place(&object)));
 }
 
 // Draws the numbers of what is selected by its description. The first of it is shown; `change`, which takes a
