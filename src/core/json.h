@@ -36,6 +36,7 @@ class JsonValue {
     std::vector<JsonValue> items;     // array
     std::vector<JsonMember> members;  // object, in the file's order
 
+    bool isContainer() const { return kind == Kind::array || kind == Kind::object; }
     const JsonValue* find(std::string_view key) const;
 
     // Builders for what we write.

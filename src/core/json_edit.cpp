@@ -9,12 +9,9 @@ namespace {
 
 using Kind = JsonValue::Kind;
 
-bool isContainer(const JsonValue& value) {
-    return value.kind == Kind::array || value.kind == Kind::object;
-}
-
 bool holdsContainers(const JsonValue& array) {
-    return array.kind == Kind::array && std::any_of(array.items.begin(), array.items.end(), isContainer);
+    return array.kind == Kind::array && std::any_of(array.items.begin(), array.items.end(),
+                                                    [](const JsonValue& item) { return item.isContainer(); });
 }
 
 // Returns the white space at the start of a position's line, up to that position.
@@ -28,7 +25,7 @@ std::string indentAt(const std::string& text, size_t position) {
 // A value as writeJson writes it, its further lines behind `indent`.
 std::string indented(const JsonValue& value, const std::string& indent, bool element) {
     std::string line = writeJsonLine(value);
-    if (!isContainer(value) || (element && indent.size() + line.size() < 110)) return line;
+    if (!value.isContainer() || (element && indent.size() + line.size() < 110)) return line;
     const std::string plain = writeJson(value);
     std::string out;
     for (const char c : plain.substr(0, plain.size() - 1)) {

@@ -50,10 +50,6 @@ std::string scalar(const JsonValue& value) {
     }
 }
 
-bool isContainer(const JsonValue& value) {
-    return value.kind == JsonValue::Kind::array || value.kind == JsonValue::Kind::object;
-}
-
 bool isPlainNumbers(const JsonValue& value) {
     if (value.kind != JsonValue::Kind::array) return false;
     for (const JsonValue& item : value.items)
@@ -62,7 +58,7 @@ bool isPlainNumbers(const JsonValue& value) {
 }
 
 void writeLine(const JsonValue& value, std::string& out) {
-    if (!isContainer(value)) {
+    if (!value.isContainer()) {
         out += scalar(value);
         return;
     }
@@ -85,7 +81,7 @@ void writeLine(const JsonValue& value, std::string& out) {
 // `element`: the value stands in an array, where short things keep to one line.
 void write(const JsonValue& value, size_t indent, bool element, std::string& out) {
     const bool empty = value.items.empty() && value.members.empty();
-    if (!isContainer(value) || empty || isPlainNumbers(value)) return writeLine(value, out);
+    if (!value.isContainer() || empty || isPlainNumbers(value)) return writeLine(value, out);
     if (element) {
         std::string line;
         writeLine(value, line);

@@ -1,7 +1,7 @@
 // A context of OSMesa: Mesa's CPU rasteriser as a plain library, opened when asked for.
 //
-// Mesa removed OSMesa in 25.1, so that it is optional at run time, and its header at compile time. The header
-// brings its own GL/gl.h, which GLEW does not tolerate: this file includes nothing else of OpenGL.
+// Mesa removed OSMesa in 25.1, so that it is optional at run time, and its header, which GLEW does not tolerate,
+// is not included.
 #include <dlfcn.h>
 
 #include <array>
@@ -10,9 +10,6 @@
 #include "core/error.h"
 #include "gpu/platform.h"
 
-#if __has_include(<GL/osmesa.h>)
-#include <GL/osmesa.h>
-#else
 // From OSMesa's published interface, version 12.
 using OSMesaContext = struct osmesa_context*;
 using OSMESAproc = void (*)();
@@ -24,7 +21,6 @@ using OSMESAproc = void (*)();
 #define OSMESA_CONTEXT_MAJOR_VERSION 0x36
 #define OSMESA_CONTEXT_MINOR_VERSION 0x37
 #define GL_UNSIGNED_BYTE 0x1401
-#endif
 
 namespace shoal::gpu {
 namespace {

@@ -14,7 +14,7 @@ using gpu::Texel;
 
 namespace {
 
-constexpr size_t groupLanes = 64;  // of a workgroup, as the shaders say
+constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
 constexpr size_t activeHead = 5, droppedWord = 4;
 
 size_t wordsOf(Texel texel) {
@@ -26,7 +26,7 @@ void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact, const
     const size_t block = size_t(info.maxStorageBlockBytes);
     const size_t most = std::min({block / (sizeof(float) * size_t(contact.listLength)), block / 16,
                                   size_t(info.maxBufferTexels) / size_t(contact.listLength),
-                                  size_t(info.maxWorkGroupsX) * groupLanes, RadixSort::most(info)});
+                                  size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info)});
     if (size_t(contact.spheres) <= most) return;
     throw Error(location, concat("contact between ", contact.spheres,
                                  " spheres is more than this context holds: at most ", most));
@@ -45,7 +45,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
       plan_(&plan),
       contact_(&plan.contact),
       tables_(&tables),
-      padded_((size_t(plan.contact.spheres) + groupLanes - 1) / groupLanes * groupLanes),
+      padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
       sort_((checkLimits(context.info(), plan.contact, plan.contact.settings.location), context), shaderRoot,
             padded_, cache) {
     for (const ContactGroup& group : contact_->groups) {
@@ -184,7 +184,7 @@ void MoleculeContact::settled() {
 }
 
 void MoleculeContact::dispatch(const Program& program, size_t count) const {
-    program.dispatch(int((count + groupLanes - 1) / groupLanes));
+    program.dispatch(int((count + contactLanes - 1) / contactLanes));
 }
 
 // Sets which spheres a program handles, those of one part, and returns their number.

@@ -7,32 +7,32 @@ namespace shoal {
 
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double missed = std::numeric_limits<double>::infinity();
 
 // [Moeller 1997]; from both sides.
 double meets(const Ray& ray, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
     const glm::dvec3 ab = b - a, ac = c - a, p = glm::cross(ray.along, ac);
     const double determinant = glm::dot(ab, p);
-    if (determinant == 0) return never;
+    if (determinant == 0) return missed;
     const glm::dvec3 from = ray.from - a, q = glm::cross(from, ab);
     const double u = glm::dot(from, p) / determinant, v = glm::dot(ray.along, q) / determinant;
     const double distance = glm::dot(ac, q) / determinant;
-    return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : never;
+    return u >= 0 && v >= 0 && u + v <= 1 && distance > 0 ? distance : missed;
 }
 
 double meetsPoint(const Ray& ray, const glm::dvec3& point, double radius, double angle) {
     const glm::dvec3 to = point - ray.from;
     const double distance = glm::dot(to, ray.along);
-    if (!(distance > 0)) return never;
+    if (!(distance > 0)) return missed;
     const double off = glm::length(to - distance * ray.along);
-    return off <= std::max(radius, distance * std::tan(angle)) ? distance : never;
+    return off <= std::max(radius, distance * std::tan(angle)) ? distance : missed;
 }
 
 }  // namespace
 
 std::optional<RayHit> firstHit(const Ray& ray, const Snapshot& state, const Molecule& shape, double radius,
                                double angle) {
-    RayHit surface{-1, never}, vertex{-1, never};
+    RayHit surface{-1, missed}, vertex{-1, missed};
     const auto keep = [](RayHit& best, int molecule, double distance) {
         if (distance < best.distance) best = {molecule, distance};
     };

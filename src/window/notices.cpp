@@ -13,8 +13,9 @@ namespace shoal::window {
 
 namespace {
 
-constexpr ImGuiWindowFlags plain = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing;
+constexpr ImGuiWindowFlags plainWindow = ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoTitleBar |
+                                         ImGuiWindowFlags_NoSavedSettings |
+                                         ImGuiWindowFlags_NoFocusOnAppearing;
 
 // A driver may have a page to say: its first lines tell.
 std::string firstLines(const std::string& text) {
@@ -67,7 +68,7 @@ bool showNotices(const std::string& problem, const std::string& message, float l
                             ImVec2(0, narrow ? 1 : 0));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y));
     ImGui::PushStyleColor(ImGuiCol_WindowBg, ImVec4(0.2f, 0.07f, 0.05f, 0.94f));
-    ImGui::Begin("Message", nullptr, plain);
+    ImGui::Begin("Message", nullptr, plainWindow);
     if (!problem.empty()) {
         ImGui::TextColored(ImVec4(1, 0.62f, 0.5f, 1),
                            "A changed file does not run; what ran before runs on:");
@@ -95,7 +96,7 @@ void StatusLine::draw(const std::string& instead) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, screen.y - points(12)), ImGuiCond_Always,
                             ImVec2(0.5f, 1));
-    ImGui::Begin("Status", nullptr, plain | ImGuiWindowFlags_NoInputs);
+    ImGui::Begin("Status", nullptr, plainWindow | ImGuiWindowFlags_NoInputs);
     if (!instead.empty())
         ImGui::TextColored(ImVec4(1, 0.45f, 0.35f, 1), "%s", instead.c_str());
     else
@@ -105,7 +106,7 @@ void StatusLine::draw(const std::string& instead) {
 
 void drawOpening(const std::string& file) {
     centered();
-    ImGui::Begin("Opening", nullptr, plain);
+    ImGui::Begin("Opening", nullptr, plainWindow);
     ImGui::TextWrapped("Opening %s ...", std::filesystem::path(file).filename().string().c_str());
     ImGui::End();
 }

@@ -20,6 +20,8 @@ namespace shoal {
 class Description;
 class Where;
 
+inline constexpr const char* axisNames[] = {"x", "y", "z"};
+
 // A field holds at most this many cells, those of all frames together.
 inline constexpr long long maxFieldCells = 1ll << 24;
 

@@ -6,7 +6,6 @@ namespace shoal {
 
 namespace {
 
-constexpr const char* axisNames[] = {"x", "y", "z"};
 
 double need(NumberScanner& numbers, const std::string& what) {
     double value = 0;
