@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "app/machine.h"
+#include "app/report.h"
 #include "bench/bench.h"
 #include "bench/collide.h"
 #include "bench/particles.h"
-#include "core/json.h"
 
 namespace shoal::app {
 
@@ -19,9 +18,6 @@ bench::DrawMaker drawMaker(gpu::Context& context);
 // Targets as all but the plain `shoal bench` report them. `format`: of what was measured, as for std::printf.
 std::string asText(const std::vector<bench::Target>& targets, const char* format);
 JsonValue asJson(const std::vector<bench::Target>& targets);
-
-// As std::printf writes it; at most 255 bytes.
-__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...);
 
 struct BenchReport {
     MeasuredOn machine;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "measure/method_runner.h"
 #include "scene/solver.h"
 
 namespace shoal::app {
@@ -148,8 +149,7 @@ std::optional<SolverKind> solverNamed(const char* option, const std::string& wor
 
 FieldSampling samplingNamed(const char* option, const std::string& word) {
     std::vector<std::string> words;
-    for (const FieldSampling one :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+    for (const FieldSampling one : measure::allSamplings) {
         if (word == name(one)) return one;
         words.emplace_back(name(one));
     }

@@ -189,6 +189,13 @@ bool available(Simd simd) {
     return processorHas(simd) && (simd == Simd::scalar || kernelsOf(simd) != nullptr);
 }
 
+Simd bestSimd() {
+    Simd out = Simd::scalar;
+    for (const Simd better : {Simd::avx2, Simd::avx512})
+        if (available(better)) out = better;
+    return out;
+}
+
 bool fitsBaseline(const Molecule& molecule) {
     return !molecule.vertices.empty() && !molecule.hasPins() &&
            std::none_of(molecule.springs.begin(), molecule.springs.end(),

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "measure/method_runner.h"
 #include "scene/field_kinds.h"
 
 namespace shoal::bench {
@@ -83,8 +84,7 @@ void addSamplings(std::vector<BenchCase>& out, int count) {
         one.wind = wind;
         const std::string what = name(wind);
         one.subject = Subject::fused;
-        for (const FieldSampling sampling :
-             {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+        for (const FieldSampling sampling : measure::allSamplings) {
             one.sampling = sampling;
             one.label = "fused, " + what + ", " + shoal::name(sampling);
             out.push_back(one);
@@ -96,8 +96,7 @@ void addSamplings(std::vector<BenchCase>& out, int count) {
     }
     one.solver = SolverKind::leapfrog;
     one.subject = Subject::fused;
-    for (const FieldSampling sampling :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+    for (const FieldSampling sampling : measure::allSamplings) {
         one.sampling = sampling;
         one.label = std::string("fused, leapfrog, gusts, ") + shoal::name(sampling);
         out.push_back(one);
@@ -130,6 +129,9 @@ const char* name(Wind wind) {
 }
 bool isPath(Subject subject) {
     return subject == Subject::fused || subject == Subject::pingPong;
+}
+Path pathOf(Subject subject) {
+    return subject == Subject::fused ? Path::fused : Path::pingPong;
 }
 bool isBaseline(Subject subject) {
     return subject == Subject::avx512 || subject == Subject::avx2 || subject == Subject::scalar;
@@ -211,6 +213,17 @@ Molecule cloth(int side) {
             out.triangles.push_back({at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
         }
     }
+    return out;
+}
+
+HeightFieldCollider hills(double half) {
+    HeightFieldCollider out;
+    out.columns = out.rows = 128;
+    out.low = {-half, -half};
+    out.high = {half, half};
+    for (int row = 0; row < out.rows; ++row)
+        for (int column = 0; column < out.columns; ++column)
+            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
     return out;
 }
 

@@ -141,17 +141,6 @@ std::vector<ParticleCase> particleCases(bool quick) {
     return out.all;
 }
 
-static HeightFieldCollider hills() {
-    HeightFieldCollider out;
-    out.columns = out.rows = 128;
-    out.low = {-8, -8};
-    out.high = {8, 8};
-    for (int row = 0; row < out.rows; ++row)
-        for (int column = 0; column < out.columns; ++column)
-            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
-    return out;
-}
-
 static void addBirths(const ParticleCase& one, Group& group) {
     const double born = one.turnover * one.count(), frames = 1 / one.turnover;
     Lifecycle& life = group.life.emplace();
@@ -176,7 +165,7 @@ Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecu
     scene.solver.substeps = one.substeps;
     scene.contact.steps = 1;
     scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
-    if (one.heights) scene.colliders.emplace_back().shape = hills();
+    if (one.heights) scene.colliders.emplace_back().shape = hills(8);
     Group group;
     group.name = one.quads ? "quads" : "points";
     group.molecule = one.quads ? quad : point;

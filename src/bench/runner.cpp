@@ -40,13 +40,11 @@ class PathRunner : public BenchRunner {
         return out;
     }
     static SimulationOptions optionsOf(const BenchCase& one, const BenchDevice& device) {
-        SimulationOptions out;
-        out.drawn = one.drawn;
-        out.path = one.subject == Subject::fused ? Path::fused : Path::pingPong;
-        out.inPlace = one.inPlace;
-        out.lanes = one.lanes;
-        out.cache = device.cache;
-        return out;
+        return {.drawn = one.drawn,
+                .path = pathOf(one.subject),
+                .inPlace = one.inPlace,
+                .lanes = one.lanes,
+                .cache = device.cache};
     }
 
     Scene scene_;
@@ -191,10 +189,7 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
     for (size_t i = 0; i < packed.positions.size(); ++i)
         positions.push_back(packed.anchors[i / vertices] + packed.positions[i]);
     velocities = packed.velocities;
-    Simd simd = Simd::scalar;
-    for (const Simd better : {Simd::avx2, Simd::avx512})
-        if (available(better)) simd = better;
-    Baseline baseline(molecule, one.count, simd, cores);
+    Baseline baseline(molecule, one.count, bestSimd(), cores);
     baseline.set(positions, velocities);
     const BaselineStep step = baselineStep(scene);
     for (int i = 0; i < framesBefore; ++i)
@@ -206,6 +201,12 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
         for (size_t i = m * vertices; i < (m + 1) * vertices; ++i)
             packed.positions[i] = positions[i] - packed.anchors[m];
     }
+}
+
+double lastOf(const gpu::PassTimers& timers, const char* pass) {
+    for (const gpu::PassTime& one : timers.report())
+        if (one.name == pass) return one.last;
+    return 0;
 }
 
 size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {

@@ -376,7 +376,7 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
         return field.box || !std::holds_alternative<UniformField>(*field.shape);
     });
     if (!dragged || !varies) return {FieldSampling::vertexSubstep};
-    return {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame};
+    return {std::begin(allSamplings), std::end(allSamplings)};
 }
 
 std::vector<Step> stepLadder(bool fine, int mostSplits) {

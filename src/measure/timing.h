@@ -11,6 +11,12 @@ namespace shoal::measure {
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start);
+template <typename Work>
+double secondsOf(const Work& work) {
+    const Clock::time_point start = Clock::now();
+    work();
+    return secondsSince(start);
+}
 
 struct Spread {
     double min = 0, median = 0;  // of the values; 0 without any
@@ -55,8 +61,8 @@ void takeTurns(const VisitPlan& plan, Visit visit) {
         plan, [](int) {}, visit);
 }
 
-// A number by a format of printf; a time in nanoseconds, of three digits that count.
-std::string formatted(const char* format, double value);
+// As std::printf writes it; a time in nanoseconds, of three digits that count.
+__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...);
 std::string nanoseconds(double seconds);
 
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU
