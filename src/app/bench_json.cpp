@@ -86,7 +86,7 @@ JsonValue asJson(const BenchReport& report) {
                                    key("simulations", arrayOf(report.starts, asJson)));
     return object(key("version", SHOAL_VERSION), key("machine", machine),
                   key("context", asJson(report.machine.context)), key("quick", report.quick),
-                  key("pictureSize", concat(report.width, "x", report.height)),
+                  key("pictureSize", concat(pictureWidth, "x", pictureHeight)),
                   key("secondsAGroup", report.secondsAGroup), key("seconds", report.seconds),
                   key("cases", cases), key("errors", errors), key("startUp", start),
                   key("passTimes", arrayOf(report.passes, asJson)),

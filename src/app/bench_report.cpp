@@ -157,8 +157,8 @@ std::string asText(const std::vector<Target>& targets, const char* format) {
 std::string asText(const BenchReport& report) {
     std::ostringstream out;
     out << twoLines(report.machine) << "\n"
-        << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
-        << " x " << report.height << ".\n"
+        << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << pictureWidth
+        << " x " << pictureHeight << ".\n"
         << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
            "baseline.\n"
         << "vs p-p: times as fast as ping-pong. state, moved: bytes of a molecule, kept on the device and "

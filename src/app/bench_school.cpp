@@ -1,14 +1,10 @@
 // `shoal bench school`: fish that swim and school, steps a second by their number.
 #include <iostream>
 
+#include "app/bench.h"
 #include "app/commands.h"
-#include "app/report.h"
-#include "bench/bench.h"
-#include "core/cache_folder.h"
-#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
-#include "run/progress.h"
 
 namespace shoal::app {
 
@@ -45,15 +41,11 @@ JsonValue asJson(const MeasuredOn& machine, const std::vector<SchoolTimes>& all)
 
 int benchSchoolCommand(const Options& options) {
     const Molecule fry = readMolecule(moleculeFolder() + "/fry.json");
-    gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
-    MeasuredOn machine = measuredOn(context);
-    const BenchDevice device{&context, shaderRoot(), &cache, {}, machine.cores, {}};
-    const double seconds = options.seconds.value_or(options.quick ? 1 : 20);
-    const std::vector<SchoolTimes> times = measureSchools(schoolCases(options.quick), fry, device, seconds);
-    machine.pinned = measure::pinRasteriserThreads();
-    tellWarnings(cache.takeWarnings());
-    std::cout << (options.json ? writeJson(asJson(machine, times)) : asText(machine, times));
+    BenchSession session(options, 20, 1);
+    const std::vector<SchoolTimes> times =
+        measureSchools(schoolCases(options.quick), fry, session.device, session.schedule.seconds);
+    session.end();
+    std::cout << (options.json ? writeJson(asJson(session.machine, times)) : asText(session.machine, times));
     return 0;
 }
 

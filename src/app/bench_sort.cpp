@@ -5,10 +5,6 @@
 #include "app/bench.h"
 #include "app/commands.h"
 #include "bench/sort.h"
-#include "core/cache_folder.h"
-#include "measure/timing.h"
-#include "run/data_paths.h"
-#include "run/progress.h"
 
 namespace shoal::app {
 
@@ -116,23 +112,20 @@ JsonValue asJson(const Report& report) {
 }  // namespace
 
 int benchSortCommand(const Options& options) {
-    gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
+    BenchSession session(options, 8, 1);
     Report report;
-    report.machine = measuredOn(context);
+    report.machine = session.machine;
     report.machine.pinned = measure::pinRasteriserThreads();
-    report.secondsASize = options.seconds.value_or(options.quick ? 1 : 8);
-    measure::Schedule schedule;
-    schedule.seconds = report.secondsASize;
+    report.secondsASize = session.schedule.seconds;
     std::vector<int> sides = {128, 256, 512, 1024};
     if (options.quick) sides.resize(2);
     std::cerr << "This takes about " << roughly(double(sides.size()) * (report.secondsASize + 1)) << ".\n";
     Progress progress("sizes", int(sides.size()));
     for (const int side : sides) {
-        report.tables.push_back(measureSorts(side, {&context, shaderRoot(), &cache}, schedule));
+        report.tables.push_back(measureSorts(side, session.device, session.schedule));
         progress.step();
     }
-    tellWarnings(cache.takeWarnings());
+    session.end();
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

@@ -7,6 +7,7 @@
 #include <iostream>
 
 #include "app/cli.h"
+#include "app/commands.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
 #include "window/interface.h"
@@ -37,12 +38,11 @@ std::string solverWords() {
 
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
     section(command, ofScene);
-    command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
+    addNumber(command, "--dt", options.dt, "Seconds that one frame simulates, instead of the scene's",
+              "a time in seconds");
     command.add_option("--solver", texts.solver, "Method of every group, instead of the scene's")
         ->type_name(solverWords());
-    command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
-        ->check(wholeNumber());
+    addWhole(command, "--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
     command
         .add_option("--field-sampling", options.fieldSampling,
                     "Where and how often fields are read, instead of the scene's")
@@ -52,26 +52,20 @@ void addOverrides(CLI::App& command, Options& options, Texts& texts) {
 
 void addError(CLI::App& command, Options& options) {
     section(command, ofScene);
-    command
-        .add_option("--error", options.error,
-                    "Cheapest solver, substeps and field sampling whose measured error is below this")
-        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
+    addNumber(command, "--error", options.error,
+              "Cheapest solver, substeps and field sampling whose measured error is below this",
+              "an error such as 1e-3");
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("molecule", options.files, "Molecule file")
-        ->required()
-        ->expected(1)
-        ->type_name("FILE");
+    addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
     command.add_option("--size", texts.size, "Size of the window in pixels")
         ->type_name("WxH")
         ->capture_default_str();
-    command
-        .add_option("--scale", options.scale, "Pixels a point of the panels; as the screen asks unless given")
-        ->check(kindOf(isAll<double>, "a number"));
-    command.add_option("--frames", options.frames, "Close after so many frames")->check(wholeNumber());
-    command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG")
-        ->type_name("FILE");
+    addNumber(command, "--scale", options.scale,
+              "Pixels a point of the panels; as the screen asks unless given", "a number");
+    addWhole(command, "--frames", options.frames, "Close after so many frames");
+    addFile(command, "--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG");
     needs(command, "--screenshot", "--frames");
 }
 
@@ -89,8 +83,7 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     addContext(command, options, texts);
     section(command, execution);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
-    command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
-        ->check(wholeNumber());
+    addWhole(command, "--frames", options.frames, "Stop after so many frames (headless: 240)");
     command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
     section(command, "Pictures");
     command.add_option("--size", texts.size, "Size of pictures, or of the window, in pixels")
@@ -100,40 +93,30 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
         .add_option("--capture", options.capture,
                     "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)")
         ->type_name("TARGET");
-    command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
-        ->check(wholeNumber())
+    addWhole(command, "--capture-every", options.captureEvery, "Take every n-th frame")
         ->capture_default_str();
     section(command, "State");
     command
         .add_option("--export", options.exports,
                     "Folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)")
         ->type_name("TARGET");
-    command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
-        ->delimiter(',')
-        ->check(wholeNumber());
-    command.add_option("--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)")
-        ->check(wholeNumber());
+    addWhole(command, "--export-frames", options.exportFrames, "Frames to export (default: the last)")
+        ->delimiter(',');
+    addWhole(command, "--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)");
     command.add_option("--export-cells", texts.exportCells, ".vtp, .pvd: what becomes cells")
         ->type_name("surface|springs|vertices")
         ->capture_default_str();
-    command.add_option("--save", options.save, "File for the state at the end, to resume from")
-        ->type_name("FILE");
-    command.add_option("--save-frames", options.saveFrames, "Frames to save (default: the last)")
-        ->delimiter(',')
-        ->check(wholeNumber());
-    command
-        .add_option("--resume", options.resume,
-                    "Go on from the state in this file; --frames are further ones")
-        ->type_name("FILE");
+    addFile(command, "--save", options.save, "File for the state at the end, to resume from");
+    addWhole(command, "--save-frames", options.saveFrames, "Frames to save (default: the last)")
+        ->delimiter(',');
+    addFile(command, "--resume", options.resume,
+            "Go on from the state in this file; --frames are further ones");
     section(command, reports);
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     section(command, "Window");
-    command
-        .add_option("--scale", options.scale,
-                    "Size of panels and letters, such as 2 (default: as the screen asks)")
-        ->check(kindOf(isAll<double>, "a factor such as 1.5"));
-    command.add_option("--screenshot", options.screenshot, "Save its picture after --frames and close")
-        ->type_name("FILE");
+    addNumber(command, "--scale", options.scale,
+              "Size of panels and letters, such as 2 (default: as the screen asks)", "a factor such as 1.5");
+    addFile(command, "--screenshot", options.screenshot, "Save its picture after --frames and close");
     needs(command, "--save-frames", "--save");
     needs(command, "--export-frames", "--export");
     needs(command, "--export-every", "--export");
@@ -331,17 +314,15 @@ static std::string nameOf(const CLI::App* command) {
     return (command->get_parent() ? nameOf(command->get_parent()) + " " : "") + command->get_name();
 }
 
-static Options::Command commandOf(const CLI::App& app) {
-    static const std::pair<const char*, Options::Command> names[] = {
-        {"run", Options::Command::run},     {"scenes", Options::Command::scenes},
-        {"check", Options::Command::check}, {"explain", Options::Command::explain},
-        {"bench", Options::Command::bench}, {"measure", Options::Command::measure},
-        {"field", Options::Command::field}, {"edit", Options::Command::edit},
-        {"keys", Options::Command::keys},
+static auto commandOf(const CLI::App& app) {
+    static constexpr std::pair<const char*, int (*)(const Options&)> names[] = {
+        {"run", runCommand},         {"scenes", scenesCommand}, {"check", checkCommand},
+        {"explain", explainCommand}, {"bench", benchCommand},   {"measure", measureCommand},
+        {"field", fieldCommand},     {"edit", editCommand},     {"keys", keysCommand},
     };
     for (const auto& [name, command] : names)
         if (app.got_subcommand(name)) return command;
-    return Options::Command::info;
+    return infoCommand;
 }
 
 static void finish(const CLI::App& app, Options& options, const Texts& texts) {
