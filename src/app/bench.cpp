@@ -27,10 +27,7 @@ class BulletRunner : public BenchRunner {
         restart();
     }
     void restart() override {
-        bullet_ = std::make_unique<BulletBaseline>(molecule_, one_.count,
-                                                   one_.subject == Subject::bulletMerged
-                                                       ? BulletBaseline::Form::merged
-                                                       : BulletBaseline::Form::bodies);
+        bullet_ = makeBullet(molecule_, one_.count, one_.subject == Subject::bulletMerged);
     }
     void frame() override {
         for (int i = 0; i < one_.substeps; ++i)

@@ -30,10 +30,8 @@ void addScene(CLI::App& command, Options& options) {
 }
 
 std::string solverWords() {
-    std::string out = "auto";
-    for (const Solver& one : solvers())
-        out += concat("|", one.name);
-    return out;
+    return "auto|" + CLI::detail::join(
+                         solvers(), [](const Solver& one) { return one.name; }, "|");
 }
 
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
@@ -175,11 +173,8 @@ void checkTarget(const char* option, const std::string& target, const std::vecto
                               std::all_of(extension.begin() + 1, extension.end(),
                                           [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
     if (!looksLikeOne || std::find(known.begin(), known.end(), extension) != known.end()) return;
-    std::string list;
-    for (const std::string& one : known)
-        list += (list.empty() ? "" : ", ") + one;
-    throw Error(
-        concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ", list));
+    throw Error(concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ",
+                       CLI::detail::join(known, ", ")));
 }
 
 void checkRanges(const Options& options) {

@@ -15,13 +15,6 @@ const std::vector<std::string> benchWords = {"sort", "collide", "particles", "sc
 constexpr int (*benchCommands[])(const Options&) = {benchSortCommand, benchCollideCommand,
                                                     benchParticlesCommand, benchSchoolCommand};
 
-std::string joined(const std::vector<std::string>& words, const char* between) {
-    std::string out;
-    for (const std::string& word : words)
-        out += (out.empty() ? "" : between) + word;
-    return out;
-}
-
 void readLists(const Texts& texts, Options& options) {
     for (const std::string& word : texts.solvers) {
         const std::optional<SolverKind> kind = solverNamed("--solvers", word);
@@ -53,7 +46,7 @@ void finishBench(Options& options) {
     if (found == benchWords.end())
         throw Error(concat("bench: unknown \"", word, "\"",
                            near.empty() ? "" : " (did you mean \"" + near + "\"?)", "; expected ",
-                           joined(benchWords, ", "), " or nothing"));
+                           CLI::detail::join(benchWords, ", "), " or nothing"));
     if (!options.plot.empty())
         throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")
@@ -95,7 +88,7 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
         .add_option("of", options.benchOf,
                     "sort: the sorts; collide: contact; particles: points; school: fish; nothing: frames of "
                     "molecules")
-        ->type_name(joined(benchWords, "|"));
+        ->type_name(CLI::detail::join(benchWords, "|"));
     addContext(command, options, texts);
     section(command, "What is measured");
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");

@@ -27,9 +27,8 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--springs", molecule.springs, "lattice: tetrahedra that fill the volume")
         ->type_name("surface|lattice")
         ->capture_default_str();
-    std::string names;
-    for (const ScaledMaterial& material : materialScale())
-        names += (names.empty() ? "" : "|") + std::string(material.name);
+    const std::string names = CLI::detail::join(
+        materialScale(), [](const ScaledMaterial& one) { return one.name; }, "|");
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
         ->type_name(names);
     number("--size", make.size, "m, of the longest side (default: as in the file)");
