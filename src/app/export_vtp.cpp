@@ -10,6 +10,7 @@
 
 #include "core/file.h"
 #include "core/printable.h"
+#include "measure/timing.h"
 
 namespace shoal::app {
 
@@ -194,9 +195,8 @@ PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
 }
 
 void PvdIndex::add(double time, const std::string& dataFile) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.9g", time);
-    lines_ += concat("<DataSet timestep=\"", number, "\" part=\"0\" file=\"", xmlQuoted(dataFile), "\"/>\n");
+    lines_ += concat("<DataSet timestep=\"", measure::formatted("%.9g", time), "\" part=\"0\" file=\"",
+                     xmlQuoted(dataFile), "\"/>\n");
     writeFile(file_,
               std::string_view(concat(
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"",
