@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <new>
 
 #include "bench/baseline_kernels.h"
 #include "bench/baseline_threads.h"
@@ -14,22 +13,6 @@ namespace shoal::bench {
 using glm::vec3;
 
 namespace {
-
-// A cache line, and an AVX-512 vector.
-constexpr size_t alignment = 64;
-
-class Floats {
-  public:
-    Floats() = default;
-    explicit Floats(size_t count) : data_(new (std::align_val_t(alignment)) float[count]()) {}
-    float* data() const { return data_.get(); }
-
-  private:
-    struct Free {
-        void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
-    };
-    std::unique_ptr<float[], Free> data_;
-};
 
 const KernelSet* kernelsOf(Simd simd) {
     return simd == Simd::avx512 ? avx512Kernels : simd == Simd::avx2 ? avx2Kernels : nullptr;
@@ -221,7 +204,7 @@ struct Baseline::Data {
         kernels = kernelsOf(simd);
         kernel = kernelFor(*kernels, molecule);
         blockCount = (count + kernels->lanes - 1) / kernels->lanes;
-        blocks = Floats(size_t(blockCount) * blockFloats());
+        blocks = AlignedFloats(size_t(blockCount) * blockFloats());
         for (int i = 0; i < threads_; ++i)
             scratch.emplace_back(size_t(3 * vertexCount * kernels->lanes));
         for (const ScalarSpring& spring : scalar.springs)
@@ -246,8 +229,8 @@ struct Baseline::Data {
     const KernelSet* kernels = nullptr;
     Kernel kernel = nullptr;
     int blockCount = 0;
-    Floats blocks;
-    std::vector<Floats> scratch;
+    AlignedFloats blocks;
+    std::vector<AlignedFloats> scratch;
     std::vector<int> ends;
 };
 
@@ -337,10 +320,8 @@ void Baseline::Data::frameInLanes(const BaselineStep& step) {
     out.constants = constants.data();
     out.kick = shares.data();
     threads.run([&](int index) {
-        const int first = int(int64_t(blockCount) * index / threads.count());
-        const int last = int(int64_t(blockCount) * (index + 1) / threads.count());
-        kernel(blocks.data() + size_t(first) * blockFloats(), last - first, out,
-               scratch[size_t(index)].data());
+        const auto [first, last] = threads.part(size_t(blockCount), index);
+        kernel(blocks.data() + first * blockFloats(), int(last - first), out, scratch[size_t(index)].data());
     });
 }
 
@@ -348,9 +329,8 @@ void Baseline::frame(const BaselineStep& step) {
     Data& d = *data_;
     if (d.kernels) return d.frameInLanes(step);
     d.threads.run([&](int index) {
-        const int first = int(int64_t(d.count) * index / d.threads.count());
-        const int last = int(int64_t(d.count) * (index + 1) / d.threads.count());
-        frameScalar(d.scalar, first, last, step, d.force[size_t(index)]);
+        const auto [first, last] = d.threads.part(size_t(d.count), index);
+        frameScalar(d.scalar, int(first), int(last), step, d.force[size_t(index)]);
     });
 }
 

@@ -78,16 +78,14 @@ struct ContactBaseline::Data {
             piece.next.resize(size_t(mask) + 1);
         starts.resize(size_t(mask) + 2);
         keys.resize(spheres);
-        sphereOf.resize(spheres);
-        numbers.resize(spheres);
-        effectiveCounts.resize(spheres);
-        kept.resize(spheres);
         places.resize(spheres);
         motions.resize(spheres);
-        impulses.resize(spheres);
-        newImpulses.resize(spheres);
-        earlierImpulses.resize(spheres);
-        shifts.resize(spheres);
+        for (std::vector<int>* of : {&sphereOf, &numbers})
+            of->resize(spheres);
+        for (std::vector<float>* of : {&effectiveCounts, &kept})
+            of->resize(spheres);
+        for (std::vector<vec3>* of : {&impulses, &newImpulses, &earlierImpulses, &shifts})
+            of->resize(spheres);
     }
 
     std::vector<float> weights;
@@ -112,10 +110,6 @@ struct ContactBaseline::Data {
     template <typename Work>
     void each(Work work) {
         threads.run([this, &work](int thread) { work(thread, pieces[size_t(thread)]); });
-    }
-    std::pair<size_t, size_t> part(size_t all, int thread) const {
-        const auto n = size_t(threads.count());
-        return {all * size_t(thread) / n, all * size_t(thread + 1) / n};
     }
 
     void count(int thread, Piece& piece);
@@ -144,7 +138,7 @@ struct ContactBaseline::Data {
 
 void ContactBaseline::Data::count(int thread, Piece& piece) {
     std::fill(piece.next.begin(), piece.next.end(), 0u);
-    const auto [first, last] = part(size_t(molecules), thread);
+    const auto [first, last] = threads.part(size_t(molecules), thread);
     for (size_t m = first; m < last; ++m) {
         const vec3 anchor = state.anchors[m];
         for (size_t s = m * size_t(vertices); s < (m + 1) * size_t(vertices); ++s) {
@@ -156,7 +150,7 @@ void ContactBaseline::Data::count(int thread, Piece& piece) {
 }
 
 void ContactBaseline::Data::sumUp(int thread, Piece& piece) {
-    const auto [first, last] = part(size_t(mask) + 1, thread);
+    const auto [first, last] = threads.part(size_t(mask) + 1, thread);
     piece.sum = 0;
     for (const Piece& other : pieces)
         for (size_t k = first; k < last; ++k)
@@ -167,7 +161,7 @@ void ContactBaseline::Data::begin(int thread) {
     uint32_t slot = 0;
     for (int before = 0; before < thread; ++before)
         slot += pieces[size_t(before)].sum;
-    const auto [first, last] = part(size_t(mask) + 1, thread);
+    const auto [first, last] = threads.part(size_t(mask) + 1, thread);
     for (size_t k = first; k < last; ++k) {
         starts[k] = slot;
         for (Piece& piece : pieces)
@@ -177,7 +171,7 @@ void ContactBaseline::Data::begin(int thread) {
 }
 
 void ContactBaseline::Data::scatter(int thread, Piece& piece) {
-    const auto [first, last] = part(size_t(molecules), thread);
+    const auto [first, last] = threads.part(size_t(molecules), thread);
     for (size_t m = first; m < last; ++m) {
         const vec3 anchor = state.anchors[m];
         for (size_t s = m * size_t(vertices); s < (m + 1) * size_t(vertices); ++s) {
@@ -243,7 +237,7 @@ void ContactBaseline::Data::look(int slot, Piece& piece) const {
 void ContactBaseline::Data::find(int thread, Piece& piece) {
     piece.contacts.clear();
     piece.active.clear();
-    const auto [first, last] = part(spheres, thread);
+    const auto [first, last] = threads.part(spheres, thread);
     for (size_t slot = first; slot < last; ++slot) {
         const int begin = int(piece.contacts.size());
         piece.active.push_back({int(slot), begin, begin});

@@ -23,8 +23,8 @@ class Cases {
 
     void side(int side) {
         side_ = side;
-        motion();
-        heights();
+        motion(false);
+        motion(true);
         sort();
         contact();
         births(0.01);
@@ -63,30 +63,21 @@ class Cases {
         return out;
     }
 
-    void motion() {
-        begin("motion");
-        for (const SolverKind kind :
-             {SolverKind::leapfrog, SolverKind::euler, SolverKind::verlet, SolverKind::rk4}) {
+    void motion(bool heights) {
+        begin(heights ? "height field" : "motion");
+        const size_t first = all.size();
+        std::vector<SolverKind> kinds = {SolverKind::leapfrog, SolverKind::euler};
+        if (!heights) kinds.insert(kinds.end(), {SolverKind::verlet, SolverKind::rk4});
+        for (const SolverKind kind : kinds) {
             ParticleCase& one = add(concat("fused, ", name(kind)));
             one.solver = kind;
-            if (kind == SolverKind::euler) one.published = motionOnly.at(side_);
+            if (kind == SolverKind::euler) one.published = (heights ? heightField : motionOnly).at(side_);
         }
         add("fused, leapfrog, in place").inPlace = true;
         loop();
         add("copy of the state").what = What::copy;
-    }
-    void heights() {
-        begin("height field");
-        for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::euler}) {
-            ParticleCase& one = add(concat("fused, ", name(kind)));
-            one.solver = kind;
-            if (kind == SolverKind::euler) one.published = heightField.at(side_);
-        }
-        add("fused, leapfrog, in place").inPlace = true;
-        loop();
-        add("copy of the state").what = What::copy;
-        for (size_t i = all.size() - 5; i < all.size(); ++i)
-            all[i].heights = true;
+        for (size_t i = first; i < all.size(); ++i)
+            all[i].heights = heights;
     }
     void sort() {
         begin("sort");

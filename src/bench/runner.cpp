@@ -81,7 +81,6 @@ class BufferCopy : public BenchRunner {
             side = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, zeros.data(), bytes, "copy");
         stateBytes = movedBytes = 2 * bytes;
     }
-    void restart() override {}
     void frame() override {
         sides_[current_].copyTo(sides_[1 - current_], sides_[0].bytes());
         current_ = 1 - current_;
@@ -135,7 +134,6 @@ class MultiplyAdd : public BenchRunner {
                               size_t(groups * lanesOfGroup) * sizeof(float), "multiply-adds");
         operations = 16.0 * rounds * groups * lanesOfGroup;
     }
-    void restart() override {}
     void frame() override {
         program_.use();
         program_.set("factor", glm::vec4(0.999f, 0.998f, 0.997f, 0.996f));
@@ -157,11 +155,9 @@ class MemoryCopy : public BenchRunner {
     MemoryCopy(size_t bytes, int cores) : threads_(cores), from_(bytes, 'x'), to_(bytes, 'y') {
         stateBytes = movedBytes = 2 * bytes;
     }
-    void restart() override {}
     void frame() override {
         threads_.run([&](int index) {
-            const size_t n = size_t(threads_.count()), bytes = from_.size();
-            const size_t first = bytes * size_t(index) / n, last = bytes * size_t(index + 1) / n;
+            const auto [first, last] = threads_.part(from_.size(), index);
             std::memcpy(to_.data() + first, from_.data() + first, last - first);
         });
         std::swap(from_, to_);

@@ -48,7 +48,7 @@ struct BenchStart {
 class BenchRunner {
   public:
     virtual ~BenchRunner() = default;
-    virtual void restart() = 0;  // to the start
+    virtual void restart() {}  // to the start
     virtual void frame() = 0;
     virtual void finish() {}  // waits until the frames are done
     void run(int frames) {
