@@ -106,17 +106,20 @@ class SliceCanvas {
         return std::clamp(width / 2 + 0.5 - std::abs(distance), 0.0, 1.0);
     }
 
+    // The colour of a distance, with the contours; `perPixel`: m.
+    glm::dvec3 colorOf(double distance, double perPixel) const {
+        const double step = picture_.contours, nearest = std::round(distance / step);
+        const double line = cover((distance - nearest * step) / perPixel, 1);
+        const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
+        const glm::dvec3 color = ground(distance) * (1 - line * (fifth ? 0.42 : 0.2));
+        return glm::mix(color, glm::dvec3(0.05), cover(distance / perPixel, 2.6));
+    }
+
     glm::dvec3 shade(int x, int y) const {
         const FieldValue value = valueAt(field_, place(x, y));
         glm::dvec3 in = value.gradient;
         in[plane_.axis] = 0;
-        const double steep = std::max(glm::length(in), 0.2) * pixel_;  // m a pixel
-        glm::dvec3 color = ground(value.distance);
-        const double step = picture_.contours, nearest = std::round(value.distance / step);
-        const double line = cover((value.distance - nearest * step) / steep, 1);
-        const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
-        color *= 1 - line * (fifth ? 0.42 : 0.2);
-        return glm::mix(color, glm::dvec3(0.05), cover(value.distance / steep, 2.6));
+        return colorOf(value.distance, std::max(glm::length(in), 0.2) * pixel_);
     }
 
     // Where the plane cuts a triangle.
@@ -138,11 +141,7 @@ class SliceCanvas {
         const int from = (picture_.image.width - wide) / 2, top = border + rows_ + 8;
         const double step = picture_.contours, scale = (high_ - low_) / wide;
         for (int x = 0; x < wide; ++x) {
-            const double d = low_ + (x + 0.5) * scale, nearest = std::round(d / step);
-            const double line = cover((d - nearest * step) / scale, 1);
-            const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
-            glm::dvec3 color = ground(d) * (1 - line * (fifth ? 0.42 : 0.2));
-            color = glm::mix(color, glm::dvec3(0.05), cover(d / scale, 2.6));
+            const glm::dvec3 color = colorOf(low_ + (x + 0.5) * scale, scale);
             for (int y = 0; y < 12; ++y)
                 set(from + x, top + y, color);
         }

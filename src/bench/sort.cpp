@@ -4,7 +4,6 @@
 #include <memory>
 #include <random>
 
-#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/gl.h"
 
@@ -159,20 +158,6 @@ const SortTime* SortTable::find(SortMethod method, bool rowsOnly) const {
     for (const SortTime& time : times)
         if (time.method == method && time.rowsOnly == rowsOnly && time.leftOut.empty()) return &time;
     return nullptr;
-}
-
-const SortTime& SortTable::stdSort() const {
-    EXPECTS(times.size() >= 2);
-    return times[times.size() - 2];
-}
-
-const SortTime& SortTable::copy() const {
-    EXPECTS(!times.empty());
-    return times.back();
-}
-
-double SortTable::itemsPerSecond(const SortTime& time) const {
-    return time.seconds.min > 0 ? double(pairs()) / time.seconds.min : 0;
 }
 
 std::optional<double> SortTable::shareOfCopy(const SortTime& time) const {
