@@ -213,7 +213,12 @@ struct Baseline::Data {
 
     size_t blockFloats() const { return size_t(6 * vertexCount + 3) * size_t(kernels->lanes); }
     // Returns component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
-    float& at(int molecule, int vertex, int component) const {
+    float& at(int molecule, int vertex, int component) {
+        if (!kernels) {
+            if (vertex == vertexCount) return scalar.anchors[size_t(molecule)][component];
+            ScalarVertex& one = scalar.vertices[size_t(molecule) * size_t(vertexCount) + size_t(vertex)];
+            return component < 3 ? one.position[component] : one.velocity[component - 3];
+        }
         const int lanes = kernels->lanes;
         return blocks.data()[size_t(molecule / lanes) * blockFloats() +
                              size_t((6 * vertex + component) * lanes + molecule % lanes)];
@@ -248,42 +253,29 @@ void Baseline::set(std::span<const vec3> positions, std::span<const vec3> veloci
     EXPECTS(positions.size() == size_t(d.count) * size_t(d.vertexCount) &&
             velocities.size() == positions.size());
     const auto first = [&](int molecule) { return size_t(molecule) * size_t(d.vertexCount); };
-    if (!d.kernels) {
-        for (int m = 0; m < d.count; ++m) {
-            d.scalar.anchors[size_t(m)] = anchorOf(positions[first(m)]);
-            for (size_t i = first(m); i < first(m + 1); ++i)
-                d.scalar.vertices[i] = {positions[i] - d.scalar.anchors[size_t(m)], velocities[i]};
-        }
-        return;
-    }
-    for (int lane = 0; lane < d.blockCount * d.kernels->lanes; ++lane) {
-        const int m = std::min(lane, d.count - 1);  // the last block is filled up with copies
+    const int places = d.kernels ? d.blockCount * d.kernels->lanes : d.count;
+    for (int place = 0; place < places; ++place) {
+        const int m = std::min(place, d.count - 1);  // the last block is filled up with copies
         const vec3 anchor = anchorOf(positions[first(m)]);
         for (int i = 0; i < d.vertexCount; ++i) {
             for (int k = 0; k < 3; ++k) {
-                d.at(lane, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
-                d.at(lane, i, 3 + k) = velocities[first(m) + size_t(i)][k];
+                d.at(place, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
+                d.at(place, i, 3 + k) = velocities[first(m) + size_t(i)][k];
             }
         }
         for (int k = 0; k < 3; ++k)
-            d.at(lane, d.vertexCount, k) = anchor[k];
+            d.at(place, d.vertexCount, k) = anchor[k];
     }
 }
 
 void Baseline::get(std::vector<vec3>& positions, std::vector<vec3>& velocities) const {
-    const Data& d = *data_;
+    Data& d = *data_;
     positions.clear();
     velocities.clear();
+    const int anchor = d.vertexCount;
     for (int m = 0; m < d.count; ++m) {
         for (int i = 0; i < d.vertexCount; ++i) {
-            if (!d.kernels) {
-                const ScalarVertex& vertex = d.scalar.vertices[size_t(m) * size_t(d.vertexCount) + size_t(i)];
-                positions.push_back(d.scalar.anchors[size_t(m)] + vertex.position);
-                velocities.push_back(vertex.velocity);
-                continue;
-            }
-            const int a = d.vertexCount;
-            positions.push_back(vec3(d.at(m, a, 0), d.at(m, a, 1), d.at(m, a, 2)) +
+            positions.push_back(vec3(d.at(m, anchor, 0), d.at(m, anchor, 1), d.at(m, anchor, 2)) +
                                 vec3(d.at(m, i, 0), d.at(m, i, 1), d.at(m, i, 2)));
             velocities.emplace_back(d.at(m, i, 3), d.at(m, i, 4), d.at(m, i, 5));
         }
