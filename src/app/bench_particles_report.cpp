@@ -148,9 +148,10 @@ JsonValue asJson(const ParticleTimes& t) {
            key("movedBytesPerFrame", unlessZero(double(t.movedBytes))), key("busBytesPerFrame", t.busBytes),
            key("positionError", t.error), key("publishedFramesPerSecond", unlessZero(t.one.published)));
     if (t.one.allocator)
-        return append(out, key("allocator", name(*t.one.allocator)), key("turnover", t.one.turnover),
-                      key("living", t.live), key("bornPerFrame", t.born), key("lostPerFrame", t.lost),
-                      key("packing", t.packing));
+        append(out, key("allocator", name(*t.one.allocator)), key("turnover", t.one.turnover),
+               key("living", t.live), key("bornPerFrame", t.born), key("lostPerFrame", t.lost),
+               key("packing", t.packing));
+    return out;
 }
 
 JsonValue asJson(const BirthCost& cost) {

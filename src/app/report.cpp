@@ -56,8 +56,9 @@ JsonValue headOf(const MeasuredOn& machine) {
 static JsonValue asJson(const gpu::Traffic& traffic) {
     JsonValue out = object();
     for (int i = 0; i < gpu::Traffic::kinds; ++i)
-        return append(out, key(gpu::Traffic::names[i], object(key("uploaded", traffic.uploaded[i]),
-                                                              key("readBack", traffic.readBack[i]))));
+        append(out, key(gpu::Traffic::names[i],
+                        object(key("uploaded", traffic.uploaded[i]), key("readBack", traffic.readBack[i]))));
+    return out;
 }
 
 static JsonValue asJson(const GroupLives& lives) {
@@ -104,8 +105,9 @@ JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vec
     append(out, key("written", report.written));
     if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
     if (simulation.contact())
-        return append(out, key("contactBytes", simulation.contact()->bytes()),
-                      key("contactsDropped", simulation.contact()->dropped()));
+        append(out, key("contactBytes", simulation.contact()->bytes()),
+               key("contactsDropped", simulation.contact()->dropped()));
+    return out;
 }
 
 }  // namespace shoal::app
