@@ -1,6 +1,5 @@
 #include "app/bench.h"
 
-#include <algorithm>
 #include <iomanip>
 #include <sstream>
 

@@ -1,6 +1,5 @@
 #include "app/measure.h"
 
-#include <algorithm>
 #include <iomanip>
 #include <sstream>
 

@@ -1,7 +1,6 @@
 // What reports share: the machine, the passes' times, rows of text; and the report of `run --json`.
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>

@@ -9,7 +9,6 @@
 // begins with the state that this contact step begins with, to the bit.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "scene/field_kinds.h"
 namespace shoal::measure {
