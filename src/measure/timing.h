@@ -46,19 +46,12 @@ struct VisitPlan {
 };
 // `cost`: seconds of one visit, for each case.
 VisitPlan planVisits(const std::vector<double>& cost, const Schedule& schedule);
-// Calls visit(i) for each case in each round that it takes part in, and begin(round) before each round.
-template <typename Begin, typename Visit>
-void takeTurns(const VisitPlan& plan, Begin begin, Visit visit) {
-    for (int round = 0; round < plan.rounds; ++round) {
-        begin(round);
-        for (size_t i = 0; i < plan.samples.size(); ++i)
-            if (plan.visits(i, round)) visit(i);
-    }
-}
+// Calls visit(i) for each case in each round that it takes part in.
 template <typename Visit>
 void takeTurns(const VisitPlan& plan, Visit visit) {
-    takeTurns(
-        plan, [](int) {}, visit);
+    for (int round = 0; round < plan.rounds; ++round)
+        for (size_t i = 0; i < plan.samples.size(); ++i)
+            if (plan.visits(i, round)) visit(i);
 }
 
 // As std::printf writes it; a time in nanoseconds, of three digits that count.
