@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 
 #include "app/cli.h"
 #include "app/commands.h"
@@ -177,31 +178,28 @@ void checkTarget(const char* option, const std::string& target, const std::vecto
 }
 
 void checkRanges(const Options& options) {
-    const auto atLeast = [](const char* option, std::optional<int> value, int least) {
+    constexpr int any = std::numeric_limits<int>::max();
+    const auto within = [](const char* option, std::optional<int> value, int least, int most) {
         if (value && *value < least)
             throw Error(concat(option, ": expected at least ", least, ", found ", *value));
-    };
-    // the limits of the scene file
-    const auto atMost = [](const char* option, std::optional<int> value, int most) {
         if (value && *value > most)
             throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
-    atLeast("--frames", options.frames, 1);
+    within("--frames", options.frames, 1, any);
     if (options.scale && !(*options.scale >= window::leastScale && *options.scale <= window::mostScale))
         throw Error(concat("--scale: expected ", window::leastScale, " to ", window::mostScale, ", found ",
                            *options.scale));
-    atLeast("--substeps", options.substeps, 1);
-    atMost("--substeps", options.substeps, maxSubsteps);
-    atLeast("--count", options.count, 1);
-    atMost("--count", options.count, maxGroupCount);
-    atLeast("--capture-every", options.captureEvery, 1);
+    // the limits of the scene file
+    within("--substeps", options.substeps, 1, maxSubsteps);
+    within("--count", options.count, 1, maxGroupCount);
+    within("--capture-every", options.captureEvery, 1, any);
     for (const int frame : options.exportFrames)
-        atLeast("--export-frames", frame, 0);
+        within("--export-frames", frame, 0, any);
     if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
         throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
     for (const int frame : options.saveFrames)
-        atLeast("--save-frames", frame, 0);
-    atLeast("--export-every", options.exportEvery, 1);
+        within("--save-frames", frame, 0, any);
+    within("--export-every", options.exportEvery, 1, any);
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
