@@ -21,20 +21,13 @@ using namespace bench;
 
 namespace {
 
-using measure::Clock, measure::secondsSince;
-
-constexpr int pictureWidth = 640, pictureHeight = 360;
-
 class BulletRunner : public BenchRunner {
   public:
     BulletRunner(const BenchCase& one, const Molecule& molecule) : one_(one), molecule_(molecule) {
         restart();
     }
     void restart() override {
-        bullet_ = std::make_unique<BulletBaseline>(molecule_, one_.count,
-                                                   one_.subject == Subject::bulletMerged
-                                                       ? BulletBaseline::Form::merged
-                                                       : BulletBaseline::Form::bodies);
+        bullet_ = makeBullet(molecule_, one_.count, one_.subject == Subject::bulletMerged);
     }
     void frame() override {
         for (int i = 0; i < one_.substeps; ++i)
@@ -75,48 +68,6 @@ Wanted wantedOf(const Options& options) {
                        "\", \"", passes, "\""));
 }
 
-// One bar for the whole run, whose end is estimated anew with every step.
-class WholeRun {
-  public:
-    // `parts`: seconds that each is expected to take.
-    explicit WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {}
-
-    double expected() const { return std::accumulate(parts_.begin(), parts_.end(), 0.0); }
-    // `left`: seconds until this part ends.
-    void tell(double left) {
-        const double rest = std::accumulate(parts_.begin() + part_ + 1, parts_.end(), left);
-        show(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
-    }
-    void tellShare(double share) { tell((1 - share) * parts_[size_t(part_)]); }
-    void next() { ++part_; }
-    void end() { show(100); }
-    double elapsed() const { return secondsSince(start_); }
-
-  private:
-    void show(int percent) {
-        for (; shown_ < percent; ++shown_)
-            bar_.step();
-    }
-
-    std::vector<double> parts_;
-    ptrdiff_t part_ = 0;
-    int shown_ = 0;
-    Progress bar_{"per cent", 100};
-    Clock::time_point start_ = Clock::now();
-};
-
-BenchReport describe(const Options& options, const gpu::Context& context) {
-    BenchReport out;
-    out.machine = measuredOn(context);
-    out.machine.pinned = measure::pinRasteriserThreads();
-    out.quick = options.quick;
-    out.whole = options.only.empty();
-    out.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 12);
-    out.width = pictureWidth;
-    out.height = pictureHeight;
-    return out;
-}
-
 // Expected seconds of each part, in the order of measureAll.
 std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& report) {
     std::vector<double> out;
@@ -136,34 +87,30 @@ std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& rep
 }
 
 void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const BenchDevice& device,
-                BenchReport& report) {
+                const measure::Schedule& schedule, BenchReport& report) {
     WholeRun run(expectedSeconds(wanted, report));
-    std::cerr << "This takes about " << roughly(run.expected()) << ".\n";
-    const auto share = [&](double done) { run.tellShare(done); };
-    measure::Schedule schedule;
-    schedule.seconds = report.secondsAGroup;
+    const auto progress = [&](double share) { run.tell(share); };
     for (const std::vector<BenchCase>& group : wanted.groups) {
-        const auto progress = [&](const std::string&, double left) { run.tell(left); };
         const std::vector<BenchResult> results = measureGroup(group, molecules, device, schedule, progress);
         report.results.insert(report.results.end(), results.begin(), results.end());
         run.next();
     }
     if (wanted.passes) {
-        report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, share);
+        report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, progress);
         run.next();
     }
     if (wanted.errors) {
-        report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, share);
+        report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, progress);
         run.next();
     }
-    if (wanted.starts) report.starts = measureStart(molecules, device, report.quick, share);
+    if (wanted.starts) report.starts = measureStart(molecules, device, report.quick, progress);
     run.end();
     report.seconds = run.elapsed();
 }
 
 }  // namespace
 
-DrawMaker drawMaker(gpu::Context& context) {
+static DrawMaker drawMaker(gpu::Context& context) {
     return [&context](const Scene& scene, const Plan& plan) -> Draw {
         RenderOptions options;
         options.width = pictureWidth;
@@ -175,32 +122,59 @@ DrawMaker drawMaker(gpu::Context& context) {
     };
 }
 
+BenchSession::BenchSession(const Options& options, double usual, double quick)
+    : context(hiddenContext(options)),
+      contextSeconds(measure::secondsSince(start)),
+      cache(context, cacheFolder()),
+      machine(measuredOn(context)),
+      device{&context, shaderRoot(), &cache, drawMaker(context), machine.cores, {}} {
+    schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
+}
+
+void BenchSession::end() {
+    machine.pinned = measure::pinRasteriserThreads();
+    tellWarnings(cache.takeWarnings());
+}
+
+WholeRun::WholeRun(std::vector<double> parts) : parts_(std::move(parts)) {
+    std::cerr << "This takes about " << roughly(std::accumulate(parts_.begin(), parts_.end(), 0.0)) << ".\n";
+    bar_.emplace("per cent", 100);
+}
+
+void WholeRun::tell(double share) {
+    const double rest =
+        std::accumulate(parts_.begin() + part_ + 1, parts_.end(), (1 - share) * parts_[size_t(part_)]);
+    show(std::min(99, int(100 * elapsed() / (elapsed() + rest))));
+}
+
+void WholeRun::show(int percent) {
+    for (; shown_ < percent; ++shown_)
+        bar_->step();
+}
+
 int benchCommand(const Options& options) {
-    if (options.benchOf == "sort") return benchSortCommand(options);
-    if (options.benchOf == "collide") return benchCollideCommand(options);
-    if (options.benchOf == "particles") return benchParticlesCommand(options);
-    if (options.benchOf == "school") return benchSchoolCommand(options);
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
-    const Clock::time_point start = Clock::now();
-    gpu::Context context(hiddenContext(options));
-    const double contextSeconds = secondsSince(start);
-    BenchReport report = describe(options, context);
-    report.contextSeconds = contextSeconds;
-    if (!context.info().computeShaders)
-        std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has "
-                  << context.info().version << ": its cases are left out\n";
-
-    gpu::ProgramCache cache(context, cacheFolder());
-    BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
+    BenchSession session(options, 12, 2);
+    const gpu::ContextInfo& info = session.context.info();
+    BenchReport report;
+    report.machine = session.machine;
+    report.machine.pinned = measure::pinRasteriserThreads();
+    report.quick = options.quick;
+    report.whole = options.only.empty();
+    report.secondsAGroup = session.schedule.seconds;
+    report.contextSeconds = session.contextSeconds;
+    if (!info.computeShaders)
+        std::cerr << "shoal: warning: the fused path needs OpenGL 4.3, and this context has " << info.version
+                  << ": its cases are left out\n";
     if (bulletAvailable())
-        device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
+        session.device.makeBullet = [](const BenchCase& one, const Molecule& molecule) {
             return std::make_unique<BulletRunner>(one, molecule);
         };
-    measureAll(wanted, molecules, device, report);
-    tellWarnings(cache.takeWarnings());
+    measureAll(wanted, molecules, session.device, session.schedule, report);
+    session.end();
     if (!options.plot.empty())
-        plotBench(options.plot, report.machine.processor + ", " + context.info().renderer, report.results);
+        plotBench(options.plot, report.machine.processor + ", " + info.renderer, report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
     return 0;

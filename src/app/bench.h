@@ -5,30 +5,61 @@
 #include <string>
 #include <vector>
 
-#include "app/machine.h"
+#include "app/options.h"
+#include "app/report.h"
 #include "bench/bench.h"
 #include "bench/collide.h"
 #include "bench/particles.h"
-#include "core/json.h"
+#include "run/progress.h"
 
 namespace shoal::app {
 
-// Makes what draws the pictures of a benchmark. Borrows the context.
-bench::DrawMaker drawMaker(gpu::Context& context);
+constexpr int pictureWidth = 640, pictureHeight = 360;
+
+// What a benchmark runs on. Each group of cases takes the seconds that the options say, or the usual ones.
+struct BenchSession {
+    BenchSession(const Options& options, double usual, double quick);
+    // The last of it, once all was measured: counts the pinned threads, tells warnings.
+    void end();
+
+    measure::Clock::time_point start = measure::Clock::now();
+    gpu::Context context;
+    double contextSeconds;  // to make it
+    gpu::ProgramCache cache;
+    MeasuredOn machine;
+    bench::BenchDevice device;
+    measure::Schedule schedule;
+};
+
+// One bar for a whole run, whose end is estimated anew with every step; first it tells how long that is.
+class WholeRun {
+  public:
+    // `parts`: seconds that each is expected to take.
+    explicit WholeRun(std::vector<double> parts);
+    void tell(double share);  // of this part that is done
+    void next() { ++part_; }
+    void end() { show(100); }
+    double elapsed() const { return measure::secondsSince(start_); }
+
+  private:
+    void show(int percent);
+
+    std::vector<double> parts_;
+    ptrdiff_t part_ = 0;
+    int shown_ = 0;
+    std::optional<Progress> bar_;
+    measure::Clock::time_point start_ = measure::Clock::now();
+};
 
 // Targets as all but the plain `shoal bench` report them. `format`: of what was measured, as for std::printf.
 std::string asText(const std::vector<bench::Target>& targets, const char* format);
 JsonValue asJson(const std::vector<bench::Target>& targets);
-
-// As std::printf writes it; at most 255 bytes.
-__attribute__((format(printf, 1, 2))) std::string print(const char* format, ...);
 
 struct BenchReport {
     MeasuredOn machine;
     bool quick = false;
     bool whole = true;  // everything was asked for
     double secondsAGroup = 0;
-    int width = 0, height = 0;  // of the pictures
     double seconds = 0;         // the whole run
     double contextSeconds = 0;  // to make the context
     std::vector<bench::BenchResult> results;

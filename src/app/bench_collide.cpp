@@ -1,15 +1,11 @@
 // `shoal bench collide`: contact between molecules against a CPU baseline, UberFlow's experiments, and what
 // each search finds.
-#include <algorithm>
 #include <iostream>
 
 #include "app/bench.h"
 #include "app/commands.h"
-#include "core/cache_folder.h"
-#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
-#include "run/progress.h"
 
 namespace shoal::app {
 
@@ -33,63 +29,38 @@ Wanted wantedOf(const std::string& only) {
     return out;
 }
 
-// One bar for groups that take about as long.
-class Bar {
-  public:
-    explicit Bar(int groups) : groups_(groups) {}
-    void tell(double share) { show(int(100 * (done_ + share) / groups_)); }
-    void next() {
-        ++done_;
-        tell(0);
-    }
-
-  private:
-    void show(int percent) {
-        for (; shown_ < std::min(percent, 100); ++shown_)
-            progress_.step();
-    }
-    int groups_, done_ = 0, shown_ = 0;
-    Progress progress_{"per cent", 100};
-};
-
 void measureAll(const Wanted& wanted, const Options& options, const BenchDevice& device,
-                CollideReport& report) {
+                const measure::Schedule& schedule, CollideReport& report) {
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
-    const int groups = wanted.groups(options.quick);
-    std::cerr << "This takes about " << roughly(groups * (report.secondsAGroup * 1.2 + 2)) << ".\n";
-    measure::Schedule schedule;
-    schedule.seconds = report.secondsAGroup;
-    Bar bar(groups);
-    const auto progress = [&](double share) { bar.tell(share); };
+    WholeRun run(std::vector<double>(size_t(wanted.groups(options.quick)), report.secondsAGroup * 1.2 + 2));
+    const auto progress = [&](double share) { run.tell(share); };
     if (wanted.molecules) {
         report.contact = measureContact(contactCases(options.quick), quad, device, schedule, progress);
-        bar.next();
+        run.next();
     }
     for (const int side : wanted.uberFlow ? uberFlowSides(options.quick) : std::vector<int>()) {
         for (UberFlowTimes& times : measureUberFlow(side, point, device, schedule, progress))
             report.uberFlow.push_back(std::move(times));
-        bar.next();
+        run.next();
     }
     if (wanted.searches) {
         report.searches = measureSearches(point, options.quick, device, schedule, progress);
-        bar.next();
+        run.next();
     }
+    run.end();
 }
 
 }  // namespace
 
 int benchCollideCommand(const Options& options) {
     const Wanted wanted = wantedOf(options.only);
-    gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
+    BenchSession session(options, 20, 2);
     CollideReport report;
-    report.machine = measuredOn(context);
-    report.secondsAGroup = options.seconds.value_or(options.quick ? 2 : 20);
-    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
-    measureAll(wanted, options, device, report);
-    report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
-    tellWarnings(cache.takeWarnings());
+    report.secondsAGroup = session.schedule.seconds;
+    measureAll(wanted, options, session.device, session.schedule, report);
+    session.end();
+    report.machine = session.machine;
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

@@ -30,22 +30,22 @@ std::string contactText(const std::vector<ContactTimes>& all) {
     for (const ContactTimes& t : all) {
         if (t.one.density != density) {
             density = t.one.density;
-            out += print("\n%s: %.4g m^3 a quad, spheres of %g m at its corners; ms, shortest (median)\n",
-                         density.c_str(), t.one.room, ContactCase::radius);
+            out += formatted("\n%s: %.4g m^3 a quad, spheres of %g m at its corners; ms, shortest (median)\n",
+                             density.c_str(), t.one.room, ContactCase::radius);
             out +=
                 "    quads  contacts            grid          search        response         contact"
                 "       baseline  ratio  ns/quad  ns/contact     fused\n";
         }
         if (!t.leftOut.empty()) {
-            out += print("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
+            out += formatted("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
             continue;
         }
-        out += print("%9s%10s", grouped(t.one.quads).c_str(), grouped(int(t.contacts)).c_str());
+        out += formatted("%9s%10s", grouped(t.one.quads).c_str(), grouped(int(t.contacts)).c_str());
         for (const measure::Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.baseline})
-            out += print("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
-        out += print("%7.2f%9.0f%12.0f%10.2f\n", t.ratio(), t.perQuad() * 1e9,
-                     t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3);
-        if (t.dropped > 0) out += print("%9s  contacts dropped: %u\n", "", t.dropped);
+            out += formatted("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
+        out += formatted("%7.2f%9.0f%12.0f%10.2f\n", t.ratio(), t.perQuad() * 1e9,
+                         t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3);
+        if (t.dropped > 0) out += formatted("%9s  contacts dropped: %u\n", "", t.dropped);
     }
     return out;
 }
@@ -64,21 +64,21 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
     for (const UberFlowTimes& t : all) {
         if (t.side != side) {
             side = t.side;
-            out += print(
+            out += formatted(
                 "\nUberFlow's experiments, %d x %d particles; ms of a frame's parts, shortest of each\n",
                 side, side);
-            out += print("  %-34s%9s%9s%9s%9s%9s%9s%11s%11s\n", "", "motion", "contact", "sort", "draw",
-                         "frame", "fps", "undrawn", "published");
+            out += formatted("  %-34s%9s%9s%9s%9s%9s%9s%11s%11s\n", "", "motion", "contact", "sort", "draw",
+                             "frame", "fps", "undrawn", "published");
         }
-        out += print("  %-34s", label(t).c_str());
+        out += formatted("  %-34s", label(t).c_str());
         if (!t.leftOut.empty()) {
             out += " left out: " + t.leftOut + "\n";
             continue;
         }
         for (const measure::Spread* spread : {&t.motion, &t.contact, &t.sort, &t.draw, &t.frame})
-            out += spread->min > 0 ? print("%9.2f", spread->min * 1e3) : print("%9s", "-");
-        out += print("%9.3g%11.4g", t.framesPerSecond(), t.undrawnFramesPerSecond());
-        if (!t.published.empty()) out += print("%11g", t.published[placeOf(side)]);
+            out += spread->min > 0 ? formatted("%9.2f", spread->min * 1e3) : formatted("%9s", "-");
+        out += formatted("%9.3g%11.4g", t.framesPerSecond(), t.undrawnFramesPerSecond());
+        if (!t.published.empty()) out += formatted("%11g", t.published[placeOf(side)]);
         out += "\n";
     }
     return out;
@@ -86,109 +86,82 @@ std::string uberFlowText(const std::vector<UberFlowTimes>& all) {
 
 std::string searchText(const SearchReport& report) {
     if (report.shares.empty()) return "\nsearches left out: need OpenGL 4.3\n";
-    std::string out = print(
+    std::string out = formatted(
         "\nshare of the contacts of %s spheres that a search finds; ns: grid and search,"
         " for each contact found\n",
         grouped(report.spheres).c_str());
     out += "  spheres a cell   contacts";
     const size_t kinds = 3;
     for (size_t s = 0; s < kinds; ++s)
-        out += print("%12s      ns", name(report.shares[s].search));
+        out += formatted("%12s      ns", name(report.shares[s].search));
     for (size_t i = 0; i < report.shares.size(); ++i) {
         const SearchShare& share = report.shares[i];
-        if (i % kinds == 0) out += print("\n  %14g%11s", share.perCell, grouped(int(share.contacts)).c_str());
-        out += print("%11.1f%%%8.0f", share.share() * 100, share.perContact() * 1e9);
+        if (i % kinds == 0)
+            out += formatted("\n  %14g%11s", share.perCell, grouped(int(share.contacts)).c_str());
+        out += formatted("%11.1f%%%8.0f", share.share() * 100, share.perContact() * 1e9);
     }
     const size_t steps = report.steps.size() / kinds;
-    out += print(
+    out += formatted(
         "\n\nshare of the contacts of %s spheres in flight, %g a cell, that a look after every step"
         " finds\n",
         grouped(report.movingSpheres).c_str(), report.movingPerCell);
     out += "  radii in a step  contacts";
     for (size_t s = 0; s < kinds; ++s)
-        out += print("%12s", name(report.steps[s * steps].search));
+        out += formatted("%12s", name(report.steps[s * steps].search));
     for (size_t i = 0; i < steps; ++i) {
-        out += print("\n  %15g%10s", report.steps[i].step, grouped(int(report.steps[i].contacts)).c_str());
+        out +=
+            formatted("\n  %15g%10s", report.steps[i].step, grouped(int(report.steps[i].contacts)).c_str());
         for (size_t s = 0; s < kinds; ++s)
-            out += print("%11.1f%%", report.steps[s * steps + i].share() * 100);
+            out += formatted("%11.1f%%", report.steps[s * steps + i].share() * 100);
     }
     return out + "\n";
 }
 
-JsonValue number(double value) {
-    return JsonValue::makeNumber(value);
-}
-
 JsonValue asJson(const measure::Spread& spread) {
-    JsonValue out = JsonValue::makeObject();
-    return out.add("minSeconds", number(spread.min))
-        .add("medianSeconds", number(spread.median))
-        .add("samples", number(spread.samples));
+    return object(key("minSeconds", spread.min), key("medianSeconds", spread.median),
+                  key("samples", spread.samples));
 }
 
 JsonValue asJson(const ContactTimes& t) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("density", JsonValue::makeString(t.one.density))
-        .add("quads", number(t.one.quads))
-        .add("cubicMetresPerQuad", number(t.one.room));
-    if (!t.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(t.leftOut));
-    return out.add("spheres", number(double(t.spheres)))
-        .add("contacts", number(double(t.contacts)))
-        .add("baselineContacts", number(double(t.baselineContacts)))
-        .add("dropped", number(t.dropped))
-        .add("bytes", number(double(t.bytes)))
-        .add("grid", asJson(t.grid))
-        .add("search", asJson(t.search))
-        .add("response", asJson(t.response))
-        .add("contact", asJson(t.contact))
-        .add("baseline", asJson(t.baseline))
-        .add("fusedStep", asJson(t.fused))
-        .add("nanosecondsPerQuad", number(t.perQuad() * 1e9))
-        .add("overBaseline", number(t.ratio()));
+    JsonValue out = object(key("density", t.one.density), key("quads", t.one.quads),
+                           key("cubicMetresPerQuad", t.one.room));
+    if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
+    return append(out, key("spheres", t.spheres), key("contacts", t.contacts),
+                  key("baselineContacts", t.baselineContacts), key("dropped", t.dropped),
+                  key("bytes", t.bytes), key("grid", asJson(t.grid)), key("search", asJson(t.search)),
+                  key("response", asJson(t.response)), key("contact", asJson(t.contact)),
+                  key("baseline", asJson(t.baseline)), key("fusedStep", asJson(t.fused)),
+                  key("nanosecondsPerQuad", t.perQuad() * 1e9), key("overBaseline", t.ratio()));
 }
 
 JsonValue asJson(const UberFlowTimes& t) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("experiment", JsonValue::makeString(t.experiment))
-        .add("how", JsonValue::makeString(t.how))
-        .add("side", number(t.side));
-    if (!t.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(t.leftOut));
-    return out.add("motion", asJson(t.motion))
-        .add("contact", asJson(t.contact))
-        .add("sort", asJson(t.sort))
-        .add("draw", asJson(t.draw))
-        .add("frame", asJson(t.frame))
-        .add("framesPerSecond", number(t.framesPerSecond()))
-        .add("undrawnFramesPerSecond", number(t.undrawnFramesPerSecond()))
-        .add("publishedFramesPerSecond",
-             t.published.empty() ? JsonValue() : number(t.published[placeOf(t.side)]));
+    JsonValue out = object(key("experiment", t.experiment), key("how", t.how), key("side", t.side));
+    std::optional<double> published;
+    if (!t.published.empty()) published = t.published[placeOf(t.side)];
+    if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
+    return append(out, key("motion", asJson(t.motion)), key("contact", asJson(t.contact)),
+                  key("sort", asJson(t.sort)), key("draw", asJson(t.draw)), key("frame", asJson(t.frame)),
+                  key("framesPerSecond", t.framesPerSecond()),
+                  key("undrawnFramesPerSecond", t.undrawnFramesPerSecond()),
+                  key("publishedFramesPerSecond", published));
+}
+
+JsonValue asJson(const SearchShare& share) {
+    return object(key("search", name(share.search)), key("spheresPerCell", share.perCell),
+                  key("contacts", share.contacts), key("found", share.found),
+                  key("gridAndSearch", asJson(share.time)),
+                  key("nanosecondsPerContact", share.perContact() * 1e9));
+}
+
+JsonValue asJson(const StepShare& step) {
+    return object(key("search", name(step.search)), key("radiiInAStep", step.step),
+                  key("contacts", step.contacts), key("found", step.found));
 }
 
 JsonValue asJson(const SearchReport& report) {
-    JsonValue shares = JsonValue::makeArray(), steps = JsonValue::makeArray();
-    for (const SearchShare& share : report.shares) {
-        JsonValue one = JsonValue::makeObject();
-        one.add("search", JsonValue::makeString(name(share.search)))
-            .add("spheresPerCell", number(share.perCell))
-            .add("contacts", number(double(share.contacts)))
-            .add("found", number(double(share.found)))
-            .add("gridAndSearch", asJson(share.time))
-            .add("nanosecondsPerContact", number(share.perContact() * 1e9));
-        shares.items.push_back(std::move(one));
-    }
-    for (const StepShare& step : report.steps) {
-        JsonValue one = JsonValue::makeObject();
-        one.add("search", JsonValue::makeString(name(step.search)))
-            .add("radiiInAStep", number(step.step))
-            .add("contacts", number(double(step.contacts)))
-            .add("found", number(double(step.found)));
-        steps.items.push_back(std::move(one));
-    }
-    JsonValue out = JsonValue::makeObject();
-    return out.add("spheres", number(report.spheres))
-        .add("overDensity", std::move(shares))
-        .add("spheresInFlight", number(report.movingSpheres))
-        .add("overSpeed", std::move(steps));
+    return object(key("spheres", report.spheres), key("overDensity", arrayOf(report.shares, asJson)),
+                  key("spheresInFlight", report.movingSpheres),
+                  key("overSpeed", arrayOf(report.steps, asJson)));
 }
 
 }  // namespace
@@ -202,17 +175,12 @@ std::string asText(const CollideReport& report) {
 }
 
 JsonValue asJson(const CollideReport& report) {
-    JsonValue contact = JsonValue::makeArray(), uberFlow = JsonValue::makeArray();
-    for (const ContactTimes& times : report.contact)
-        contact.items.push_back(asJson(times));
-    for (const UberFlowTimes& times : report.uberFlow)
-        uberFlow.items.push_back(asJson(times));
     JsonValue out = headOf(report.machine);
-    return out.add("secondsAGroup", number(report.secondsAGroup))
-        .add("contact", std::move(contact))
-        .add("uberFlow", std::move(uberFlow))
-        .add("searches", report.searches ? asJson(*report.searches) : JsonValue())
-        .add("targets", app::asJson(targets(report)));
+    return append(out, key("secondsAGroup", report.secondsAGroup),
+                  key("contact", arrayOf(report.contact, asJson)),
+                  key("uberFlow", arrayOf(report.uberFlow, asJson)),
+                  key("searches", report.searches ? asJson(*report.searches) : JsonValue()),
+                  key("targets", asJson(targets(report))));
 }
 
 }  // namespace shoal::app

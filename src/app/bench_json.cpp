@@ -1,5 +1,4 @@
 #include "app/bench.h"
-#include "app/report.h"
 
 namespace shoal::app {
 
@@ -7,150 +6,92 @@ using namespace bench;
 
 namespace {
 
-JsonValue orNull(const std::optional<double>& value) {
-    return value ? JsonValue::makeNumber(*value) : JsonValue();
-}
-
 JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all) {
     const BenchCase& one = result.one;
-    JsonValue out = JsonValue::makeObject();
-    out.add("group", JsonValue::makeString(one.group))
-        .add("case", JsonValue::makeString(one.label))
-        .add("subject", JsonValue::makeString(name(one.subject)))
-        .add("molecule", JsonValue::makeString(one.molecule))
-        .add("count", JsonValue::makeNumber(one.count));
-    if (!result.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(result.leftOut));
-    if (!isCopy(one.subject)) {
-        out.add("solver", JsonValue::makeString(shoal::name(one.solver)))
-            .add("substeps", JsonValue::makeNumber(one.substeps))
-            .add("wind", JsonValue::makeString(name(one.wind)));
-    }
-    if (isPath(one.subject)) {
-        out.add("fieldSampling", JsonValue::makeString(shoal::name(one.sampling)))
-            .add("lanes", JsonValue::makeString(shoal::name(result.lanes)))
-            .add("inPlace", JsonValue::makeBoolean(one.inPlace))
-            .add("drawn", JsonValue::makeBoolean(one.drawn));
-    }
+    JsonValue out = object(key("group", one.group), key("case", one.label), key("subject", name(one.subject)),
+                           key("molecule", one.molecule), key("count", one.count));
+    if (!result.leftOut.empty()) return append(out, key("leftOut", result.leftOut));
+    if (!isCopy(one.subject))
+        append(out, key("solver", shoal::name(one.solver)), key("substeps", one.substeps),
+               key("wind", name(one.wind)));
+    if (isPath(one.subject))
+        append(out, key("fieldSampling", shoal::name(one.sampling)), key("lanes", shoal::name(result.lanes)),
+               key("inPlace", one.inPlace), key("drawn", one.drawn));
+    std::optional<double> each, moved;
+    if (one.subject != Subject::multiplyAdd) each = result.perMolecule() * 1e9;
+    if (result.movedBytes > 0) moved = double(result.movedBytes);
     const Ratios ratios = ratiosOf(result, all);
-    out.add("samples", JsonValue::makeNumber(result.frame.samples))
-        .add("framesPerSample", JsonValue::makeNumber(result.framesPerSample))
-        .add("minSeconds", JsonValue::makeNumber(result.frame.min))
-        .add("medianSeconds", JsonValue::makeNumber(result.frame.median))
-        .add("nanosecondsPerMolecule", one.subject == Subject::multiplyAdd
-                                           ? JsonValue()
-                                           : JsonValue::makeNumber(result.perMolecule() * 1e9))
-        .add("overAvx512", orNull(ratios.avx512))
-        .add("overAvx2", orNull(ratios.avx2))
-        .add("fasterThanPingPong", orNull(ratios.pingPong))
-        .add("stateBytesPerMolecule", JsonValue::makeNumber(double(result.stateBytes) / one.count))
-        .add("movedBytesPerFrame",
-             result.movedBytes ? JsonValue::makeNumber(double(result.movedBytes)) : JsonValue())
-        .add("bytesPerSecond", orNull(ratios.bandwidth))
-        .add("shareOfCopy", orNull(ratios.shareOfCopy))
-        .add("operationsPerSecond", orNull(ratios.arithmetic))
-        .add("shareOfPeak", orNull(ratios.shareOfPeak))
-        .add("busStateBytesPerFrame", JsonValue::makeNumber(result.busStateBytes));
-    return out;
+    return append(out, key("samples", result.frame.samples), key("framesPerSample", result.framesPerSample),
+                  key("minSeconds", result.frame.min), key("medianSeconds", result.frame.median),
+                  key("nanosecondsPerMolecule", each), key("overAvx512", ratios.avx512),
+                  key("overAvx2", ratios.avx2), key("fasterThanPingPong", ratios.pingPong),
+                  key("stateBytesPerMolecule", double(result.stateBytes) / one.count),
+                  key("movedBytesPerFrame", moved), key("bytesPerSecond", ratios.bandwidth),
+                  key("shareOfCopy", ratios.shareOfCopy), key("operationsPerSecond", ratios.arithmetic),
+                  key("shareOfPeak", ratios.shareOfPeak), key("busStateBytesPerFrame", result.busStateBytes));
 }
 
 JsonValue wantedAndMeasured(const Target& target) {
-    JsonValue out = JsonValue::makeObject();
-    return out.add("target", JsonValue::makeString(target.what))
-        .add(target.atLeast ? "atLeast" : "atMost", JsonValue::makeNumber(target.limit))
-        .add("measured", orNull(target.measured));
+    return object(key("target", target.what), key(target.atLeast ? "atLeast" : "atMost", target.limit),
+                  key("measured", target.measured));
 }
 
 JsonValue asJson(const Target& target) {
     JsonValue out = wantedAndMeasured(target);
-    if (target.ofMedians) out.add("ofMedians", JsonValue::makeNumber(*target.ofMedians));
-    if (target.measured) out.add("holds", JsonValue::makeBoolean(target.holds()));
+    if (target.ofMedians) append(out, key("ofMedians", *target.ofMedians));
+    if (target.measured) append(out, key("holds", target.holds()));
     return out;
 }
 
 JsonValue asJson(const BenchError& error, const std::vector<BenchResult>& all) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("subject", JsonValue::makeString(name(error.subject)))
-        .add("solver", JsonValue::makeString(shoal::name(error.solver)))
-        .add("wind", JsonValue::makeString(name(error.wind)))
-        .add("fieldSampling", JsonValue::makeString(shoal::name(error.sampling)))
-        .add("relativeError", orNull(error.relative));
+    JsonValue out = object(key("subject", name(error.subject)), key("solver", shoal::name(error.solver)),
+                           key("wind", name(error.wind)), key("fieldSampling", shoal::name(error.sampling)),
+                           key("relativeError", error.relative));
     for (const int count : {16384, 131072})
         if (const BenchResult* speed = speedOf(error, count, all))
-            out.add("nanosecondsPerMolecule" + std::to_string(count),
-                    JsonValue::makeNumber(speed->perMolecule() * 1e9));
+            out.add("nanosecondsPerMolecule" + std::to_string(count), toJson(speed->perMolecule() * 1e9));
     return out;
 }
 
 JsonValue asJson(const StartTime& start) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("molecule", JsonValue::makeString(start.molecule))
-        .add("count", JsonValue::makeNumber(start.count))
-        .add("solver", JsonValue::makeString(shoal::name(start.solver)))
-        .add("planSeconds", JsonValue::makeNumber(start.compile))
-        .add("coldSeconds", JsonValue::makeNumber(start.cold))
-        .add("driverCacheSeconds", JsonValue::makeNumber(start.driver))
-        .add("programCacheSeconds", JsonValue::makeNumber(start.cached));
-    return out;
+    return object(key("molecule", start.molecule), key("count", start.count),
+                  key("solver", shoal::name(start.solver)), key("planSeconds", start.compile),
+                  key("coldSeconds", start.cold), key("driverCacheSeconds", start.driver),
+                  key("programCacheSeconds", start.cached));
 }
 
 JsonValue asJson(const PassTable& table) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("molecule", JsonValue::makeString("quad"))
-        .add("count", JsonValue::makeNumber(table.count))
-        .add("subject", JsonValue::makeString(name(table.subject)))
-        .add("solver", JsonValue::makeString(shoal::name(table.solver)))
-        .add("frameMinSeconds", JsonValue::makeNumber(table.frame.min))
-        .add("frameMedianSeconds", JsonValue::makeNumber(table.frame.median))
-        .add("passes", app::asJson(table.passes));
-    return out;
-}
-
-template <typename Items>
-JsonValue arrayOf(const Items& items) {
-    JsonValue out = JsonValue::makeArray();
-    for (const auto& item : items)
-        out.items.push_back(asJson(item));
-    return out;
+    return object(key("molecule", "quad"), key("count", table.count), key("subject", name(table.subject)),
+                  key("solver", shoal::name(table.solver)), key("frameMinSeconds", table.frame.min),
+                  key("frameMedianSeconds", table.frame.median),
+                  key("passes", arrayOf(table.passes, app::asJson)));
 }
 
 }  // namespace
 
 JsonValue asJson(const std::vector<Target>& targets) {
-    JsonValue out = JsonValue::makeArray();
-    for (const Target& target : targets)
-        out.items.push_back(wantedAndMeasured(target));
-    return out;
+    return arrayOf(targets, wantedAndMeasured);
 }
 
 JsonValue asJson(const BenchReport& report) {
-    JsonValue machine = JsonValue::makeObject();
-    machine.add("processor", JsonValue::makeString(report.machine.processor))
-        .add("cores", JsonValue::makeNumber(report.machine.cores))
-        .add("pinnedRasteriserThreads", JsonValue::makeNumber(report.machine.pinned));
-    JsonValue cases = JsonValue::makeArray();
+    const JsonValue machine =
+        object(key("processor", report.machine.processor), key("cores", report.machine.cores),
+               key("pinnedRasteriserThreads", report.machine.pinned));
+    JsonValue cases = JsonValue::makeArray(), errors = JsonValue::makeArray();
     for (const BenchResult& result : report.results)
         cases.items.push_back(asJson(result, report.results));
-    JsonValue errors = JsonValue::makeArray();
     for (const BenchError& error : report.errors)
         errors.items.push_back(asJson(error, report.results));
-    JsonValue start = JsonValue::makeObject();
-    start.add("contextSeconds", JsonValue::makeNumber(report.contextSeconds))
-        .add("simulations", arrayOf(report.starts));
-    JsonValue out = JsonValue::makeObject();
-    out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("machine", std::move(machine))
-        .add("context", asJson(report.machine.context))
-        .add("quick", JsonValue::makeBoolean(report.quick))
-        .add("pictureSize", JsonValue::makeString(concat(report.width, "x", report.height)))
-        .add("secondsAGroup", JsonValue::makeNumber(report.secondsAGroup))
-        .add("seconds", JsonValue::makeNumber(report.seconds))
-        .add("cases", std::move(cases))
-        .add("errors", std::move(errors))
-        .add("startUp", std::move(start))
-        .add("passTimes", arrayOf(report.passes))
-        .add("disturbedCases", JsonValue::makeNumber(disturbed(report.results)))
-        .add("targets", arrayOf(targets(report.results, report.machine.context.software)));
-    return out;
+    const JsonValue start = object(key("contextSeconds", report.contextSeconds),
+                                   key("simulations", arrayOf(report.starts, asJson)));
+    return object(key("version", SHOAL_VERSION), key("machine", machine),
+                  key("context", asJson(report.machine.context)), key("quick", report.quick),
+                  key("pictureSize", concat(pictureWidth, "x", pictureHeight)),
+                  key("secondsAGroup", report.secondsAGroup), key("seconds", report.seconds),
+                  key("cases", cases), key("errors", errors), key("startUp", start),
+                  key("passTimes", arrayOf(report.passes, asJson)),
+                  key("disturbedCases", disturbed(report.results)),
+                  key("targets", arrayOf(targets(report.results, report.machine.context.software), asJson)));
 }
 
 }  // namespace shoal::app

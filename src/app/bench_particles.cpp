@@ -4,26 +4,14 @@
 
 #include "app/bench.h"
 #include "app/commands.h"
-#include "core/cache_folder.h"
-#include "measure/timing.h"
 #include "molecule/molecule_file.h"
 #include "run/data_paths.h"
-#include "run/progress.h"
 
 namespace shoal::app {
 
 using namespace bench;
 
 namespace {
-
-std::vector<std::vector<ParticleCase>> byGroup(const std::vector<ParticleCase>& cases) {
-    std::vector<std::vector<ParticleCase>> out;
-    for (const ParticleCase& one : cases) {
-        if (out.empty() || out.back().front().group != one.group) out.emplace_back();
-        out.back().push_back(one);
-    }
-    return out;
-}
 
 std::vector<ParticleCase> wantedOf(const Options& options) {
     std::vector<ParticleCase> all = particleCases(options.quick), some;
@@ -42,24 +30,19 @@ int benchParticlesCommand(const Options& options) {
     const std::vector<std::vector<ParticleCase>> groups = byGroup(wantedOf(options));
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
-    gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
+    BenchSession session(options, 8, 1);
     ParticleReport report;
-    report.machine = measuredOn(context);
-    report.secondsAGroup = options.seconds.value_or(options.quick ? 1 : 8);
-    const BenchDevice device{&context, shaderRoot(), &cache, drawMaker(context), report.machine.cores, {}};
+    report.secondsAGroup = session.schedule.seconds;
     std::cerr << "This takes about " << roughly(double(groups.size()) * (report.secondsAGroup * 1.2 + 3))
               << ".\n";
-    measure::Schedule schedule;
-    schedule.seconds = report.secondsAGroup;
     Progress bar("groups", int(groups.size()));
     for (const std::vector<ParticleCase>& group : groups) {
-        for (ParticleTimes& times : measureParticles(group, point, quad, device, schedule))
+        for (ParticleTimes& times : measureParticles(group, point, quad, session.device, session.schedule))
             report.times.push_back(std::move(times));
         bar.step();
     }
-    report.machine.pinned = measure::pinRasteriserThreads();  // all of them run by now
-    tellWarnings(cache.takeWarnings());
+    session.end();
+    report.machine = session.machine;
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

@@ -98,20 +98,20 @@ std::string timesText(const Times& all) {
     for (const ParticleTimes& t : all) {
         if (t.one.group != group) {
             group = t.one.group;
-            out += print("\n%s; ms a frame, shortest (median)\n  %-40s%18s%10s%9s%8s%12s%11s\n",
-                         group.c_str(), "", "", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
+            out += formatted("\n%s; ms a frame, shortest (median)\n  %-40s%18s%10s%9s%8s%12s%11s\n",
+                             group.c_str(), "", "", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
         }
-        out += print("  %-40s", t.one.label.c_str());
+        out += formatted("  %-40s", t.one.label.c_str());
         if (!t.leftOut.empty()) {
             out += " left out: " + t.leftOut + "\n";
             continue;
         }
-        out += print("%9.3f (%6.4g)%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3, 1 / t.frame.min,
-                     t.perParticle() * 1e9);
-        out +=
-            t.movedBytes > 0 ? print("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min) : print("%8s", "");
-        out += t.error ? print("%12.1e", *t.error) : print("%12s", "");
-        if (t.one.published > 0) out += print("%11g", t.one.published);
+        out += formatted("%9.3f (%6.4g)%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3, 1 / t.frame.min,
+                         t.perParticle() * 1e9);
+        out += t.movedBytes > 0 ? formatted("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min)
+                                : formatted("%8s", "");
+        out += t.error ? formatted("%12.1e", *t.error) : formatted("%12s", "");
+        if (t.one.published > 0) out += formatted("%11g", t.one.published);
         out += "\n";
     }
     return out;
@@ -122,46 +122,40 @@ std::string birthsText(const Times& all) {
     for (const ParticleTimes& t : all) {
         if (!t.one.allocator || !t.leftOut.empty()) continue;
         if (out.empty())
-            out = print("\n%-56s%10s%10s%9s%9s%12s\n", "births", "living", "born", "lost", "packing",
-                        "bus bytes");
-        out += print("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.one.name().c_str(), t.live, t.born, t.lost,
-                     t.packing, t.busBytes);
+            out = formatted("\n%-56s%10s%10s%9s%9s%12s\n", "births", "living", "born", "lost", "packing",
+                            "bus bytes");
+        out += formatted("  %-54s%10.0f%10.0f%9.1f%9.3f%12.0f\n", t.one.name().c_str(), t.live, t.born,
+                         t.lost, t.packing, t.busBytes);
     }
     if (!out.empty())
         out += "  a frame; packing: places up to the last that is taken, over the living; at most\n";
     for (const BirthCost& cost : birthCosts(all))
-        out += print("  a birth and a death, %-32s %4d x %-4d %6.1f ns\n", cost.how.c_str(), cost.side,
-                     cost.side, cost.nanoseconds);
+        out += formatted("  a birth and a death, %-32s %4d x %-4d %6.1f ns\n", cost.how.c_str(), cost.side,
+                         cost.side, cost.nanoseconds);
     return out;
 }
 
-JsonValue number(double value) {
-    return JsonValue::makeNumber(value);
+std::optional<double> unlessZero(double value) {
+    return value > 0 ? std::optional(value) : std::nullopt;
 }
 
 JsonValue asJson(const ParticleTimes& t) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("group", JsonValue::makeString(t.one.group))
-        .add("case", JsonValue::makeString(t.one.label))
-        .add("side", number(t.one.side));
-    if (!t.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(t.leftOut));
-    out.add("solver", JsonValue::makeString(name(t.one.solver)))
-        .add("substeps", number(t.one.substeps))
-        .add("minSeconds", number(t.frame.min))
-        .add("medianSeconds", number(t.frame.median))
-        .add("samples", number(t.frame.samples))
-        .add("nanosecondsPerParticle", number(t.perParticle() * 1e9))
-        .add("movedBytesPerFrame", t.movedBytes > 0 ? number(double(t.movedBytes)) : JsonValue())
-        .add("busBytesPerFrame", number(t.busBytes))
-        .add("positionError", t.error ? number(*t.error) : JsonValue())
-        .add("publishedFramesPerSecond", t.one.published > 0 ? number(t.one.published) : JsonValue());
-    if (!t.one.allocator) return out;
-    return out.add("allocator", JsonValue::makeString(name(*t.one.allocator)))
-        .add("turnover", number(t.one.turnover))
-        .add("living", number(t.live))
-        .add("bornPerFrame", number(t.born))
-        .add("lostPerFrame", number(t.lost))
-        .add("packing", number(t.packing));
+    JsonValue out = object(key("group", t.one.group), key("case", t.one.label), key("side", t.one.side));
+    if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
+    append(out, key("solver", name(t.one.solver)), key("substeps", t.one.substeps),
+           key("minSeconds", t.frame.min), key("medianSeconds", t.frame.median),
+           key("samples", t.frame.samples), key("nanosecondsPerParticle", t.perParticle() * 1e9),
+           key("movedBytesPerFrame", unlessZero(double(t.movedBytes))), key("busBytesPerFrame", t.busBytes),
+           key("positionError", t.error), key("publishedFramesPerSecond", unlessZero(t.one.published)));
+    if (t.one.allocator)
+        append(out, key("allocator", name(*t.one.allocator)), key("turnover", t.one.turnover),
+               key("living", t.live), key("bornPerFrame", t.born), key("lostPerFrame", t.lost),
+               key("packing", t.packing));
+    return out;
+}
+
+JsonValue asJson(const BirthCost& cost) {
+    return object(key("case", cost.how), key("side", cost.side), key("nanoseconds", cost.nanoseconds));
 }
 
 constexpr const char* papers =
@@ -180,19 +174,11 @@ std::string asText(const ParticleReport& report) {
 }
 
 JsonValue asJson(const ParticleReport& report) {
-    JsonValue cases = JsonValue::makeArray(), costs = JsonValue::makeArray();
-    for (const ParticleTimes& times : report.times)
-        cases.items.push_back(asJson(times));
-    for (const BirthCost& cost : birthCosts(report.times))
-        costs.items.push_back(JsonValue::makeObject()
-                                  .add("case", JsonValue::makeString(cost.how))
-                                  .add("side", number(cost.side))
-                                  .add("nanoseconds", number(cost.nanoseconds)));
     JsonValue out = headOf(report.machine);
-    return out.add("secondsAGroup", number(report.secondsAGroup))
-        .add("cases", std::move(cases))
-        .add("birthCosts", std::move(costs))
-        .add("targets", app::asJson(targets(report)));
+    return append(out, key("secondsAGroup", report.secondsAGroup),
+                  key("cases", arrayOf(report.times, asJson)),
+                  key("birthCosts", arrayOf(birthCosts(report.times), asJson)),
+                  key("targets", asJson(targets(report))));
 }
 
 }  // namespace shoal::app

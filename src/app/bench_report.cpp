@@ -1,8 +1,5 @@
 #include "app/bench.h"
 
-#include <algorithm>
-#include <cstdarg>
-#include <cstdio>
 #include <iomanip>
 #include <sstream>
 
@@ -10,59 +7,34 @@ namespace shoal::app {
 
 using namespace bench;
 
-std::string print(const char* format, ...) {
-    char text[256];
-    va_list values;
-    va_start(values, format);
-    std::vsnprintf(text, sizeof text, format, values);
-    va_end(values);
-    return text;
-}
-
 namespace {
-
-std::string number(double value, int digits) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.*f", digits, value);
-    return text;
-}
 
 // Three digits that count, without an exponent.
 std::string short3(double value) {
-    return number(value, value < 10 ? 2 : value < 100 ? 1 : 0);
+    return formatted("%.*f", value < 10 ? 2 : value < 100 ? 1 : 0, value);
 }
 
 std::string orDash(const std::optional<double>& value) {
     return value ? short3(*value) : "-";
 }
 
-constexpr int labelWidth = 40;
+constexpr int columns[] = {-40, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
 
-void addRow(std::ostringstream& out, const std::vector<std::string>& cells) {
-    static constexpr int widths[] = {labelWidth, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
-    std::ostringstream line;
-    for (size_t i = 0; i < cells.size(); ++i)
-        line << (i == 0 ? std::left : std::right) << std::setw(widths[i]) << cells[i];
-    const std::string text = line.str();
-    out << text.substr(0, text.find_last_not_of(' ') + 1) << "\n";
-}
-
-void addResult(std::ostringstream& out, const BenchResult& result, const std::vector<BenchResult>& all) {
+std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all) {
     const std::string label = "  " + result.one.label;
-    if (!result.leftOut.empty()) {
-        out << std::left << std::setw(labelWidth) << label << "   left out: " << result.leftOut << "\n";
-        return;
-    }
+    if (!result.leftOut.empty())
+        return formatted("%*s   left out: %s\n", columns[0], label.c_str(), result.leftOut.c_str());
     const Ratios ratios = ratiosOf(result, all);
     const auto each = [&](size_t bytes) -> std::string {
-        return bytes > 0 ? number(double(bytes) / result.one.count, 0) : "-";
+        return bytes > 0 ? formatted("%.0f", double(bytes) / result.one.count) : "-";
     };
-    const auto milliseconds = [](double seconds) { return number(seconds * 1e3, 3); };
-    addRow(out, {label, milliseconds(result.frame.min), milliseconds(result.frame.median),
-                 result.one.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
-                 orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
-                 each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
-                 ratios.shareOfCopy ? number(*ratios.shareOfCopy * 100, 0) + "%" : "-"});
+    return tableRow(
+        {label, formatted("%.3f", result.frame.min * 1e3), formatted("%.3f", result.frame.median * 1e3),
+         result.one.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
+         orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
+         each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
+         ratios.shareOfCopy ? formatted("%.0f%%", *ratios.shareOfCopy * 100) : "-"},
+        columns);
 }
 
 void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) {
@@ -70,11 +42,12 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
     for (const BenchResult& result : results) {
         if (result.one.group != group) {
             group = result.one.group;
-            out << "\n";
-            addRow(out, {group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
-                         "moved", "GB/s", "copy"});
+            out << "\n"
+                << tableRow({group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
+                             "moved", "GB/s", "copy"},
+                            columns);
         }
-        addResult(out, result, results);
+        out << rowOf(result, results);
     }
 }
 
@@ -104,62 +77,54 @@ void addDistances(std::ostringstream& out, const std::vector<BenchResult>& resul
 void addErrors(std::ostringstream& out, const BenchReport& report) {
     if (report.errors.empty()) return;
     out << "\nerror after 1 s, quads in the air, against double precision; ns each of so many quads\n";
-    const auto row = [&](const std::string& what, const std::string& error, const std::string& small,
-                         const std::string& large) {
-        out << "  " << std::left << std::setw(46) << what << std::right << std::setw(12) << error
-            << std::setw(10) << small << std::setw(10) << large << "\n";
-    };
-    row("", "error", "16,384", "131,072");
+    const char* row = "  %-46s%12s%10s%10s\n";
+    out << formatted(row, "", "error", "16,384", "131,072");
     for (const BenchError& one : report.errors) {
         const auto speed = [&](int count) -> std::string {
             const BenchResult* result = speedOf(one, count, report.results);
             return result ? short3(result->perMolecule() * 1e9) : "-";
         };
-        char error[32] = "-";
-        if (one.relative) std::snprintf(error, sizeof error, "%.1e", *one.relative);
-        row(concat(name(one.subject), ", ", shoal::name(one.solver), ", ", name(one.wind), ", ",
-                   shoal::name(one.sampling)),
-            error, speed(16384), speed(131072));
+        const std::string what = concat(name(one.subject), ", ", shoal::name(one.solver), ", ",
+                                        name(one.wind), ", ", shoal::name(one.sampling));
+        out << formatted(row, what.c_str(), one.relative ? formatted("%.1e", *one.relative).c_str() : "-",
+                         speed(16384).c_str(), speed(131072).c_str());
     }
 }
 
 void addStarts(std::ostringstream& out, const BenchReport& report) {
     if (report.starts.empty()) return;
-    out << "\nstart-up, ms: the context " << number(report.contextSeconds * 1e3, 0)
-        << "; plan, then simulation and first frame: unseen kernel, in the driver's cache, in ours\n";
-    for (const StartTime& one : report.starts) {
-        out << "  " << std::left << std::setw(34)
-            << concat(grouped(one.count), " ", one.molecule, ", ", shoal::name(one.solver)) << std::right;
-        for (const double seconds : {one.compile, one.cold, one.driver, one.cached})
-            out << std::setw(10) << number(seconds * 1e3, 0);
-        out << "\n";
-    }
+    out << formatted(
+        "\nstart-up, ms: the context %.0f; plan, then simulation and first frame: unseen kernel, in the "
+        "driver's cache, in ours\n",
+        report.contextSeconds * 1e3);
+    for (const StartTime& one : report.starts)
+        out << formatted("  %-34s%10.0f%10.0f%10.0f%10.0f\n",
+                         concat(grouped(one.count), " ", one.molecule, ", ", shoal::name(one.solver)).c_str(),
+                         one.compile * 1e3, one.cold * 1e3, one.driver * 1e3, one.cached * 1e3);
 }
 
 std::string minAndMedian(double min, double median) {
-    return number(min * 1e3, 2) + " / " + number(median * 1e3, 2);
+    return formatted("%20s", formatted("%.2f / %.2f", min * 1e3, median * 1e3).c_str());
 }
 
 // Tables of one path and solver side by side, one column each size.
 void addPassTable(std::ostringstream& out, const std::vector<const PassTable*>& sizes) {
     const PassTable& first = *sizes.front();
-    constexpr int width = 20;
     out << "\npasses of quads, " << name(first.subject) << ", " << shoal::name(first.solver)
-        << "; all calls of a frame, min / median ms\n"
-        << "  pass       calls";
+        << "; all calls of a frame, min / median ms\n  pass       calls";
     for (const PassTable* size : sizes)
-        out << std::right << std::setw(width) << grouped(size->count);
+        out << formatted("%20s", grouped(size->count).c_str());
     out << "\n";
     for (size_t i = 0; i < first.passes.size(); ++i) {
         out << "  " << std::left << std::setw(10) << first.passes[i].name << std::right << std::setw(6)
             << first.passes[i].calls;
         for (const PassTable* size : sizes)
-            out << std::setw(width) << minAndMedian(size->passes[i].min, size->passes[i].median);
+            out << minAndMedian(size->passes[i].min, size->passes[i].median);
         out << "\n";
     }
     out << "  frame           ";
     for (const PassTable* size : sizes)
-        out << std::setw(width) << minAndMedian(size->frame.min, size->frame.median);
+        out << minAndMedian(size->frame.min, size->frame.median);
     out << "\n";
 }
 
@@ -179,19 +144,20 @@ void addPasses(std::ostringstream& out, const std::vector<PassTable>& tables) {
 std::string asText(const std::vector<Target>& targets, const char* format) {
     std::string out;
     for (const Target& target : targets)
-        out += concat(target.what, ": ", target.measured ? print(format, *target.measured) : "not measured",
-                      target.measured
-                          ? print(" (wanted: at %s %g)", target.atLeast ? "least" : "most", target.limit)
-                          : "",
-                      "\n");
+        out +=
+            concat(target.what, ": ", target.measured ? formatted(format, *target.measured) : "not measured",
+                   target.measured
+                       ? formatted(" (wanted: at %s %g)", target.atLeast ? "least" : "most", target.limit)
+                       : "",
+                   "\n");
     return out;
 }
 
 std::string asText(const BenchReport& report) {
     std::ostringstream out;
     out << twoLines(report.machine) << "\n"
-        << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << report.width
-        << " x " << report.height << ".\n"
+        << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << pictureWidth
+        << " x " << pictureHeight << ".\n"
         << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
            "baseline.\n"
         << "vs p-p: times as fast as ping-pong. state, moved: bytes of a molecule, kept on the device and "

@@ -5,11 +5,6 @@
 #include "app/bench.h"
 #include "app/commands.h"
 #include "bench/sort.h"
-#include "core/cache_folder.h"
-#include "core/json.h"
-#include "measure/timing.h"
-#include "run/data_paths.h"
-#include "run/progress.h"
 
 namespace shoal::app {
 
@@ -41,124 +36,97 @@ std::vector<Target> targets(const Report& report) {
     return out;
 }
 
-void printRates(const Report& report) {
-    std::cout << "million items/s, by the shortest time     ";
+std::string ratesText(const Report& report) {
+    std::string out = "million items/s, by the shortest time     ";
     for (const SortTable& table : report.tables)
-        std::cout << measure::formatted("%10.0f", table.side) << measure::formatted(" x %-4.0f", table.side);
-    std::cout << "\n";
-    const auto begin = [](std::string label) {
-        label.resize(std::max<size_t>(label.size(), 40), ' ');
-        std::cout << "  " << label;
-    };
+        out += formatted("%10d x %-4d", table.side, table.side);
+    out += "\n";
     for (size_t i = 0; i < report.tables[0].times.size(); ++i) {
         const SortTime& first = report.tables[0].times[i];
-        begin(first.name);
+        out += formatted("  %-40s", first.name.c_str());
         if (!first.leftOut.empty()) {
-            std::cout << "  left out: " << first.leftOut << "\n";
+            out += "  left out: " + first.leftOut + "\n";
             continue;
         }
         for (const SortTable& table : report.tables)
-            std::cout << measure::formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6);
-        std::cout << "\n";
+            out += formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6);
+        out += "\n";
     }
     for (const PublishedSort& published : publishedSorts()) {
-        begin(published.where);
+        out += formatted("  %-40s", published.where);
         for (size_t i = 0; i < report.tables.size(); ++i)
-            std::cout << measure::formatted("%17.2f", published.millionItems[i]);
-        std::cout << "\n";
+            out += formatted("%17.2f", published.millionItems[i]);
+        out += "\n";
     }
+    return out;
 }
 
-void printTimes(const Report& report) {
-    for (const SortTable& table : report.tables) {
-        std::cout << "\n"
-                  << table.side << " x " << table.side
-                  << "                          passes    min ms  median ms  samples  GB/s a pass  copy\n";
-        for (const SortTime& time : table.times) {
-            if (!time.leftOut.empty()) continue;
-            std::cout << "  " << time.name << std::string(32 - std::min<size_t>(32, time.name.size()), ' ')
-                      << (time.passes > 0 ? measure::formatted("%6.0f", time.passes) : "     -")
-                      << measure::formatted("%10.3f", time.seconds.min * 1e3)
-                      << measure::formatted("%11.3f", time.seconds.median * 1e3)
-                      << measure::formatted("%9.0f", time.seconds.samples);
-            const double passes = time.copy ? 1 : time.passes;
-            if (passes > 0)
-                std::cout << measure::formatted("%13.2f",
-                                                passes * 16e-9 * double(table.pairs()) / time.seconds.min);
-            if (const auto share = table.shareOfCopy(time))
-                std::cout << measure::formatted("%5.0f%%", 100 * *share);
-            std::cout << "\n";
-        }
+std::string timesText(const SortTable& table) {
+    std::string out =
+        concat("\n", table.side, " x ", table.side,
+               "                          passes    min ms  median ms  samples  GB/s a pass  copy\n");
+    for (const SortTime& time : table.times) {
+        if (!time.leftOut.empty()) continue;
+        out += formatted("  %-32s%6s%10.3f%11.3f%9d", time.name.c_str(),
+                         time.passes > 0 ? std::to_string(time.passes).c_str() : "-", time.seconds.min * 1e3,
+                         time.seconds.median * 1e3, time.seconds.samples);
+        const double passes = time.copy ? 1 : time.passes;
+        if (passes > 0) out += formatted("%13.2f", passes * 16e-9 * double(table.pairs()) / time.seconds.min);
+        if (const auto share = table.shareOfCopy(time)) out += formatted("%5.0f%%", 100 * *share);
+        out += "\n";
     }
+    return out;
 }
 
-void print(const Report& report) {
-    std::cout << asText(report.machine);
-    std::cout << "\n\n";
-    printRates(report);
-    printTimes(report);
-    std::cout << "\n" << asText(targets(report), "%.2f");
+std::string asText(const Report& report) {
+    std::string out = asText(report.machine) + "\n\n" + ratesText(report);
+    for (const SortTable& table : report.tables)
+        out += timesText(table);
+    return out + "\n" + app::asText(targets(report), "%.2f");
 }
 
 JsonValue asJson(const SortTable& table, const SortTime& time) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("side", JsonValue::makeNumber(table.side))
-        .add("pairs", JsonValue::makeNumber(double(table.pairs())))
-        .add("case", JsonValue::makeString(time.name));
-    if (!time.leftOut.empty()) return out.add("leftOut", JsonValue::makeString(time.leftOut));
-    const std::optional<double> share = table.shareOfCopy(time);
-    return out.add("passes", JsonValue::makeNumber(time.passes))
-        .add("samples", JsonValue::makeNumber(time.seconds.samples))
-        .add("minSeconds", JsonValue::makeNumber(time.seconds.min))
-        .add("medianSeconds", JsonValue::makeNumber(time.seconds.median))
-        .add("millionItemsPerSecond", JsonValue::makeNumber(table.itemsPerSecond(time) * 1e-6))
-        .add("shareOfCopy", share ? JsonValue::makeNumber(*share) : JsonValue());
+    JsonValue out = object(key("side", table.side), key("pairs", table.pairs()), key("case", time.name));
+    if (!time.leftOut.empty()) return append(out, key("leftOut", time.leftOut));
+    return append(out, key("passes", time.passes), key("samples", time.seconds.samples),
+                  key("minSeconds", time.seconds.min), key("medianSeconds", time.seconds.median),
+                  key("millionItemsPerSecond", table.itemsPerSecond(time) * 1e-6),
+                  key("shareOfCopy", table.shareOfCopy(time)));
+}
+
+JsonValue asJson(const PublishedSort& published) {
+    return object(key("where", published.where), key("millionItemsPerSecond", published.millionItems));
 }
 
 JsonValue asJson(const Report& report) {
-    JsonValue cases = JsonValue::makeArray(), published = JsonValue::makeArray();
+    JsonValue cases = JsonValue::makeArray();
     for (const SortTable& table : report.tables)
         for (const SortTime& time : table.times)
             cases.items.push_back(asJson(table, time));
-    for (const PublishedSort& row : publishedSorts()) {
-        JsonValue rates = JsonValue::makeArray();
-        for (const double rate : row.millionItems)
-            rates.items.push_back(JsonValue::makeNumber(rate));
-        published.items.push_back(JsonValue::makeObject()
-                                      .add("where", JsonValue::makeString(row.where))
-                                      .add("millionItemsPerSecond", std::move(rates)));
-    }
     JsonValue out = headOf(report.machine);
-    return out.add("secondsASize", JsonValue::makeNumber(report.secondsASize))
-        .add("cases", std::move(cases))
-        .add("published", std::move(published))
-        .add("targets", app::asJson(targets(report)));
+    return append(out, key("secondsASize", report.secondsASize), key("cases", cases),
+                  key("published", arrayOf(publishedSorts(), asJson)),
+                  key("targets", app::asJson(targets(report))));
 }
 
 }  // namespace
 
 int benchSortCommand(const Options& options) {
-    gpu::Context context(hiddenContext(options));
-    gpu::ProgramCache cache(context, cacheFolder());
+    BenchSession session(options, 8, 1);
     Report report;
-    report.machine = measuredOn(context);
+    report.machine = session.machine;
     report.machine.pinned = measure::pinRasteriserThreads();
-    report.secondsASize = options.seconds.value_or(options.quick ? 1 : 8);
-    measure::Schedule schedule;
-    schedule.seconds = report.secondsASize;
+    report.secondsASize = session.schedule.seconds;
     std::vector<int> sides = {128, 256, 512, 1024};
     if (options.quick) sides.resize(2);
     std::cerr << "This takes about " << roughly(double(sides.size()) * (report.secondsASize + 1)) << ".\n";
     Progress progress("sizes", int(sides.size()));
     for (const int side : sides) {
-        report.tables.push_back(measureSorts(side, {&context, shaderRoot(), &cache}, schedule));
+        report.tables.push_back(measureSorts(side, session.device, session.schedule));
         progress.step();
     }
-    tellWarnings(cache.takeWarnings());
-    if (options.json)
-        std::cout << writeJson(asJson(report));
-    else
-        print(report);
+    session.end();
+    std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }
 

@@ -1,7 +1,5 @@
 #include "app/bullet_baseline.h"
 
-#include "core/contract.h"
-
 #ifdef SHOAL_HAS_BULLET
 
 #include <BulletSoftBody/btSoftBody.h>
@@ -21,10 +19,8 @@ namespace {
 constexpr double gamma = 1;  // 1/s
 const btVector3 gravity(0, -9.81f, 0), wind(2, 0, 0.5f);
 
-}  // namespace
-
-struct BulletBaseline::World {
-    World() {
+struct BulletWorld : BulletBaseline {
+    BulletWorld(const Molecule& molecule, int count, bool merged) {
         // Wind and drag are dv/dt = gamma (u - v): a constant part here, the other in frame().
         const btVector3 constant = gravity + wind * btScalar(gamma);
         world.setGravity(constant);
@@ -36,11 +32,43 @@ struct BulletBaseline::World {
         groundBody.setFriction(0.5f);
         groundBody.setWorldTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, -50, 0)));
         world.addRigidBody(&groundBody);
+        const int side = std::max(1, int(std::ceil(std::sqrt(double(count)))));
+        const double spacing = 1.5 * molecule.size();
+        std::vector<btVector3> positions;
+        std::vector<btScalar> masses;
+        for (int m = 0; m < count; ++m) {
+            const glm::dvec3 place(m % side * spacing, 0.2 + molecule.size() + 5.8 * m / count,
+                                   m / side * spacing);
+            for (const Vertex& vertex : molecule.vertices) {
+                const glm::dvec3 p = place + vertex.position;
+                positions.emplace_back(btScalar(p.x), btScalar(p.y), btScalar(p.z));
+                masses.push_back(btScalar(vertex.mass));
+            }
+            if (merged && m + 1 < count) continue;
+            add(positions, masses, molecule.springs, molecule.vertices.size());
+            positions.clear();
+            masses.clear();
+        }
     }
-    ~World() {
+    ~BulletWorld() override {
         for (const auto& body : bodies)
             world.removeSoftBody(body.get());
         world.removeRigidBody(&groundBody);
+    }
+
+    void frame(double seconds) override {
+        for (const auto& body : bodies)
+            body->m_cfg.kDP = btScalar(-std::expm1(-gamma * seconds));
+        world.stepSimulation(btScalar(seconds), 0);
+        info.m_sparsesdf.GarbageCollect();
+    }
+
+    double lowestHeight() const override {
+        double lowest = std::numeric_limits<double>::max();
+        for (const auto& body : bodies)
+            for (int i = 0; i < body->m_nodes.size(); ++i)
+                lowest = std::min(lowest, double(body->m_nodes[i].m_x.y()));
+        return lowest;
     }
 
     void add(const std::vector<btVector3>& positions, const std::vector<btScalar>& masses,
@@ -72,57 +100,14 @@ struct BulletBaseline::World {
     std::vector<std::unique_ptr<btSoftBody>> bodies;
 };
 
+}  // namespace
+
 bool bulletAvailable() {
     return true;
 }
 
-BulletBaseline::BulletBaseline(const Molecule& molecule, int count, Form form)
-    : world_(std::make_unique<World>()) {
-    const int side = std::max(1, int(std::ceil(std::sqrt(double(count)))));
-    const double spacing = 1.5 * molecule.size();
-    std::vector<btVector3> positions;
-    std::vector<btScalar> masses;
-    for (int m = 0; m < count; ++m) {
-        const glm::dvec3 place(m % side * spacing, 0.2 + molecule.size() + 5.8 * m / count,
-                               m / side * spacing);
-        for (const Vertex& vertex : molecule.vertices) {
-            const glm::dvec3 p = place + vertex.position;
-            positions.emplace_back(btScalar(p.x), btScalar(p.y), btScalar(p.z));
-            masses.push_back(btScalar(vertex.mass));
-        }
-        if (form == Form::merged && m + 1 < count) continue;
-        world_->add(positions, masses, molecule.springs, molecule.vertices.size());
-        positions.clear();
-        masses.clear();
-    }
-}
-
-BulletBaseline::~BulletBaseline() = default;
-
-void BulletBaseline::frame(double seconds) {
-    for (const auto& body : world_->bodies)
-        body->m_cfg.kDP = btScalar(-std::expm1(-gamma * seconds));
-    world_->world.stepSimulation(btScalar(seconds), 0);
-    world_->info.m_sparsesdf.GarbageCollect();
-}
-
-double BulletBaseline::meanHeight() const {
-    double sum = 0;
-    int count = 0;
-    for (const auto& body : world_->bodies) {
-        for (int i = 0; i < body->m_nodes.size(); ++i, ++count)
-            sum += double(body->m_nodes[i].m_x.y());
-    }
-    return sum / std::max(count, 1);
-}
-
-double BulletBaseline::lowestHeight() const {
-    double lowest = std::numeric_limits<double>::max();
-    for (const auto& body : world_->bodies) {
-        for (int i = 0; i < body->m_nodes.size(); ++i)
-            lowest = std::min(lowest, double(body->m_nodes[i].m_x.y()));
-    }
-    return lowest;
+std::unique_ptr<BulletBaseline> makeBullet(const Molecule& molecule, int count, bool merged) {
+    return std::make_unique<BulletWorld>(molecule, count, merged);
 }
 
 }  // namespace shoal
@@ -131,26 +116,12 @@ double BulletBaseline::lowestHeight() const {
 
 namespace shoal {
 
-struct BulletBaseline::World {};
-
 bool bulletAvailable() {
     return false;
 }
 
-BulletBaseline::BulletBaseline(const Molecule&, int, Form) {
-    EXPECTS(false && "built without Bullet");
-}
-
-BulletBaseline::~BulletBaseline() = default;
-
-void BulletBaseline::frame(double) {}
-
-double BulletBaseline::meanHeight() const {
-    return 0;
-}
-
-double BulletBaseline::lowestHeight() const {
-    return 0;
+std::unique_ptr<BulletBaseline> makeBullet(const Molecule&, int, bool) {
+    return nullptr;
 }
 
 }  // namespace shoal

@@ -16,24 +16,13 @@ bool bulletAvailable();  // built with Bullet
 
 class BulletBaseline {
   public:
-    enum class Form {
-        bodies,  // a soft body per molecule
-        merged   // all molecules in one soft body: no overhead per body
-    };
-
-    // `count` molecules on a grid, up to 6 m above the ground. Only where bulletAvailable().
-    BulletBaseline(const Molecule& molecule, int count, Form form);
-    ~BulletBaseline();
-    BulletBaseline(const BulletBaseline&) = delete;
-    BulletBaseline& operator=(const BulletBaseline&) = delete;
-
-    void frame(double seconds);   // one step
-    double meanHeight() const;    // m, of all vertices above the ground
-    double lowestHeight() const;  // m
-
-  private:
-    struct World;
-    std::unique_ptr<World> world_;
+    virtual ~BulletBaseline() = default;
+    virtual void frame(double seconds) = 0;   // one step
+    virtual double lowestHeight() const = 0;  // m, of all vertices above the ground
 };
+
+// `count` molecules on a grid, up to 6 m above the ground: a soft body of each, or all in one (`merged`),
+// without any overhead of a body. Null unless bulletAvailable().
+std::unique_ptr<BulletBaseline> makeBullet(const Molecule& molecule, int count, bool merged);
 
 }  // namespace shoal

@@ -6,8 +6,8 @@
 #include "app/commands.h"
 #include "compile/generate.h"
 #include "core/error.h"
-#include "core/json.h"
 #include "core/printable.h"
+#include "measure/report_json.h"
 #include "molecule/analysis.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
@@ -169,15 +169,11 @@ Verdict checkMolecule(const std::string& file) {
     Verdict out;
     out.kind = "molecule";
     out.warnings = check(molecule);
-    out.facts.add("name", JsonValue::makeString(molecule.name))
-        .add("vertices", JsonValue::makeNumber(double(molecule.vertices.size())))
-        .add("springs", JsonValue::makeNumber(double(molecule.springs.size())))
-        .add("triangles", JsonValue::makeNumber(double(molecule.triangles.size())))
-        .add("totalMass", JsonValue::makeNumber(free.totalMass))
-        .add("restEnergy", JsonValue::makeNumber(free.restEnergy))
-        .add("zeroModes", JsonValue::makeNumber(free.zeroModes))
-        .add("lowestFrequency", JsonValue::makeNumber(free.lowestFrequency))
-        .add("highestFrequency", JsonValue::makeNumber(free.highestFrequency));
+    append(out.facts, key("name", molecule.name), key("vertices", molecule.vertices.size()),
+           key("springs", molecule.springs.size()), key("triangles", molecule.triangles.size()),
+           key("totalMass", free.totalMass), key("restEnergy", free.restEnergy),
+           key("zeroModes", free.zeroModes), key("lowestFrequency", free.lowestFrequency),
+           key("highestFrequency", free.highestFrequency));
     out.summary = concat("molecule \"", printable(molecule.name), "\": ", molecule.vertices.size(),
                          molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
                          many(int64_t(molecule.springs.size()), "spring", "springs"), ", ",
@@ -186,16 +182,16 @@ Verdict checkMolecule(const std::string& file) {
     if (!molecule.skin.empty()) {
         out.summary += concat("\n  skin: ", molecule.skin.vertices.size(), " vertices, ",
                               many(int64_t(molecule.skin.triangles.size()), "triangle", "triangles"));
-        out.facts.add("skinVertices", JsonValue::makeNumber(double(molecule.skin.vertices.size())))
-            .add("skinTriangles", JsonValue::makeNumber(double(molecule.skin.triangles.size())));
+        append(out.facts, key("skinVertices", molecule.skin.vertices.size()),
+               key("skinTriangles", molecule.skin.triangles.size()));
     }
     if (molecule.springs.empty()) return out;
     out.summary += concat("\n  frequencies ", free.lowestFrequency, " to ", free.highestFrequency, " rad/s, ",
                           many(free.zeroModes, "zero-stiffness mode", "zero-stiffness modes"),
                           "\n  stable steps: euler ", free.stableStepEuler, " s, leapfrog ",
                           free.stableStepLeapfrog, " s");
-    out.facts.add("stableStepEuler", JsonValue::makeNumber(free.stableStepEuler))
-        .add("stableStepLeapfrog", JsonValue::makeNumber(free.stableStepLeapfrog));
+    append(out.facts, key("stableStepEuler", free.stableStepEuler),
+           key("stableStepLeapfrog", free.stableStepLeapfrog));
     return out;
 }
 
@@ -228,22 +224,21 @@ Verdict checkScene(const std::string& file) {
     int molecules = 0;
     for (const GroupPlan& group : plan.groups)
         molecules += group.count;
-    out.facts.add("name", JsonValue::makeString(scene.name))
-        .add("groups", JsonValue::makeNumber(double(plan.groups.size())))
-        .add("molecules", JsonValue::makeNumber(molecules));
-    JsonValue gaps = JsonValue::makeObject();
+    append(out.facts, key("name", scene.name), key("groups", plan.groups.size()),
+           key("molecules", molecules));
+    JsonValue gaps = object();
     std::string gapText;
     for (const ContactGroup& contact : plan.contact.groups) {
         const GroupPlan& group = plan.groups[contact.group];
         const Group& source = scene.groups[group.index];
         const ContactGap gap = largestGap(source.molecule, *source.contact);
-        gaps.add(group.name, JsonValue::makeNumber(gap.radius));
+        gaps.add(group.name, toJson(gap.radius));
         gapText +=
             concat("\n  contact of \"", printable(group.name), "\": spheres of ", contact.radius, " m, ");
         gapText +=
             gap.triangle < 0 ? "no gap" : concat("largest gap ", gap.radius, " m in triangle ", gap.triangle);
     }
-    if (plan.contact.any()) out.facts.add("contactGaps", std::move(gaps));
+    if (plan.contact.any()) append(out.facts, key("contactGaps", gaps));
     out.summary = concat(
         "scene \"", printable(scene.name), "\": ", many(int64_t(plan.groups.size()), "group", "groups"), ", ",
         many(molecules, "molecule", "molecules"), ", ", many(int64_t(scene.fields.size()), "field", "fields"),
@@ -257,26 +252,23 @@ int checkCommand(const Options& options) {
     JsonValue report = JsonValue::makeArray();
     bool failed = false;
     for (const std::string& file : options.files) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("file", JsonValue::makeString(file));
+        JsonValue entry = object(key("file", file));
         try {
             keepToSandbox(options, file);
             Verdict verdict = isScene(file) ? checkScene(file) : checkMolecule(file);
-            JsonValue warnings = JsonValue::makeArray();
+            std::vector<std::string> warnings;
             for (const Warning& warning : verdict.warnings)
-                warnings.items.push_back(JsonValue::makeString(text(warning)));
-            entry.add("ok", JsonValue::makeBoolean(true))
-                .add("kind", JsonValue::makeString(verdict.kind))
-                .add("warnings", std::move(warnings))
-                .add(verdict.kind, std::move(verdict.facts));
+                warnings.push_back(text(warning));
+            append(entry, key("ok", true), key("kind", verdict.kind), key("warnings", warnings),
+                   key(verdict.kind.c_str(), verdict.facts));
             if (!options.json) {
                 std::cout << printable(file) << ": " << verdict.summary << "\n";
-                for (const Warning& warning : verdict.warnings)
-                    std::cout << "  warning: " << text(warning) << "\n";
+                for (const std::string& warning : warnings)
+                    std::cout << "  warning: " << warning << "\n";
             }
         } catch (const Error& error) {
             failed = true;
-            entry.add("ok", JsonValue::makeBoolean(false)).add("error", JsonValue::makeString(error.what()));
+            append(entry, key("ok", false), key("error", error.what()));
             if (!options.json) std::cerr << "shoal: " << error.what() << "\n";
         }
         report.items.push_back(std::move(entry));

@@ -63,8 +63,19 @@ inline void section(CLI::App& command, const char* title) {
     command.option_defaults()->group(title);
 }
 
-inline CLI::Validator wholeNumber() {
-    return kindOf(isAll<int>, "a whole number");
+// Options whose value is a whole number, any number (`kind`, such as "a time in seconds"), or a file.
+template <typename T>
+CLI::Option* addWhole(CLI::App& command, const char* name, T& value, const std::string& what) {
+    return command.add_option(name, value, what)->check(kindOf(isAll<int>, "a whole number"));
+}
+template <typename T>
+CLI::Option* addNumber(CLI::App& command, const char* name, T& value, const std::string& what,
+                       const char* kind) {
+    return command.add_option(name, value, what)->check(kindOf(isAll<double>, kind));
+}
+template <typename T>
+CLI::Option* addFile(CLI::App& command, const char* name, T& value, const std::string& what) {
+    return command.add_option(name, value, what)->type_name("FILE");
 }
 
 void addPath(CLI::App& command, Options& options, Texts& texts);
@@ -85,7 +96,7 @@ void addField(CLI::App& command, Options& options, std::string& slice, std::stri
 void checkField(Options& options, const std::string& slice);
 
 // Adds `molecule` with its commands. A further one is a function in options_molecule.cpp that adds its
-// options, a word of Options::Command, and a row there.
+// options, and a function of commands.h.
 void addMolecule(CLI::App& app, Options& options);
 
 // Once the command line is parsed: which command of `molecule` it is, if any, and its values. Error: out of

@@ -11,7 +11,7 @@ int keysCommand(const Options& options);
 int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);
-int benchCommand(const Options& options);           // with a word after it: one of those below
+int benchCommand(const Options& options);
 int benchSortCommand(const Options& options);       // shoal bench sort
 int benchCollideCommand(const Options& options);    // shoal bench collide
 int benchParticlesCommand(const Options& options);  // shoal bench particles

@@ -110,13 +110,6 @@ void addSection(std::string& out, const CLI::App& command, const std::string& na
 
 // ---- bash
 
-std::string joined(const std::vector<std::string>& words) {
-    std::string out;
-    for (const std::string& word : words)
-        out += (out.empty() ? "" : " ") + word;
-    return out;
-}
-
 std::vector<std::string> optionsOf(const CLI::App& command) {
     std::vector<std::string> out;
     for (const CLI::Option* option : command.get_options()) {
@@ -155,7 +148,7 @@ void addWords(std::string& out, const CLI::App& command, const std::string& name
         if (!wordsOf(*option).empty()) words.push_back(wordsOf(*option));
         if (option->get_type_name() == "SCENE") scenes = " scenes=yes";
     }
-    out += "    '" + name + "') words='" + joined(words) + "'" + scenes + ";;\n";
+    out += "    '" + name + "') words='" + CLI::detail::join(words, " ") + "'" + scenes + ";;\n";
     for (const CLI::App* below : commandsOf(command))
         addWords(out, *below, name + " " + below->get_name());
 }

@@ -30,50 +30,38 @@ std::string place(const glm::dvec3& x, char between) {
     return out;
 }
 
-bool isThere(const Snapshot& state, size_t molecule) {
-    return state.alive.empty() || state.alive[molecule];
-}
-
 std::string csv(Simulation& simulation) {
     std::string out = "frame,time,group,molecule,vertex,x,y,z,vx,vy,vz,nx,ny,nz\n";
-    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
-        const Snapshot state = simulation.snapshot(g);
-        for (size_t i = 0; i < state.positions.size(); ++i) {
+    forMolecules(simulation, [&](size_t g, const Snapshot& state, size_t m) {
+        for (size_t vertex = 0; vertex < size_t(state.vertexCount); ++vertex) {
+            const size_t i = m * size_t(state.vertexCount) + vertex;
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
-            if (!isThere(state, i / size_t(state.vertexCount))) continue;
             print(out, "%d,%.9g,%zu,%zu,%zu,%s,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", simulation.frames(),
-                  state.time, g, i / size_t(state.vertexCount), i % size_t(state.vertexCount),
-                  place(x, ',').c_str(), v.x, v.y, v.z, double(n.x), double(n.y), double(n.z));
+                  state.time, g, m, vertex, place(x, ',').c_str(), v.x, v.y, v.z, double(n.x), double(n.y),
+                  double(n.z));
         }
-    }
+    });
     return out;
 }
 
 std::string ply(Simulation& simulation, const Scene& scene) {
     std::string vertices, faces;
     size_t vertexCount = 0, faceCount = 0;
-    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
-        const Snapshot state = simulation.snapshot(g);
-        const size_t perMolecule = size_t(state.vertexCount);
-        size_t here = 0;  // vertices
-        for (size_t i = 0; i < state.positions.size(); ++i) {
+    forMolecules(simulation, [&](size_t g, const Snapshot& state, size_t m) {
+        for (size_t vertex = 0; vertex < size_t(state.vertexCount); ++vertex) {
+            const size_t i = m * size_t(state.vertexCount) + vertex;
             const glm::dvec3 &x = state.positions[i], &v = state.velocities[i];
             const glm::vec3& n = state.normals[i];
-            if (!isThere(state, i / perMolecule)) continue;
-            ++here;
             print(vertices, "%s %.9g %.9g %.9g %.9g %.9g %.9g %zu %zu %zu\n", place(x, ' ').c_str(),
-                  double(n.x), double(n.y), double(n.z), v.x, v.y, v.z, g, i / perMolecule, i % perMolecule);
+                  double(n.x), double(n.y), double(n.z), v.x, v.y, v.z, g, m, vertex);
         }
-        for (size_t first = vertexCount; first < vertexCount + here; first += perMolecule) {
-            for (const Triangle& t : scene.groups[g].molecule.triangles) {
-                print(faces, "3 %zu %zu %zu\n", first + size_t(t.a), first + size_t(t.b),
-                      first + size_t(t.c));
-                ++faceCount;
-            }
-        }
-        vertexCount += here;
-    }
+        for (const Triangle& t : scene.groups[g].molecule.triangles)
+            print(faces, "3 %zu %zu %zu\n", vertexCount + size_t(t.a), vertexCount + size_t(t.b),
+                  vertexCount + size_t(t.c));
+        vertexCount += size_t(state.vertexCount);
+        faceCount += scene.groups[g].molecule.triangles.size();
+    });
     std::string out = "ply\nformat ascii 1.0\n";
     print(out, "comment shoal: frame %d, time %.9g s; metres, metres per second\nelement vertex %zu\n",
           simulation.frames(), simulation.time(), vertexCount);

@@ -13,6 +13,16 @@
 
 namespace shoal::app {
 
+// Calls visit(group, state, molecule) for all that live, all groups in turn.
+template <typename Visit>
+void forMolecules(Simulation& simulation, const Visit& visit) {
+    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
+        const Snapshot state = simulation.snapshot(g);
+        for (size_t m = 0; m < size_t(state.count); ++m)
+            if (state.alive.empty() || state.alive[m]) visit(g, state, m);
+    }
+}
+
 // ---- VTP
 // State as VTK's PolyData in XML (.vtp), and the index (.pvd) by which ParaView reads a run's files as one
 // thing in time.

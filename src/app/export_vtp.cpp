@@ -10,6 +10,7 @@
 
 #include "core/file.h"
 #include "core/printable.h"
+#include "measure/timing.h"
 
 namespace shoal::app {
 
@@ -50,23 +51,19 @@ void addCells(Tables& out, const Molecule& molecule, size_t first, size_t vertex
 
 Tables tablesOf(Simulation& simulation, const Scene& scene, ExportCells cells) {
     Tables out;
-    for (size_t g = 0; g < simulation.plan().groups.size(); ++g) {
-        const Snapshot state = simulation.snapshot(g);
+    forMolecules(simulation, [&](size_t g, const Snapshot& state, size_t m) {
         const size_t perMolecule = size_t(state.vertexCount);
-        for (size_t m = 0; m < size_t(state.count); ++m) {
-            if (!state.alive.empty() && !state.alive[m]) continue;
-            addCells(out, scene.groups[g].molecule, out.groups.size(), perMolecule, cells);
-            for (size_t v = 0; v < perMolecule; ++v) {
-                const size_t i = m * perMolecule + v;
-                push(out.points, state.positions[i]);
-                push(out.velocities, state.velocities[i]);
-                push(out.normals, state.normals[i]);
-                out.groups.push_back(int32_t(g));
-                out.molecules.push_back(int32_t(m));
-                out.vertices.push_back(int32_t(v));
-            }
+        addCells(out, scene.groups[g].molecule, out.groups.size(), perMolecule, cells);
+        for (size_t v = 0; v < perMolecule; ++v) {
+            const size_t i = m * perMolecule + v;
+            push(out.points, state.positions[i]);
+            push(out.velocities, state.velocities[i]);
+            push(out.normals, state.normals[i]);
+            out.groups.push_back(int32_t(g));
+            out.molecules.push_back(int32_t(m));
+            out.vertices.push_back(int32_t(v));
         }
-    }
+    });
     return out;
 }
 
@@ -194,9 +191,8 @@ PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
 }
 
 void PvdIndex::add(double time, const std::string& dataFile) {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.9g", time);
-    lines_ += concat("<DataSet timestep=\"", number, "\" part=\"0\" file=\"", xmlQuoted(dataFile), "\"/>\n");
+    lines_ += concat("<DataSet timestep=\"", measure::formatted("%.9g", time), "\" part=\"0\" file=\"",
+                     xmlQuoted(dataFile), "\"/>\n");
     writeFile(file_,
               std::string_view(concat(
                   "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"",

@@ -6,9 +6,9 @@
 #include "app/canvas.h"
 #include "app/commands.h"
 #include "core/file.h"
-#include "core/json.h"
 #include "core/printable.h"
 #include "geometry/mesh.h"
+#include "measure/report_json.h"
 #include "run/progress.h"
 #include "scene/json/scene_file.h"
 
@@ -106,17 +106,20 @@ class SliceCanvas {
         return std::clamp(width / 2 + 0.5 - std::abs(distance), 0.0, 1.0);
     }
 
+    // The colour of a distance, with the contours; `perPixel`: m.
+    glm::dvec3 colorOf(double distance, double perPixel) const {
+        const double step = picture_.contours, nearest = std::round(distance / step);
+        const double line = cover((distance - nearest * step) / perPixel, 1);
+        const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
+        const glm::dvec3 color = ground(distance) * (1 - line * (fifth ? 0.42 : 0.2));
+        return glm::mix(color, glm::dvec3(0.05), cover(distance / perPixel, 2.6));
+    }
+
     glm::dvec3 shade(int x, int y) const {
         const FieldValue value = valueAt(field_, place(x, y));
         glm::dvec3 in = value.gradient;
         in[plane_.axis] = 0;
-        const double steep = std::max(glm::length(in), 0.2) * pixel_;  // m a pixel
-        glm::dvec3 color = ground(value.distance);
-        const double step = picture_.contours, nearest = std::round(value.distance / step);
-        const double line = cover((value.distance - nearest * step) / steep, 1);
-        const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
-        color *= 1 - line * (fifth ? 0.42 : 0.2);
-        return glm::mix(color, glm::dvec3(0.05), cover(value.distance / steep, 2.6));
+        return colorOf(value.distance, std::max(glm::length(in), 0.2) * pixel_);
     }
 
     // Where the plane cuts a triangle.
@@ -138,11 +141,7 @@ class SliceCanvas {
         const int from = (picture_.image.width - wide) / 2, top = border + rows_ + 8;
         const double step = picture_.contours, scale = (high_ - low_) / wide;
         for (int x = 0; x < wide; ++x) {
-            const double d = low_ + (x + 0.5) * scale, nearest = std::round(d / step);
-            const double line = cover((d - nearest * step) / scale, 1);
-            const bool fifth = std::fmod(std::abs(nearest), 5) == 0;
-            glm::dvec3 color = ground(d) * (1 - line * (fifth ? 0.42 : 0.2));
-            color = glm::mix(color, glm::dvec3(0.05), cover(d / scale, 2.6));
+            const glm::dvec3 color = colorOf(low_ + (x + 0.5) * scale, scale);
             for (int y = 0; y < 12; ++y)
                 set(from + x, top + y, color);
         }
@@ -247,36 +246,17 @@ std::string asText(const BakedField& baked) {
     return out;
 }
 
-JsonValue asJson(const glm::dvec3& v) {
-    JsonValue out = JsonValue::makeArray();
-    for (int i = 0; i < 3; ++i)
-        out.items.push_back(JsonValue::makeNumber(v[i]));
-    return out;
-}
-
 JsonValue asJson(const BakedField& baked) {
     const DistanceField& field = baked.field;
-    JsonValue out = JsonValue::makeObject(), error = JsonValue::makeObject();
-    error.add("probes", JsonValue::makeNumber(double(field.error.probes)))
-        .add("most", JsonValue::makeNumber(field.error.most))
-        .add("rms", JsonValue::makeNumber(field.error.rms))
-        .add("where", asJson(field.error.where));
-    out.add("name", JsonValue::makeString(baked.name))
-        .add("triangles", JsonValue::makeNumber(double(field.surface.triangles)))
-        .add("closed", JsonValue::makeBoolean(field.surface.closed()));
-    if (!field.surface.closed())
-        out.add("open", JsonValue::makeString(whyOpen(field.surface)))
-            .add("shell", JsonValue::makeNumber(field.shell));
-    out.add("resolution", JsonValue::makeNumber(field.resolution))
-        .add("samples", asJson(glm::dvec3(field.grid.size)))
-        .add("cell", JsonValue::makeNumber(field.grid.cell))
-        .add("low", asJson(field.grid.low))
-        .add("high", asJson(field.grid.high()))
-        .add("bytes", JsonValue::makeNumber(double(field.bytesOnDevice())))
-        .add("cached", JsonValue::makeBoolean(field.cached))
-        .add("seconds", JsonValue::makeNumber(field.seconds))
-        .add("error", std::move(error));
-    return out;
+    JsonValue out = object(key("name", baked.name), key("triangles", field.surface.triangles),
+                           key("closed", field.surface.closed()));
+    if (!field.surface.closed()) append(out, key("open", whyOpen(field.surface)), key("shell", field.shell));
+    const JsonValue error = object(key("probes", field.error.probes), key("most", field.error.most),
+                                   key("rms", field.error.rms), key("where", field.error.where));
+    return append(out, key("resolution", field.resolution), key("samples", field.grid.size),
+                  key("cell", field.grid.cell), key("low", field.grid.low), key("high", field.grid.high()),
+                  key("bytes", field.bytesOnDevice()), key("cached", field.cached),
+                  key("seconds", field.seconds), key("error", error));
 }
 
 // Through the middle of the model where the command line does not say.
@@ -315,12 +295,10 @@ int fieldCommand(const Options& options) {
         drawn = concat("  ", printable(options.capture), ": the slice ", "xyz"[plane.axis], " = ",
                        plane.position, " m, a contour every ", picture.contours, " m\n");
     }
-    JsonValue report = JsonValue::makeArray();
-    for (const BakedField& field : fields) {
-        report.items.push_back(asJson(field));
-        if (!options.json) std::cout << asText(field);
-    }
-    std::cout << (options.json ? writeJson(report) : drawn);
+    std::string text;
+    for (const BakedField& field : fields)
+        text += asText(field);
+    std::cout << (options.json ? writeJson(arrayOf(fields, asJson)) : text + drawn);
     return 0;
 }
 

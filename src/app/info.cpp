@@ -1,40 +1,29 @@
+#include <algorithm>
 #include <iostream>
 
 #include "app/commands.h"
-#include "core/json.h"
 #include "gpu/context.h"
+#include "measure/report_json.h"
 
 namespace shoal::app {
 
 namespace {
 
 JsonValue asJson(const gpu::ContextProbe& probe) {
-    JsonValue entry = JsonValue::makeObject();
-    entry.add("context", JsonValue::makeString(gpu::name(probe.kind)))
-        .add("available", JsonValue::makeBoolean(probe.info.has_value()));
-    if (!probe.info) return entry.add("reason", JsonValue::makeString(probe.reason));
+    JsonValue out = object(key("context", gpu::name(probe.kind)), key("available", probe.info.has_value()));
+    if (!probe.info) return append(out, key("reason", probe.reason));
     const gpu::ContextInfo& info = *probe.info;
-    JsonValue paths = JsonValue::makeArray();
-    if (info.computeShaders) paths.items.push_back(JsonValue::makeString(name(Path::fused)));
-    paths.items.push_back(JsonValue::makeString(name(Path::pingPong)));
-    return entry.add("platform", JsonValue::makeString(info.platform))
-        .add("renderer", JsonValue::makeString(info.renderer))
-        .add("vendor", JsonValue::makeString(info.vendor))
-        .add("version", JsonValue::makeString(info.version))
-        .add("glslVersion", JsonValue::makeString(info.glslVersion))
-        .add("software", JsonValue::makeBoolean(info.software))
-        .add("maxTextureSize", JsonValue::makeNumber(info.maxTextureSize))
-        .add("maxColorAttachments", JsonValue::makeNumber(info.maxColorAttachments))
-        .add("maxSamples", JsonValue::makeNumber(info.maxSamples))
-        .add("maxVertexTextureUnits", JsonValue::makeNumber(info.maxVertexTextureUnits))
-        .add("max3DTextureSize", JsonValue::makeNumber(info.max3DTextureSize))
-        .add("maxBufferTexels", JsonValue::makeNumber(double(info.maxBufferTexels)))
-        .add("maxStorageBlockBytes", JsonValue::makeNumber(double(info.maxStorageBlockBytes)))
-        .add("maxSharedBytes", JsonValue::makeNumber(info.maxSharedBytes))
-        .add("maxWorkGroupsX", JsonValue::makeNumber(info.maxWorkGroupsX))
-        .add("computeShaders", JsonValue::makeBoolean(info.computeShaders))
-        .add("subgroups", JsonValue::makeBoolean(info.subgroups))
-        .add("paths", std::move(paths));
+    std::vector<std::string> paths = {name(Path::pingPong)};
+    if (info.computeShaders) paths.insert(paths.begin(), name(Path::fused));
+    return append(
+        out, key("platform", info.platform), key("renderer", info.renderer), key("vendor", info.vendor),
+        key("version", info.version), key("glslVersion", info.glslVersion), key("software", info.software),
+        key("maxTextureSize", info.maxTextureSize), key("maxColorAttachments", info.maxColorAttachments),
+        key("maxSamples", info.maxSamples), key("maxVertexTextureUnits", info.maxVertexTextureUnits),
+        key("max3DTextureSize", info.max3DTextureSize), key("maxBufferTexels", info.maxBufferTexels),
+        key("maxStorageBlockBytes", info.maxStorageBlockBytes), key("maxSharedBytes", info.maxSharedBytes),
+        key("maxWorkGroupsX", info.maxWorkGroupsX), key("computeShaders", info.computeShaders),
+        key("subgroups", info.subgroups), key("paths", paths));
 }
 
 void print(const gpu::ContextProbe& probe) {
@@ -64,21 +53,13 @@ int infoCommand(const Options& options) {
     std::vector<gpu::ContextProbe> probes = gpu::probeContexts();
     if (options.context != gpu::ContextKind::automatic)
         std::erase_if(probes, [&](const gpu::ContextProbe& probe) { return probe.kind != options.context; });
-    JsonValue contexts = JsonValue::makeArray();
-    bool any = false;
-    for (const gpu::ContextProbe& probe : probes) {
-        any |= probe.info.has_value();
-        if (options.json)
-            contexts.items.push_back(asJson(probe));
-        else
-            print(probe);
-    }
-    if (options.json) {
-        JsonValue report = JsonValue::makeObject();
-        report.add("version", JsonValue::makeString(SHOAL_VERSION)).add("contexts", std::move(contexts));
-        std::cout << writeJson(report);
-    }
-    return any ? 0 : 1;
+    if (options.json)
+        std::cout << writeJson(
+            object(key("version", SHOAL_VERSION), key("contexts", arrayOf(probes, asJson))));
+    else
+        std::for_each(probes.begin(), probes.end(), print);
+    const auto available = [](const gpu::ContextProbe& probe) { return probe.info.has_value(); };
+    return std::any_of(probes.begin(), probes.end(), available) ? 0 : 1;
 }
 
 }  // namespace shoal::app

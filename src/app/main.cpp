@@ -11,21 +11,11 @@
 
 // Scenes by their names become files. What `check` does not find it reports like other files.
 static void findScenes(shoal::app::Options& options) {
-    using Command = shoal::app::Options::Command;
+    using namespace shoal::app;
     for (std::string& file : options.files) {
-        switch (options.command) {
-        case Command::run:
-        case Command::explain:
-        case Command::measure:
-        case Command::field:
-            file = shoal::needScene(file);
-            break;
-        case Command::check:
-            file = shoal::sceneFile(file).value_or(file);
-            break;
-        default:
-            break;
-        }
+        for (const auto command : {runCommand, explainCommand, measureCommand, fieldCommand})
+            if (options.command == command) file = shoal::needScene(file);
+        if (options.command == checkCommand) file = shoal::sceneFile(file).value_or(file);
     }
 }
 
@@ -43,44 +33,7 @@ int main(int argc, char** argv) {
         if (options) {
             findScenes(*options);
             if (!options->files.empty()) keepToSandbox(*options, options->files.front());
-            switch (options->command) {
-            case Options::Command::run:
-                code = runCommand(*options);
-                break;
-            case Options::Command::scenes:
-                code = scenesCommand(*options);
-                break;
-            case Options::Command::keys:
-                code = keysCommand(*options);
-                break;
-            case Options::Command::check:
-                code = checkCommand(*options);
-                break;
-            case Options::Command::explain:
-                code = explainCommand(*options);
-                break;
-            case Options::Command::info:
-                code = infoCommand(*options);
-                break;
-            case Options::Command::bench:
-                code = benchCommand(*options);
-                break;
-            case Options::Command::measure:
-                code = measureCommand(*options);
-                break;
-            case Options::Command::field:
-                code = fieldCommand(*options);
-                break;
-            case Options::Command::edit:
-                code = editCommand(*options);
-                break;
-            case Options::Command::moleculeFromMesh:
-                code = moleculeFromMeshCommand(*options);
-                break;
-            case Options::Command::moleculeShow:
-                code = moleculeShowCommand(*options);
-                break;
-            }
+            code = options->command(*options);
         }
         std::cout.flush();
         if (!std::cout) throw shoal::Error("standard output cannot be written");

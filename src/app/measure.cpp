@@ -52,13 +52,12 @@ class Bar {
 };
 
 AccuracyOptions accuracyOptions(const Options& options) {
-    AccuracyOptions out;
-    out.duration = options.duration;
-    out.molecules = options.molecules;
-    out.fine = options.fine;
-    out.solvers = options.solvers;
-    out.samplings = options.samplings;
-    out.seconds = options.seconds;
+    AccuracyOptions out{.duration = options.duration,
+                        .molecules = options.molecules,
+                        .fine = options.fine,
+                        .solvers = options.solvers,
+                        .samplings = options.samplings,
+                        .seconds = options.seconds};
     out.enough = options.error.value_or(out.enough);
     return out;
 }
@@ -111,15 +110,13 @@ CalibrationOptions calibrationOptions(const Options& options) {
 }
 
 AccuracyDevice accuracyDevice(const Options& options, gpu::Context& context, gpu::ProgramCache& cache) {
-    AccuracyDevice out;
-    out.context = &context;
-    out.shaderRoot = shaderRoot();
-    out.cache = &cache;
-    out.cores = int(std::max(1u, std::thread::hardware_concurrency()));
-    out.path = options.path;
-    out.lanes = options.lanes;
-    out.inPlace = options.inPlace;
-    return out;
+    return {.context = &context,
+            .shaderRoot = shaderRoot(),
+            .cache = &cache,
+            .cores = int(std::max(1u, std::thread::hardware_concurrency())),
+            .path = options.path,
+            .lanes = options.lanes,
+            .inPlace = options.inPlace};
 }
 
 Calibration calibrated(const Options& options, gpu::Context& context, Loaded& loaded) {

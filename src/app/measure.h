@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "app/commands.h"
-#include "app/machine.h"
 #include "app/options.h"
-#include "core/json.h"
+#include "app/report.h"
 #include "gpu/context.h"
 #include "gpu/program_cache.h"
 #include "measure/accuracy.h"

@@ -109,10 +109,11 @@ void measureMissing(const Options& options, const std::vector<ReportScene>& all,
 }
 
 // Returns the heads of all files, each once: with --only, some may have been measured elsewhere.
-std::string headOf(const std::vector<Measured>& there) {
+std::string headOf(const std::vector<std::optional<Measured>>& found) {
     std::vector<std::string> heads;
-    for (const Measured& one : there) {
-        const MeasuredWith& with = one.with;
+    for (const std::optional<Measured>& one : found) {
+        if (!one) continue;
+        const MeasuredWith& with = one->with;
         const auto [measured, timed] = with.molecules.at(0);
         const std::string head =
             concat("Machine: ", printable(with.processor), ". Context: ", printable(with.renderer), " (",
@@ -136,13 +137,13 @@ std::string tables(const std::vector<ReportEntry>& entries, double error) {
 
 // The scenes that have been measured, with the places of the others left empty.
 void drawAll(const Options& options, const std::vector<ReportScene>& all,
-             const std::vector<std::optional<ReportEntry>>& entries, const std::string& machine) {
+             const std::vector<std::optional<Measured>>& found, const std::string& machine) {
     for (const std::string molecule : reportMolecules) {
         std::vector<AccuracyPanel> panels;
         bool any = false;
         for (size_t i = 0; i < all.size(); ++i) {
             if (all[i].molecule != molecule) continue;
-            panels.push_back(entries[i] ? panelOf(all[i], *entries[i]) : AccuracyPanel{});
+            panels.push_back(found[i] ? panelOf(all[i], found[i]->entry) : AccuracyPanel{});
             any |= plottable(panels.back().points);
         }
         if (any)
@@ -166,21 +167,18 @@ std::vector<std::optional<Measured>> readAll(const Options& options, const std::
 // The pictures and tables of what is there.
 void tellAll(const Options& options, const std::vector<ReportScene>& all) {
     const std::vector<std::optional<Measured>> found = readAll(options, all);
-    std::vector<Measured> there;
     std::vector<ReportEntry> entries;
-    std::vector<std::optional<ReportEntry>> places(found.size());
-    for (size_t i = 0; i < found.size(); ++i) {
-        if (!found[i]) continue;
-        there.push_back(*found[i]);
-        entries.push_back(found[i]->entry);
-        places[i] = found[i]->entry;
+    std::string machine;  // of the first
+    for (const std::optional<Measured>& one : found) {
+        if (!one) continue;
+        if (entries.empty()) machine = one->with.processor + ", " + one->with.renderer;
+        entries.push_back(one->entry);
     }
-    if (there.empty())
+    if (entries.empty())
         throw WrongUse(concat("--only: no scene of the report has \"", options.only, "\" in its name"));
-    const std::string text = headOf(there) + tables(entries, options.error.value_or(1e-3));
+    const std::string text = headOf(found) + tables(entries, options.error.value_or(1e-3));
     writeFile(fs::path(options.report) / "tables.md", text);
-    const MeasuredWith& first = there.front().with;
-    drawAll(options, all, places, first.processor + ", " + first.renderer);
+    drawAll(options, all, found, machine);
     std::cout << text;
     std::cerr << "tables and pictures: " << printable(options.report) << "\n";
 }

@@ -1,6 +1,5 @@
 #include "app/measure.h"
 
-#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -42,16 +41,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         out << "the reference is good to " << exponent(a.referenceError) << "\n";
 }
 
-constexpr int columns[] = {10, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
-
-void addRow(std::ostringstream& out, const std::vector<std::string>& cells) {
-    std::ostringstream line;
-    line << "  ";
-    for (size_t i = 0; i < cells.size(); ++i)
-        line << std::right << std::setw(columns[i]) << cells[i];
-    const std::string text = line.str();
-    out << text.substr(0, text.find_last_not_of(' ') + 1) << "\n";
-}
+constexpr int columns[] = {12, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
 
 void addPoint(std::ostringstream& out, const AccuracyPoint& point, const MeasureReport& report) {
     std::vector<std::string> cells = {steps(point), bench::grouped(int(point.stepsPerSecond + 0.5))};
@@ -75,7 +65,7 @@ void addPoint(std::ostringstream& out, const AccuracyPoint& point, const Measure
     drift(&Drift::momentum);
     drift(&Drift::angularMomentum);
     cells.push_back(&point == chosenPoint(report) ? "chosen" : point.front ? "front" : "");
-    addRow(out, cells);
+    out << tableRow(cells, columns);
 }
 
 void addCurve(std::ostringstream& out, const Method& method, const MeasureReport& report) {
@@ -102,8 +92,9 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
             continue;
         }
         if (!head)
-            addRow(out, {"substeps", "steps/s", "error", "centroid", "shape", "worst", "min ns", "median ns",
-                         "energy", "momentum", "angular"});
+            out << tableRow({"substeps", "steps/s", "error", "centroid", "shape", "worst", "min ns",
+                             "median ns", "energy", "momentum", "angular"},
+                            columns);
         head = true;
         addPoint(out, point, report);
     }
@@ -140,57 +131,40 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
 }
 
 JsonValue asJson(const ErrorParts& error) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("total", JsonValue::makeNumber(error.total))
-        .add("centroid", JsonValue::makeNumber(error.centroid))
-        .add("shape", JsonValue::makeNumber(error.shape))
-        .add("worst", JsonValue::makeNumber(error.worst))
-        .add("worstGroup", JsonValue::makeNumber(double(error.worstGroup)))
-        .add("worstMolecule", JsonValue::makeNumber(error.worstMolecule));
-    return out;
+    return object(key("total", error.total), key("centroid", error.centroid), key("shape", error.shape),
+                  key("worst", error.worst), key("worstGroup", error.worstGroup),
+                  key("worstMolecule", error.worstMolecule));
 }
 
 JsonValue asJson(const Drift& drift) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("energy", JsonValue::makeNumber(drift.energy))
-        .add("momentum", JsonValue::makeNumber(drift.momentum))
-        .add("angularMomentum", JsonValue::makeNumber(drift.angularMomentum));
-    return out;
+    return object(key("energy", drift.energy), key("momentum", drift.momentum),
+                  key("angularMomentum", drift.angularMomentum));
 }
 
 JsonValue asJson(const AccuracyPoint& point) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("solver", JsonValue::makeString(shoal::name(point.method.solver)))
-        .add("fieldSampling", JsonValue::makeString(shoal::name(point.method.sampling)))
-        .add("substeps", JsonValue::makeNumber(point.step.substeps))
-        .add("framesPerFrame", JsonValue::makeNumber(point.step.split))
-        .add("stepsPerSecond", JsonValue::makeNumber(point.stepsPerSecond))
-        .add("outcome", JsonValue::makeString(name(point.outcome)));
-    if (!point.why.empty()) out.add("why", JsonValue::makeString(point.why));
+    JsonValue out = object(key("solver", shoal::name(point.method.solver)),
+                           key("fieldSampling", shoal::name(point.method.sampling)),
+                           key("substeps", point.step.substeps), key("framesPerFrame", point.step.split),
+                           key("stepsPerSecond", point.stepsPerSecond), key("outcome", name(point.outcome)));
+    if (!point.why.empty()) append(out, key("why", point.why));
     if (point.outcome != Outcome::measured) return out;
-    out.add("error", point.error ? asJson(*point.error) : JsonValue())
-        .add("drift", point.drift ? asJson(*point.drift) : JsonValue());
-    const bool timed = point.time.samples > 0;
-    const auto seconds = [&](double value) { return timed ? JsonValue::makeNumber(value) : JsonValue(); };
-    out.add("samples", JsonValue::makeNumber(point.time.samples))
-        .add("minSecondsPerVertexAndSecond", seconds(point.time.min))
-        .add("medianSecondsPerVertexAndSecond", seconds(point.time.median))
-        .add("stateBytes", JsonValue::makeNumber(double(point.stateBytes)))
-        .add("front", JsonValue::makeBoolean(point.front));
-    return out;
+    std::optional<double> min, median;
+    if (point.time.samples > 0) {
+        min = point.time.min;
+        median = point.time.median;
+    }
+    return append(out, key("error", point.error ? asJson(*point.error) : JsonValue()),
+                  key("drift", point.drift ? asJson(*point.drift) : JsonValue()),
+                  key("samples", point.time.samples), key("minSecondsPerVertexAndSecond", min),
+                  key("medianSecondsPerVertexAndSecond", median), key("stateBytes", point.stateBytes),
+                  key("front", point.front));
 }
 
 JsonValue asJson(const AccuracyGroup& group) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("name", JsonValue::makeString(group.name))
-        .add("molecule", JsonValue::makeString(group.molecule))
-        .add("vertices", JsonValue::makeNumber(group.vertices))
-        .add("springs", JsonValue::makeNumber(group.springs))
-        .add("size", JsonValue::makeNumber(group.size))
-        .add("highestFrequency", JsonValue::makeNumber(group.highestFrequency))
-        .add("measuredMolecules", JsonValue::makeNumber(group.measured))
-        .add("timedMolecules", JsonValue::makeNumber(group.timed));
-    return out;
+    return object(key("name", group.name), key("molecule", group.molecule), key("vertices", group.vertices),
+                  key("springs", group.springs), key("size", group.size),
+                  key("highestFrequency", group.highestFrequency), key("measuredMolecules", group.measured),
+                  key("timedMolecules", group.timed));
 }
 
 std::string quotedCell(const std::string& text) {
@@ -232,20 +206,19 @@ std::string oneLine(const Calibration& one) {
 }
 
 std::string asText(const Calibration& one) {
-    std::ostringstream out;
-    out << oneLine(one) << ": " << printable(one.why) << "\n  " << std::left << std::setw(30) << "method"
-        << std::right << std::setw(5) << "steps" << std::setw(10) << "RMS" << std::setw(10) << "worst"
-        << std::setw(9) << "ns"
-        << "\n";
+    std::string out = concat(oneLine(one), ": ", printable(one.why), "\n");
+    const char* row = "  %-30s%5s%10s%10s%9s";
+    out += formatted(row, "method", "steps", "RMS", "worst", "ns") + "\n";
     for (const Candidate& candidate : one.candidates) {
-        out << "  " << std::left << std::setw(30) << measure::name(candidate.method) << std::right
-            << std::setw(5) << (candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-")
-            << std::setw(10) << (candidate.error ? exponent(*candidate.error) : "-") << std::setw(10)
-            << (candidate.worst ? exponent(*candidate.worst) : "-") << std::setw(9)
-            << (candidate.cost > 0 ? nanoseconds(candidate.cost) : "-") << "   " << printable(candidate.why)
-            << "\n";
+        const std::string steps = candidate.substeps > 0 ? std::to_string(candidate.substeps) : "-",
+                          rms = candidate.error ? exponent(*candidate.error) : "-",
+                          worst = candidate.worst ? exponent(*candidate.worst) : "-",
+                          cost = candidate.cost > 0 ? nanoseconds(candidate.cost) : "-";
+        out += formatted(row, measure::name(candidate.method).c_str(), steps.c_str(), rms.c_str(),
+                         worst.c_str(), cost.c_str());
+        out += "   " + printable(candidate.why) + "\n";
     }
-    return out.str();
+    return out;
 }
 
 std::string asText(const MeasureReport& report) {
@@ -263,34 +236,19 @@ std::string asText(const MeasureReport& report) {
 
 JsonValue asJson(const MeasureReport& report) {
     const AccuracyReport& a = report.accuracy;
-    JsonValue machine = JsonValue::makeObject();
-    machine.add("processor", JsonValue::makeString(report.machine.processor))
-        .add("cores", JsonValue::makeNumber(report.machine.cores));
-    JsonValue groups = JsonValue::makeArray(), points = JsonValue::makeArray(),
-              notes = JsonValue::makeArray();
-    for (const AccuracyGroup& group : a.groups)
-        groups.items.push_back(asJson(group));
-    for (const AccuracyPoint& point : a.points)
-        points.items.push_back(asJson(point));
-    for (const std::string& note : a.notes)
-        notes.items.push_back(JsonValue::makeString(note));
-    JsonValue out = JsonValue::makeObject();
-    out.add("version", JsonValue::makeString(SHOAL_VERSION))
-        .add("machine", std::move(machine))
-        .add("context", asJson(report.machine.context))
-        .add("scene", JsonValue::makeString(a.scene))
-        .add("path", JsonValue::makeString(name(a.path)))
-        .add("frameRate", JsonValue::makeNumber(a.frameRate))
-        .add("duration", JsonValue::makeNumber(a.duration))
-        .add("seconds", JsonValue::makeNumber(a.seconds))
-        .add("groups", std::move(groups))
-        .add("chaotic", a.chaotic.empty() ? JsonValue() : JsonValue::makeString(a.chaotic))
-        .add("tooStiff", a.tooStiff.empty() ? JsonValue() : JsonValue::makeString(a.tooStiff))
-        .add("referenceError", a.hasErrors() ? JsonValue::makeNumber(a.referenceError) : JsonValue())
-        .add("target", JsonValue::makeNumber(report.target))
-        .add("chosen", report.chosen ? asJson(*report.chosen) : JsonValue());
-    if (!report.chosen) out.add("notChosen", JsonValue::makeString(report.notChosen));
-    return out.add("notes", std::move(notes)).add("points", std::move(points));
+    const auto orNull = [](const std::string& text) { return text.empty() ? JsonValue() : toJson(text); };
+    JsonValue out = object(
+        key("version", SHOAL_VERSION),
+        key("machine",
+            object(key("processor", report.machine.processor), key("cores", report.machine.cores))),
+        key("context", asJson(report.machine.context)), key("scene", a.scene), key("path", name(a.path)),
+        key("frameRate", a.frameRate), key("duration", a.duration), key("seconds", a.seconds),
+        key("groups", arrayOf(a.groups, asJson)), key("chaotic", orNull(a.chaotic)),
+        key("tooStiff", orNull(a.tooStiff)),
+        key("referenceError", a.hasErrors() ? std::optional(a.referenceError) : std::nullopt),
+        key("target", report.target), key("chosen", report.chosen ? asJson(*report.chosen) : JsonValue()));
+    if (!report.chosen) append(out, key("notChosen", report.notChosen));
+    return append(out, key("notes", a.notes), key("points", arrayOf(a.points, asJson)));
 }
 
 std::string asCsv(const MeasureReport& report) {

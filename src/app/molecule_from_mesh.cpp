@@ -8,9 +8,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/image.h"
-#include "core/json.h"
 #include "core/printable.h"
 #include "geometry/mesh.h"
+#include "measure/report_json.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 
@@ -121,43 +121,29 @@ std::string asText(const Report& r) {
     return out;
 }
 
+JsonValue asJson(const Warning& warning) {
+    return toJson(text(warning));
+}
+
 JsonValue asJson(const Report& r) {
     const MadeMolecule& made = r.made;
     const Molecule& molecule = made.molecule;
-    const auto number = [](double value) { return JsonValue::makeNumber(value); };
-    const auto words = [](const auto& all, auto&& word) {
-        JsonValue out = JsonValue::makeArray();
-        for (const auto& one : all)
-            out.items.push_back(JsonValue::makeString(word(one)));
-        return out;
-    };
-    JsonValue springs = JsonValue::makeObject();
-    springs.add("edge", number(made.edges))
-        .add("shear", number(made.shears))
-        .add("bending", number(made.bends));
-    springs.add("brace", number(made.braces)).add("repair", number(made.repairs));
-    JsonValue out = JsonValue::makeObject();
-    out.add("file", JsonValue::makeString(r.file)).add("output", JsonValue::makeString(r.output));
-    out.add("sourceVertices", number(double(r.sourceVertices)));
-    out.add("sourceTriangles", number(double(r.sourceTriangles)));
-    out.add("solid", JsonValue::makeBoolean(made.solid)).add("area", number(made.area));
-    out.add("volume", number(made.volume)).add("extent", JsonValue::makeVector(made.extent));
-    out.add("vertices", number(double(molecule.vertices.size())));
-    out.add("triangles", number(double(molecule.triangles.size()))).add("springs", std::move(springs));
-    out.add("material", JsonValue::makeString(made.material)).add("totalMass", number(r.analysis.totalMass));
-    out.add("lowestFrequency", number(made.lowestFrequency));
-    out.add("highestFrequency", number(r.analysis.highestFrequency / (2 * pi)));
-    out.add("dampingRatio", number(made.dampingRatio)).add("zeroModes", number(r.analysis.zeroModes));
-    out.add("rigidModes", number(r.analysis.rigidModes));
-    out.add("stableStepLeapfrog", number(r.analysis.stableStepLeapfrog));
-    out.add("substepsAt60Hz", number(substeps(r)));
-    out.add("skinVertices", number(double(molecule.skin.vertices.size())));
-    out.add("skinTriangles", number(double(molecule.skin.triangles.size())));
-    out.add("skinError", number(made.skinError / molecule.size()));
-    out.add("notes", words(made.notes, [](const std::string& note) { return note; }));
-    out.add("warnings", words(r.warnings, [](const Warning& warning) { return text(warning); }));
-    out.add("seconds", number(r.seconds));
-    return out;
+    const JsonValue springs =
+        object(key("edge", made.edges), key("shear", made.shears), key("bending", made.bends),
+               key("brace", made.braces), key("repair", made.repairs));
+    return object(
+        key("file", r.file), key("output", r.output), key("sourceVertices", r.sourceVertices),
+        key("sourceTriangles", r.sourceTriangles), key("solid", made.solid), key("area", made.area),
+        key("volume", made.volume), key("extent", made.extent), key("vertices", molecule.vertices.size()),
+        key("triangles", molecule.triangles.size()), key("springs", springs), key("material", made.material),
+        key("totalMass", r.analysis.totalMass), key("lowestFrequency", made.lowestFrequency),
+        key("highestFrequency", r.analysis.highestFrequency / (2 * pi)),
+        key("dampingRatio", made.dampingRatio), key("zeroModes", r.analysis.zeroModes),
+        key("rigidModes", r.analysis.rigidModes), key("stableStepLeapfrog", r.analysis.stableStepLeapfrog),
+        key("substepsAt60Hz", substeps(r)), key("skinVertices", molecule.skin.vertices.size()),
+        key("skinTriangles", molecule.skin.triangles.size()),
+        key("skinError", made.skinError / molecule.size()), key("notes", made.notes),
+        key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
 }
 
 }  // namespace

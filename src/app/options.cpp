@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <limits>
 
 #include "app/cli.h"
+#include "app/commands.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
 #include "window/interface.h"
@@ -29,20 +30,17 @@ void addScene(CLI::App& command, Options& options) {
 }
 
 std::string solverWords() {
-    std::string out = "auto";
-    for (const Solver& one : solvers())
-        out += concat("|", one.name);
-    return out;
+    return "auto|" + CLI::detail::join(
+                         solvers(), [](const Solver& one) { return one.name; }, "|");
 }
 
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
     section(command, ofScene);
-    command.add_option("--dt", options.dt, "Seconds that one frame simulates, instead of the scene's")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
+    addNumber(command, "--dt", options.dt, "Seconds that one frame simulates, instead of the scene's",
+              "a time in seconds");
     command.add_option("--solver", texts.solver, "Method of every group, instead of the scene's")
         ->type_name(solverWords());
-    command.add_option("--substeps", options.substeps, "Substeps of a frame, instead of the scene's")
-        ->check(wholeNumber());
+    addWhole(command, "--substeps", options.substeps, "Substeps of a frame, instead of the scene's");
     command
         .add_option("--field-sampling", options.fieldSampling,
                     "Where and how often fields are read, instead of the scene's")
@@ -52,26 +50,20 @@ void addOverrides(CLI::App& command, Options& options, Texts& texts) {
 
 void addError(CLI::App& command, Options& options) {
     section(command, ofScene);
-    command
-        .add_option("--error", options.error,
-                    "Cheapest solver, substeps and field sampling whose measured error is below this")
-        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
+    addNumber(command, "--error", options.error,
+              "Cheapest solver, substeps and field sampling whose measured error is below this",
+              "an error such as 1e-3");
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    command.add_option("molecule", options.files, "Molecule file")
-        ->required()
-        ->expected(1)
-        ->type_name("FILE");
+    addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
     command.add_option("--size", texts.size, "Size of the window in pixels")
         ->type_name("WxH")
         ->capture_default_str();
-    command
-        .add_option("--scale", options.scale, "Pixels a point of the panels; as the screen asks unless given")
-        ->check(kindOf(isAll<double>, "a number"));
-    command.add_option("--frames", options.frames, "Close after so many frames")->check(wholeNumber());
-    command.add_option("--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG")
-        ->type_name("FILE");
+    addNumber(command, "--scale", options.scale,
+              "Pixels a point of the panels; as the screen asks unless given", "a number");
+    addWhole(command, "--frames", options.frames, "Close after so many frames");
+    addFile(command, "--screenshot", options.screenshot, "With --frames: a picture of the last, as PNG");
     needs(command, "--screenshot", "--frames");
 }
 
@@ -89,8 +81,7 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     addContext(command, options, texts);
     section(command, execution);
     command.add_flag("--headless", options.headless, "No window, even where there is a display");
-    command.add_option("--frames", options.frames, "Stop after so many frames (headless: 240)")
-        ->check(wholeNumber());
+    addWhole(command, "--frames", options.frames, "Stop after so many frames (headless: 240)");
     command.add_flag("--no-watchdog", options.unwatched, "Go on when the state is not finite or too fast");
     section(command, "Pictures");
     command.add_option("--size", texts.size, "Size of pictures, or of the window, in pixels")
@@ -100,40 +91,30 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
         .add_option("--capture", options.capture,
                     "Folder for PNG frames, or a video (.mp4, .mkv, .webm, .mov)")
         ->type_name("TARGET");
-    command.add_option("--capture-every", options.captureEvery, "Take every n-th frame")
-        ->check(wholeNumber())
+    addWhole(command, "--capture-every", options.captureEvery, "Take every n-th frame")
         ->capture_default_str();
     section(command, "State");
     command
         .add_option("--export", options.exports,
                     "Folder (CSV), or a name ending in .csv, .ply, .vtp, or .pvd (an index and .vtp files)")
         ->type_name("TARGET");
-    command.add_option("--export-frames", options.exportFrames, "Frames to export (default: the last)")
-        ->delimiter(',')
-        ->check(wholeNumber());
-    command.add_option("--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)")
-        ->check(wholeNumber());
+    addWhole(command, "--export-frames", options.exportFrames, "Frames to export (default: the last)")
+        ->delimiter(',');
+    addWhole(command, "--export-every", options.exportEvery, "Export every n-th frame (.pvd: default 1)");
     command.add_option("--export-cells", texts.exportCells, ".vtp, .pvd: what becomes cells")
         ->type_name("surface|springs|vertices")
         ->capture_default_str();
-    command.add_option("--save", options.save, "File for the state at the end, to resume from")
-        ->type_name("FILE");
-    command.add_option("--save-frames", options.saveFrames, "Frames to save (default: the last)")
-        ->delimiter(',')
-        ->check(wholeNumber());
-    command
-        .add_option("--resume", options.resume,
-                    "Go on from the state in this file; --frames are further ones")
-        ->type_name("FILE");
+    addFile(command, "--save", options.save, "File for the state at the end, to resume from");
+    addWhole(command, "--save-frames", options.saveFrames, "Frames to save (default: the last)")
+        ->delimiter(',');
+    addFile(command, "--resume", options.resume,
+            "Go on from the state in this file; --frames are further ones");
     section(command, reports);
     command.add_flag("--timings", options.timings, "Measure the time of each pass");
     section(command, "Window");
-    command
-        .add_option("--scale", options.scale,
-                    "Size of panels and letters, such as 2 (default: as the screen asks)")
-        ->check(kindOf(isAll<double>, "a factor such as 1.5"));
-    command.add_option("--screenshot", options.screenshot, "Save its picture after --frames and close")
-        ->type_name("FILE");
+    addNumber(command, "--scale", options.scale,
+              "Size of panels and letters, such as 2 (default: as the screen asks)", "a factor such as 1.5");
+    addFile(command, "--screenshot", options.screenshot, "Save its picture after --frames and close");
     needs(command, "--save-frames", "--save");
     needs(command, "--export-frames", "--export");
     needs(command, "--export-every", "--export");
@@ -192,39 +173,33 @@ void checkTarget(const char* option, const std::string& target, const std::vecto
                               std::all_of(extension.begin() + 1, extension.end(),
                                           [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
     if (!looksLikeOne || std::find(known.begin(), known.end(), extension) != known.end()) return;
-    std::string list;
-    for (const std::string& one : known)
-        list += (list.empty() ? "" : ", ") + one;
-    throw Error(
-        concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ", list));
+    throw Error(concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ",
+                       CLI::detail::join(known, ", ")));
 }
 
 void checkRanges(const Options& options) {
-    const auto atLeast = [](const char* option, std::optional<int> value, int least) {
+    constexpr int any = std::numeric_limits<int>::max();
+    const auto within = [](const char* option, std::optional<int> value, int least, int most) {
         if (value && *value < least)
             throw Error(concat(option, ": expected at least ", least, ", found ", *value));
-    };
-    // the limits of the scene file
-    const auto atMost = [](const char* option, std::optional<int> value, int most) {
         if (value && *value > most)
             throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
-    atLeast("--frames", options.frames, 1);
+    within("--frames", options.frames, 1, any);
     if (options.scale && !(*options.scale >= window::leastScale && *options.scale <= window::mostScale))
         throw Error(concat("--scale: expected ", window::leastScale, " to ", window::mostScale, ", found ",
                            *options.scale));
-    atLeast("--substeps", options.substeps, 1);
-    atMost("--substeps", options.substeps, maxSubsteps);
-    atLeast("--count", options.count, 1);
-    atMost("--count", options.count, maxGroupCount);
-    atLeast("--capture-every", options.captureEvery, 1);
+    // the limits of the scene file
+    within("--substeps", options.substeps, 1, maxSubsteps);
+    within("--count", options.count, 1, maxGroupCount);
+    within("--capture-every", options.captureEvery, 1, any);
     for (const int frame : options.exportFrames)
-        atLeast("--export-frames", frame, 0);
+        within("--export-frames", frame, 0, any);
     if (options.dt && !(*options.dt >= 1e-5 && *options.dt <= 1))
         throw Error(concat("--dt: expected a time from 1e-5 to 1 s, found ", *options.dt));
     for (const int frame : options.saveFrames)
-        atLeast("--save-frames", frame, 0);
-    atLeast("--export-every", options.exportEvery, 1);
+        within("--save-frames", frame, 0, any);
+    within("--export-every", options.exportEvery, 1, any);
     if (!options.capture.empty() && options.captureEvery > options.frames.value_or(headlessFrames))
         throw Error(concat("--capture-every ", options.captureEvery, " is beyond the last frame, ",
                            options.frames.value_or(headlessFrames)));
@@ -331,17 +306,15 @@ static std::string nameOf(const CLI::App* command) {
     return (command->get_parent() ? nameOf(command->get_parent()) + " " : "") + command->get_name();
 }
 
-static Options::Command commandOf(const CLI::App& app) {
-    static const std::pair<const char*, Options::Command> names[] = {
-        {"run", Options::Command::run},     {"scenes", Options::Command::scenes},
-        {"check", Options::Command::check}, {"explain", Options::Command::explain},
-        {"bench", Options::Command::bench}, {"measure", Options::Command::measure},
-        {"field", Options::Command::field}, {"edit", Options::Command::edit},
-        {"keys", Options::Command::keys},
+static auto commandOf(const CLI::App& app) {
+    static constexpr std::pair<const char*, int (*)(const Options&)> names[] = {
+        {"run", runCommand},         {"scenes", scenesCommand}, {"check", checkCommand},
+        {"explain", explainCommand}, {"bench", benchCommand},   {"measure", measureCommand},
+        {"field", fieldCommand},     {"edit", editCommand},     {"keys", keysCommand},
     };
     for (const auto& [name, command] : names)
         if (app.got_subcommand(name)) return command;
-    return Options::Command::info;
+    return infoCommand;
 }
 
 static void finish(const CLI::App& app, Options& options, const Texts& texts) {

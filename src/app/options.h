@@ -37,21 +37,7 @@ struct MoleculeOptions {
 };
 
 struct Options : RunRequest {
-    enum class Command {
-        run,
-        scenes,
-        keys,
-        check,
-        explain,
-        info,
-        bench,
-        measure,
-        field,
-        edit,
-        moleculeFromMesh,
-        moleculeShow
-    };
-    Command command = Command::run;
+    int (*command)(const Options& options) = nullptr;  // app/commands.h
     std::vector<std::string> files;
 
     gpu::ContextKind context = gpu::ContextKind::automatic;

@@ -1,4 +1,5 @@
 #include "app/cli.h"
+#include "app/commands.h"
 
 #include "core/file.h"
 #include "geometry/distance_field.h"
@@ -11,7 +12,7 @@ void addField(CLI::App& command, Options& options, std::string& slice, std::stri
         ->expected(1)
         ->type_name("SCENE");
     const auto length = [&](const char* option, std::optional<double>& value, const char* what) {
-        command.add_option(option, value, what)->check(kindOf(isAll<double>, "a length in m"));
+        addNumber(command, option, value, what, "a length in m");
     };
     command
         .add_option("--resolution", options.field.resolution,
@@ -21,7 +22,7 @@ void addField(CLI::App& command, Options& options, std::string& slice, std::stri
            "Instead: refine until no point near the surface is off by more, m");
     length("--shell", options.field.shell, "Thickness of a model that is not closed, m (default two cells)");
     length("--thickness", options.field.thickness, "What vertices keep off the surface, m (default 0.002)");
-    command.add_option("--capture", options.capture, "Draw a slice into this file (.png)")->type_name("FILE");
+    addFile(command, "--capture", options.capture, "Draw a slice into this file (.png)");
     command.add_option("--slice", slice, "Its plane, such as y=0.5 (default z, through the middle)");
     command.add_option("--size", size, "Largest size of the picture in pixels")
         ->type_name("WxH")
@@ -44,7 +45,7 @@ static void readSlice(const std::string& text, Options& options) {
 }
 
 void checkField(Options& options, const std::string& slice) {
-    if (options.command != Options::Command::field) return;
+    if (options.command != fieldCommand) return;
     readSlice(slice, options);
     const Options::Field& field = options.field;
     if (field.resolution && (*field.resolution < leastResolution || *field.resolution > mostResolution))

@@ -1,7 +1,9 @@
 #include "app/cli.h"
+#include "app/commands.h"
 
 #include <algorithm>
 
+#include "measure/method_runner.h"
 #include "scene/solver.h"
 
 namespace shoal::app {
@@ -10,13 +12,8 @@ namespace {
 
 // The benchmarks of `shoal bench` beside the simulation's frames, each in a file bench_<word>.cpp.
 const std::vector<std::string> benchWords = {"sort", "collide", "particles", "school"};
-
-std::string joined(const std::vector<std::string>& words, const char* between) {
-    std::string out;
-    for (const std::string& word : words)
-        out += (out.empty() ? "" : between) + word;
-    return out;
-}
+constexpr int (*benchCommands[])(const Options&) = {benchSortCommand, benchCollideCommand,
+                                                    benchParticlesCommand, benchSchoolCommand};
 
 void readLists(const Texts& texts, Options& options) {
     for (const std::string& word : texts.solvers) {
@@ -31,7 +28,7 @@ void readLists(const Texts& texts, Options& options) {
 void checkMeasure(const Options& options) {
     if (options.error && !(*options.error > 0 && *options.error <= 1))
         throw Error(concat("--error: expected a relative error above 0, at most 1, found ", *options.error));
-    if (options.command != Options::Command::measure) return;
+    if (options.command != measureCommand) return;
     if (options.files.empty() == options.report.empty())
         throw Error("measure: expected a scene file, or --report and a folder");
     if (!(options.duration > 0 && options.duration <= 100))
@@ -40,18 +37,21 @@ void checkMeasure(const Options& options) {
         throw Error(concat("--molecules: expected 1 to 1024, found ", options.molecules));
 }
 
-void checkBench(const Options& options) {
-    if (options.command != Options::Command::bench || options.benchOf.empty()) return;
+// Turns the word behind `bench` into a command of its own.
+void finishBench(Options& options) {
+    if (options.command != benchCommand || options.benchOf.empty()) return;
     const std::string& word = options.benchOf;
+    const auto found = std::find(benchWords.begin(), benchWords.end(), word);
     const std::string near = nearest(word, benchWords);
-    if (std::find(benchWords.begin(), benchWords.end(), word) == benchWords.end())
+    if (found == benchWords.end())
         throw Error(concat("bench: unknown \"", word, "\"",
                            near.empty() ? "" : " (did you mean \"" + near + "\"?)", "; expected ",
-                           joined(benchWords, ", "), " or nothing"));
+                           CLI::detail::join(benchWords, ", "), " or nothing"));
     if (!options.plot.empty())
         throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")
         throw Error("--only is not of bench sort, which measures everything: leave it out");
+    options.command = benchCommands[found - benchWords.begin()];
 }
 
 }  // namespace
@@ -77,10 +77,8 @@ void addContext(CLI::App& command, Options& options, Texts& texts) {
 }
 
 void addCountAndSeed(CLI::App& command, Options& options) {
-    command
-        .add_option("--count", options.count,
-                    "Molecules in each group that is placed at random; places where they are born")
-        ->check(wholeNumber());
+    addWhole(command, "--count", options.count,
+             "Molecules in each group that is placed at random; places where they are born");
     command.add_option("--seed", options.seed, "Seed of all random numbers, instead of the scene's")
         ->check(kindOf(isAll<uint64_t>, "a whole number from 0 to 18446744073709551615"));
 }
@@ -90,15 +88,14 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
         .add_option("of", options.benchOf,
                     "sort: the sorts; collide: contact; particles: points; school: fish; nothing: frames of "
                     "molecules")
-        ->type_name(joined(benchWords, "|"));
+        ->type_name(CLI::detail::join(benchWords, "|"));
     addContext(command, options, texts);
     section(command, "What is measured");
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");
-    command.add_option("--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
+    addNumber(command, "--seconds", options.seconds, "Time for each group of cases (default 12, quick 2)",
+              "a time in seconds");
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
-    command.add_option("--plot", options.plot, "Time per molecule against their number (.svg or .png)")
-        ->type_name("FILE")
+    addFile(command, "--plot", options.plot, "Time per molecule against their number (.svg or .png)")
         ->group(reports);
 }
 
@@ -107,22 +104,21 @@ void addMeasure(CLI::App& command, Options& options, Texts& texts) {
         ->expected(1)
         ->type_name("SCENE");
     section(command, "What is measured");
-    command.add_option("--error", options.error, "What the chosen method must reach (default 1e-3)")
-        ->check(kindOf(isAll<double>, "an error such as 1e-3"));
+    addNumber(command, "--error", options.error, "What the chosen method must reach (default 1e-3)",
+              "an error such as 1e-3");
     command.add_option("--solvers", texts.solvers, "Only these, such as euler,leapfrog")->delimiter(',');
     command.add_option("--samplings", texts.samplings, "Only these, such as vertexFrame")->delimiter(',');
-    command.add_option("--duration", options.duration, "Simulated seconds after which the error is taken")
-        ->check(kindOf(isAll<double>, "a time in seconds"))
+    addNumber(command, "--duration", options.duration, "Simulated seconds after which the error is taken",
+              "a time in seconds")
         ->capture_default_str();
-    command.add_option("--molecules", options.molecules, "Molecules of each group whose error is measured")
-        ->check(wholeNumber())
+    addWhole(command, "--molecules", options.molecules, "Molecules of each group whose error is measured")
         ->capture_default_str();
-    command.add_option("--seconds", options.seconds, "About how long to measure; leaves out what is dearest")
-        ->check(kindOf(isAll<double>, "a time in seconds"));
+    addNumber(command, "--seconds", options.seconds, "About how long to measure; leaves out what is dearest",
+              "a time in seconds");
     command.add_flag("--fine", options.fine, "Steps by the square root of 2 instead of 2");
     section(command, reports);
-    command.add_option("--csv", options.csv, "Every point as a row of this file")->type_name("FILE");
-    command.add_option("--plot", options.plot, "Error against time (.svg or .png)")->type_name("FILE");
+    addFile(command, "--csv", options.csv, "Every point as a row of this file");
+    addFile(command, "--plot", options.plot, "Error against time (.svg or .png)");
     command
         .add_option("--report", options.report,
                     "Measures the report's own scenes into this folder, and goes on where it was ended")
@@ -148,8 +144,7 @@ std::optional<SolverKind> solverNamed(const char* option, const std::string& wor
 
 FieldSampling samplingNamed(const char* option, const std::string& word) {
     std::vector<std::string> words;
-    for (const FieldSampling one :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+    for (const FieldSampling one : measure::allSamplings) {
         if (word == name(one)) return one;
         words.emplace_back(name(one));
     }
@@ -159,7 +154,7 @@ FieldSampling samplingNamed(const char* option, const std::string& word) {
 void finishMeasure(const Texts& texts, Options& options) {
     readLists(texts, options);
     checkMeasure(options);
-    checkBench(options);
+    finishBench(options);
 }
 
 }  // namespace shoal::app

@@ -1,4 +1,5 @@
 #include "app/cli.h"
+#include "app/commands.h"
 
 #include <filesystem>
 
@@ -13,27 +14,21 @@ void addFromMesh(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     FromMesh& make = molecule.fromMesh;
     const auto number = [&](const char* name, std::optional<double>& value, const std::string& what) {
-        command.add_option(name, value, what)->check(kindOf(isAll<double>, "a number"));
+        addNumber(command, name, value, what, "a number");
     };
     const auto count = [&](const char* name, auto& value, const std::string& what) {
-        command.add_option(name, value, what)->check(kindOf(isAll<int>, "a whole number"));
+        addWhole(command, name, value, what);
     };
-    command.add_option("mesh", options.files, "Mesh of any format that Assimp reads")
-        ->required()
-        ->expected(1)
-        ->type_name("FILE");
-    command
-        .add_option("-o,--output", molecule.output, "Molecule file (.json); without it nothing is written")
-        ->type_name("FILE");
+    addFile(command, "mesh", options.files, "Mesh of any format that Assimp reads")->required()->expected(1);
+    addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
     command.add_flag("--force", molecule.force, "Write over a file that is there");
     count("--vertices", make.vertices, "At most so many are simulated (default 24)");
     count("--rings", make.rings, "Instead: so many rings of four vertices along the longest side");
     command.add_option("--springs", molecule.springs, "lattice: tetrahedra that fill the volume")
         ->type_name("surface|lattice")
         ->capture_default_str();
-    std::string names;
-    for (const ScaledMaterial& material : materialScale())
-        names += (names.empty() ? "" : "|") + std::string(material.name);
+    const std::string names = CLI::detail::join(
+        materialScale(), [](const ScaledMaterial& one) { return one.name; }, "|");
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
         ->type_name(names);
     number("--size", make.size, "m, of the longest side (default: as in the file)");
@@ -48,7 +43,7 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--pin-paint", make.pins.paints,
                        "Pin what is painted in this vertex colour: red, or 1,0.5,0");
     command.add_option("--name", make.name, "Of the molecule (default: that of the file)");
-    command.add_option("--texture", molecule.texture, "PNG beside the molecule file")->type_name("FILE");
+    addFile(command, "--texture", molecule.texture, "PNG beside the molecule file");
     command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
@@ -58,13 +53,8 @@ void addFromMesh(CLI::App& command, Options& options) {
 }
 
 void addShow(CLI::App& command, Options& options) {
-    command.add_option("molecule", options.files, "Molecule file")
-        ->required()
-        ->expected(1)
-        ->type_name("FILE");
-    command.add_option("--capture", options.capture, "Picture to write (.png)")
-        ->required()
-        ->type_name("FILE");
+    addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
+    addFile(command, "--capture", options.capture, "Picture to write (.png)")->required();
     command.add_option("--size", options.molecule.sheet, "Of the picture in pixels (default 1280x760)")
         ->type_name("WxH");
 }
@@ -122,11 +112,11 @@ void finishMolecule(const CLI::App& app, Options& options) {
     const CLI::App* molecule = app.get_subcommand("molecule");
     if (!molecule->parsed()) return;
     if (molecule->get_subcommand("from-mesh")->parsed()) {
-        options.command = Options::Command::moleculeFromMesh;
+        options.command = moleculeFromMeshCommand;
         finishFromMesh(options.molecule, options.files.front());
     }
     if (molecule->get_subcommand("show")->parsed()) {
-        options.command = Options::Command::moleculeShow;
+        options.command = moleculeShowCommand;
         finishShow(options);
     }
 }

@@ -1,36 +1,70 @@
 #include "app/report.h"
 
-#include <cstdio>
+#include <algorithm>
+#include <fstream>
+#include <thread>
 
 #include "core/error.h"
 #include "core/printable.h"
 
 namespace shoal::app {
 
-static JsonValue asJson(const gpu::Traffic& traffic) {
-    JsonValue out = JsonValue::makeObject();
-    for (int i = 0; i < gpu::Traffic::kinds; ++i) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("uploaded", JsonValue::makeNumber(double(traffic.uploaded[i])))
-            .add("readBack", JsonValue::makeNumber(double(traffic.readBack[i])));
-        out.add(gpu::Traffic::names[i], std::move(entry));
+std::string tableRow(const std::vector<std::string>& cells, std::span<const int> widths) {
+    std::string out;
+    for (size_t i = 0; i < cells.size(); ++i)
+        out += formatted("%*s", widths[i], cells[i].c_str());
+    return out.substr(0, out.find_last_not_of(' ') + 1) + "\n";
+}
+
+std::string processorName() {
+    std::ifstream file("/proc/cpuinfo");
+    for (std::string line; std::getline(file, line);) {
+        const size_t colon = line.find(": ");
+        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
     }
+    return "unknown processor";
+}
+
+MeasuredOn measuredOn(const gpu::Context& context) {
+    return {processorName(), int(std::max(1u, std::thread::hardware_concurrency())), 0, context.info()};
+}
+
+std::string asText(const MeasuredOn& machine) {
+    std::string out =
+        concat(machine.processor, ", ", machine.cores, machine.cores == 1 ? " core; " : " cores; ",
+               machine.context.renderer, ", OpenGL ", machine.context.version);
+    if (machine.pinned > 0) out += concat("; ", machine.pinned, " rasteriser threads pinned");
     return out;
 }
 
-static JsonValue asJson(const std::vector<GroupLives>& lives) {
-    JsonValue out = JsonValue::makeArray();
-    for (const auto& [group, counts] : lives) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("group", JsonValue::makeString(group))
-            .add("capacity", JsonValue::makeNumber(counts.capacity))
-            .add("living", JsonValue::makeNumber(counts.live))
-            .add("reach", JsonValue::makeNumber(counts.mark))
-            .add("born", JsonValue::makeNumber(double(counts.born)))
-            .add("lost", JsonValue::makeNumber(double(counts.lost)));
-        out.items.push_back(std::move(entry));
-    }
+std::string twoLines(const MeasuredOn& machine) {
+    return concat(machine.processor, ", ", machine.cores, " cores\n", machine.context.renderer, " (",
+                  gpu::name(machine.context.kind), "), OpenGL ", machine.context.version);
+}
+
+JsonValue asJson(const gpu::ContextInfo& context) {
+    return object(key("kind", gpu::name(context.kind)), key("renderer", context.renderer),
+                  key("version", context.version), key("software", context.software));
+}
+
+JsonValue headOf(const MeasuredOn& machine) {
+    return object(key("version", SHOAL_VERSION), key("processor", machine.processor),
+                  key("cores", machine.cores), key("pinnedRasteriserThreads", machine.pinned),
+                  key("renderer", machine.context.renderer), key("openGL", machine.context.version));
+}
+
+static JsonValue asJson(const gpu::Traffic& traffic) {
+    JsonValue out = object();
+    for (int i = 0; i < gpu::Traffic::kinds; ++i)
+        append(out, key(gpu::Traffic::names[i],
+                        object(key("uploaded", traffic.uploaded[i]), key("readBack", traffic.readBack[i]))));
     return out;
+}
+
+static JsonValue asJson(const GroupLives& lives) {
+    const LifeCounts& n = lives.counts;
+    return object(key("group", lives.group), key("capacity", n.capacity), key("living", n.live),
+                  key("reach", n.mark), key("born", n.born), key("lost", n.lost));
 }
 
 std::vector<GroupLives> livesOf(const Simulation& simulation) {
@@ -50,54 +84,29 @@ std::string text(const GroupLives& lives) {
             : "");
 }
 
-JsonValue asJson(const std::vector<gpu::PassTime>& passes) {
-    JsonValue out = JsonValue::makeArray();
-    for (const gpu::PassTime& pass : passes) {
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("pass", JsonValue::makeString(pass.name))
-            .add("callsPerFrame", JsonValue::makeNumber(pass.calls))
-            .add("minSeconds", JsonValue::makeNumber(pass.min))
-            .add("medianSeconds", JsonValue::makeNumber(pass.median));
-        out.items.push_back(std::move(entry));
-    }
-    return out;
+JsonValue asJson(const gpu::PassTime& pass) {
+    return object(key("pass", pass.name), key("callsPerFrame", pass.calls), key("minSeconds", pass.min),
+                  key("medianSeconds", pass.median));
 }
 
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
                  uint64_t hash) {
     const gpu::ContextInfo& info = simulation.context().info();
-    JsonValue context = JsonValue::makeObject();
-    context.add("kind", JsonValue::makeString(gpu::name(info.kind)))
-        .add("renderer", JsonValue::makeString(info.renderer))
-        .add("version", JsonValue::makeString(info.version));
-
-    JsonValue bytes = JsonValue::makeObject();
-    bytes.add("start", asJson(report.start))
-        .add("frames", asJson(report.frames))
-        .add("outside", asJson(report.outside));
-
-    JsonValue written = JsonValue::makeArray();
-    for (const std::string& file : report.written)
-        written.items.push_back(JsonValue::makeString(file));
-
-    char hashText[20];
-    std::snprintf(hashText, sizeof hashText, "%016llx", static_cast<unsigned long long>(hash));
-    JsonValue out = JsonValue::makeObject();
-    out.add("scene", JsonValue::makeString(report.scene))
-        .add("path", JsonValue::makeString(name(simulation.path().path)))
-        .add("context", std::move(context))
-        .add("frames", JsonValue::makeNumber(simulation.frames()))
-        .add("time", JsonValue::makeNumber(simulation.time()))
-        .add("seconds", JsonValue::makeNumber(report.seconds))
-        .add("stateBytes", JsonValue::makeNumber(double(simulation.stateBytes())))
-        .add("busBytes", std::move(bytes))
-        .add("hash", JsonValue::makeString(hashText));
-    if (!times.empty()) out.add("passes", asJson(times));
-    out.add("written", std::move(written));
-    if (!report.lives.empty()) out.add("lives", asJson(report.lives));
+    const JsonValue context = object(key("kind", gpu::name(info.kind)), key("renderer", info.renderer),
+                                     key("version", info.version));
+    const JsonValue bytes = object(key("start", asJson(report.start)), key("frames", asJson(report.frames)),
+                                   key("outside", asJson(report.outside)));
+    JsonValue out = object(key("scene", report.scene), key("path", name(simulation.path().path)),
+                           key("context", context), key("frames", simulation.frames()),
+                           key("time", simulation.time()), key("seconds", report.seconds),
+                           key("stateBytes", simulation.stateBytes()), key("busBytes", bytes),
+                           key("hash", formatted("%016llx", static_cast<unsigned long long>(hash))));
+    if (!times.empty()) append(out, key("passes", arrayOf(times, asJson)));
+    append(out, key("written", report.written));
+    if (!report.lives.empty()) append(out, key("lives", arrayOf(report.lives, asJson)));
     if (simulation.contact())
-        out.add("contactBytes", JsonValue::makeNumber(double(simulation.contact()->bytes())))
-            .add("contactsDropped", JsonValue::makeNumber(simulation.contact()->dropped()));
+        append(out, key("contactBytes", simulation.contact()->bytes()),
+               key("contactsDropped", simulation.contact()->dropped()));
     return out;
 }
 

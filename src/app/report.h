@@ -1,15 +1,40 @@
-// The report of `run --json` about a run.
+// What reports share: the machine, the passes' times, rows of text; and the report of `run --json`.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "core/json.h"
 #include "gpu/context.h"
+#include "measure/report_json.h"
+#include "measure/timing.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
+
+using measure::formatted;
+
+// A row of a table with its end, without blanks before that. Widths as std::printf has them: below 0 for
+// cells that begin to the left.
+std::string tableRow(const std::vector<std::string>& cells, std::span<const int> widths);
+
+// ---- The machine
+
+std::string processorName();
+
+// Where a benchmark ran.
+struct MeasuredOn {
+    std::string processor;
+    int cores = 1, pinned = 0;  // pinned: workers of a CPU rasteriser
+    gpu::ContextInfo context;
+};
+MeasuredOn measuredOn(const gpu::Context& context);  // none pinned
+std::string asText(const MeasuredOn& machine);       // one line, without its end
+std::string twoLines(const MeasuredOn& machine);     // without the second one's end
+JsonValue headOf(const MeasuredOn& machine);         // the first keys of a report
+JsonValue asJson(const gpu::ContextInfo& context);
+
+// ---- Runs
 
 // Births and deaths of a group until now.
 struct GroupLives {
@@ -30,7 +55,7 @@ struct RunReport {
 std::vector<GroupLives> livesOf(const Simulation& simulation);
 std::string text(const GroupLives& lives);  // "drops: 512 of 600 places taken, 2048 born"
 
-JsonValue asJson(const std::vector<gpu::PassTime>& passes);  // an array
+JsonValue asJson(const gpu::PassTime& pass);
 JsonValue asJson(const RunReport& report, Simulation& simulation, const std::vector<gpu::PassTime>& times,
                  uint64_t hash);
 

@@ -294,14 +294,6 @@ class HeadlessRun {
 
 }  // namespace
 
-static int runHeadless(const Options& options, gpu::Context& context, Loaded loaded) {
-    HeadlessRun run(options, context, std::move(loaded));
-    const FinishesOnSignal finishes;
-    run.go();
-    run.tell();
-    return 0;
-}
-
 static std::string folderOf(const Options& options) {
     return options.files.empty() ? modelFolder() : options.files.front();
 }
@@ -351,7 +343,11 @@ int runCommand(const Options& options) {
         return 0;
     }
     if (!loaded) return listInstead(options);
-    return runHeadless(options, context, std::move(*loaded));
+    HeadlessRun run(options, context, std::move(*loaded));
+    const FinishesOnSignal finishes;
+    run.go();
+    run.tell();
+    return 0;
 }
 
 int editCommand(const Options& options) {

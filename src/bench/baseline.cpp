@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <new>
 
 #include "bench/baseline_kernels.h"
 #include "bench/baseline_threads.h"
@@ -14,22 +13,6 @@ namespace shoal::bench {
 using glm::vec3;
 
 namespace {
-
-// A cache line, and an AVX-512 vector.
-constexpr size_t alignment = 64;
-
-class Floats {
-  public:
-    Floats() = default;
-    explicit Floats(size_t count) : data_(new (std::align_val_t(alignment)) float[count]()) {}
-    float* data() const { return data_.get(); }
-
-  private:
-    struct Free {
-        void operator()(float* p) const { operator delete[](p, std::align_val_t(alignment)); }
-    };
-    std::unique_ptr<float[], Free> data_;
-};
 
 const KernelSet* kernelsOf(Simd simd) {
     return simd == Simd::avx512 ? avx512Kernels : simd == Simd::avx2 ? avx2Kernels : nullptr;
@@ -189,6 +172,13 @@ bool available(Simd simd) {
     return processorHas(simd) && (simd == Simd::scalar || kernelsOf(simd) != nullptr);
 }
 
+Simd bestSimd() {
+    Simd out = Simd::scalar;
+    for (const Simd better : {Simd::avx2, Simd::avx512})
+        if (available(better)) out = better;
+    return out;
+}
+
 bool fitsBaseline(const Molecule& molecule) {
     return !molecule.vertices.empty() && !molecule.hasPins() &&
            std::none_of(molecule.springs.begin(), molecule.springs.end(),
@@ -214,7 +204,7 @@ struct Baseline::Data {
         kernels = kernelsOf(simd);
         kernel = kernelFor(*kernels, molecule);
         blockCount = (count + kernels->lanes - 1) / kernels->lanes;
-        blocks = Floats(size_t(blockCount) * blockFloats());
+        blocks = AlignedFloats(size_t(blockCount) * blockFloats());
         for (int i = 0; i < threads_; ++i)
             scratch.emplace_back(size_t(3 * vertexCount * kernels->lanes));
         for (const ScalarSpring& spring : scalar.springs)
@@ -223,7 +213,12 @@ struct Baseline::Data {
 
     size_t blockFloats() const { return size_t(6 * vertexCount + 3) * size_t(kernels->lanes); }
     // Returns component 0 to 5 of a vertex; 0 to 2 of "vertex" vertexCount is the anchor.
-    float& at(int molecule, int vertex, int component) const {
+    float& at(int molecule, int vertex, int component) {
+        if (!kernels) {
+            if (vertex == vertexCount) return scalar.anchors[size_t(molecule)][component];
+            ScalarVertex& one = scalar.vertices[size_t(molecule) * size_t(vertexCount) + size_t(vertex)];
+            return component < 3 ? one.position[component] : one.velocity[component - 3];
+        }
         const int lanes = kernels->lanes;
         return blocks.data()[size_t(molecule / lanes) * blockFloats() +
                              size_t((6 * vertex + component) * lanes + molecule % lanes)];
@@ -239,8 +234,8 @@ struct Baseline::Data {
     const KernelSet* kernels = nullptr;
     Kernel kernel = nullptr;
     int blockCount = 0;
-    Floats blocks;
-    std::vector<Floats> scratch;
+    AlignedFloats blocks;
+    std::vector<AlignedFloats> scratch;
     std::vector<int> ends;
 };
 
@@ -258,42 +253,29 @@ void Baseline::set(std::span<const vec3> positions, std::span<const vec3> veloci
     EXPECTS(positions.size() == size_t(d.count) * size_t(d.vertexCount) &&
             velocities.size() == positions.size());
     const auto first = [&](int molecule) { return size_t(molecule) * size_t(d.vertexCount); };
-    if (!d.kernels) {
-        for (int m = 0; m < d.count; ++m) {
-            d.scalar.anchors[size_t(m)] = anchorOf(positions[first(m)]);
-            for (size_t i = first(m); i < first(m + 1); ++i)
-                d.scalar.vertices[i] = {positions[i] - d.scalar.anchors[size_t(m)], velocities[i]};
-        }
-        return;
-    }
-    for (int lane = 0; lane < d.blockCount * d.kernels->lanes; ++lane) {
-        const int m = std::min(lane, d.count - 1);  // the last block is filled up with copies
+    const int places = d.kernels ? d.blockCount * d.kernels->lanes : d.count;
+    for (int place = 0; place < places; ++place) {
+        const int m = std::min(place, d.count - 1);  // the last block is filled up with copies
         const vec3 anchor = anchorOf(positions[first(m)]);
         for (int i = 0; i < d.vertexCount; ++i) {
             for (int k = 0; k < 3; ++k) {
-                d.at(lane, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
-                d.at(lane, i, 3 + k) = velocities[first(m) + size_t(i)][k];
+                d.at(place, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];
+                d.at(place, i, 3 + k) = velocities[first(m) + size_t(i)][k];
             }
         }
         for (int k = 0; k < 3; ++k)
-            d.at(lane, d.vertexCount, k) = anchor[k];
+            d.at(place, d.vertexCount, k) = anchor[k];
     }
 }
 
 void Baseline::get(std::vector<vec3>& positions, std::vector<vec3>& velocities) const {
-    const Data& d = *data_;
+    Data& d = *data_;
     positions.clear();
     velocities.clear();
+    const int anchor = d.vertexCount;
     for (int m = 0; m < d.count; ++m) {
         for (int i = 0; i < d.vertexCount; ++i) {
-            if (!d.kernels) {
-                const ScalarVertex& vertex = d.scalar.vertices[size_t(m) * size_t(d.vertexCount) + size_t(i)];
-                positions.push_back(d.scalar.anchors[size_t(m)] + vertex.position);
-                velocities.push_back(vertex.velocity);
-                continue;
-            }
-            const int a = d.vertexCount;
-            positions.push_back(vec3(d.at(m, a, 0), d.at(m, a, 1), d.at(m, a, 2)) +
+            positions.push_back(vec3(d.at(m, anchor, 0), d.at(m, anchor, 1), d.at(m, anchor, 2)) +
                                 vec3(d.at(m, i, 0), d.at(m, i, 1), d.at(m, i, 2)));
             velocities.emplace_back(d.at(m, i, 3), d.at(m, i, 4), d.at(m, i, 5));
         }
@@ -330,10 +312,8 @@ void Baseline::Data::frameInLanes(const BaselineStep& step) {
     out.constants = constants.data();
     out.kick = shares.data();
     threads.run([&](int index) {
-        const int first = int(int64_t(blockCount) * index / threads.count());
-        const int last = int(int64_t(blockCount) * (index + 1) / threads.count());
-        kernel(blocks.data() + size_t(first) * blockFloats(), last - first, out,
-               scratch[size_t(index)].data());
+        const auto [first, last] = threads.part(size_t(blockCount), index);
+        kernel(blocks.data() + first * blockFloats(), int(last - first), out, scratch[size_t(index)].data());
     });
 }
 
@@ -341,9 +321,8 @@ void Baseline::frame(const BaselineStep& step) {
     Data& d = *data_;
     if (d.kernels) return d.frameInLanes(step);
     d.threads.run([&](int index) {
-        const int first = int(int64_t(d.count) * index / d.threads.count());
-        const int last = int(int64_t(d.count) * (index + 1) / d.threads.count());
-        frameScalar(d.scalar, first, last, step, d.force[size_t(index)]);
+        const auto [first, last] = d.threads.part(size_t(d.count), index);
+        frameScalar(d.scalar, int(first), int(last), step, d.force[size_t(index)]);
     });
 }
 

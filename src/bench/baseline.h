@@ -37,6 +37,7 @@ struct BaselineStep {
 enum class Simd { scalar, avx2, avx512 };
 const char* name(Simd simd);
 bool available(Simd simd);  // compiled in, and this processor has it
+Simd bestSimd();            // of those that are available
 
 // No pins and no muscles: the workload has neither.
 bool fitsBaseline(const Molecule& molecule);

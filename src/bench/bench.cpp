@@ -1,7 +1,6 @@
 #include "bench/bench.h"
 
-#include <algorithm>
-#include <cmath>
+#include <memory>
 
 namespace shoal::bench {
 
@@ -15,12 +14,13 @@ using measure::Clock, measure::secondsSince;
 constexpr int framesTimed = 4;
 constexpr double slowFrameSeconds = 0.1;
 
-class Entrant {
+class FrameEntrant {
   public:
-    Entrant(const BenchCase& one, const Molecule& molecule, const BenchStart& start,
-            const BenchDevice& device)
-        : runner_(makeRunner(one, molecule, start, device)), context_(*device.context) {
-        result.one = one;
+    FrameEntrant(BenchResult& result, const Molecule& molecule, const BenchStart& start,
+                 const BenchDevice& device)
+        : result_(result),
+          runner_(makeRunner(result.one, molecule, start, device)),
+          context_(*device.context) {
         result.stateBytes = runner_->stateBytes;
         result.movedBytes = runner_->movedBytes;
         result.operations = runner_->operations;
@@ -34,7 +34,7 @@ class Entrant {
         runner_->finish();
         const Clock::time_point start = Clock::now();
         slow_ = timed(1) > slowFrameSeconds;
-        result.framesPerSample = slow_ ? 1 : framesTimed;
+        result_.framesPerSample = slow_ ? 1 : framesTimed;
         visit();
         seconds = secondsSince(start) * (slow_ ? 0.5 : double(framesTimed + 1) / (framesTimed + 2));
         samples_.clear();
@@ -44,32 +44,27 @@ class Entrant {
         runner_->restart();
         if (!slow_) runner_->frame();
         runner_->finish();
-        samples_.push_back(timed(result.framesPerSample));
+        samples_.push_back(timed(result_.framesPerSample));
     }
 
-    BenchResult finish() {
-        result.frame = measure::spreadOf(samples_);
-        if (timedFrames_ > 0) result.busStateBytes = double(busBytes_) / double(timedFrames_);
-        return result;
+    void finish() {
+        result_.frame = measure::spreadOf(samples_);
+        if (timedFrames_ > 0) result_.busStateBytes = double(busBytes_) / double(timedFrames_);
     }
 
-    BenchResult result;
     double seconds = 0;  // of a visit
 
   private:
     // Seconds a frame.
     double timed(int frames) {
         const uint64_t before = context_.traffic().total(gpu::Traffic::Kind::state);
-        const Clock::time_point start = Clock::now();
-        for (int i = 0; i < frames; ++i)
-            runner_->frame();
-        runner_->finish();
-        const double out = secondsSince(start) / frames;
+        const double out = measure::secondsOf([&] { runner_->run(frames); }) / frames;
         busBytes_ += context_.traffic().total(gpu::Traffic::Kind::state) - before;
         timedFrames_ += frames;
         return out;
     }
 
+    BenchResult& result_;
     std::unique_ptr<BenchRunner> runner_;
     gpu::Context& context_;
     bool slow_ = false;
@@ -86,45 +81,12 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
     const Molecule& molecule = molecules.of(cases.front().molecule);
     const BenchStart start(cases.front(), molecule, device.cores);
     std::vector<BenchResult> out;
-    std::vector<std::unique_ptr<Entrant>> entrants;
-    std::vector<size_t> places;  // of the entrants in `out`
-    std::vector<double> cost;
-    for (const BenchCase& one : cases) {
-        progress(one.name(), schedule.seconds);
-        BenchResult& result = out.emplace_back();
-        result.one = one;
-        result.leftOut = reasonToLeaveOut(one, molecule, device);
-        if (!result.leftOut.empty()) continue;
-        try {
-            entrants.push_back(std::make_unique<Entrant>(one, molecule, start, device));
-        } catch (const gpu::OutOfMemory& error) {
-            result.leftOut = error.message();
-            continue;
-        }
-        measure::pinRasteriserThreads();
-        entrants.back()->warmUp();
-        places.push_back(out.size() - 1);
-        cost.push_back(entrants.back()->seconds);
-    }
-    const measure::VisitPlan plan = measure::planVisits(cost, schedule);
-    double left = plan.seconds;
-    measure::takeTurns(plan, [&](size_t i) {
-        entrants[i]->visit();
-        left = std::max(0.0, left - cost[i]);
-        progress(cases.front().group, left);
+    for (const BenchCase& one : cases)
+        out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, molecule, device)});
+    measureInTurn(out, schedule, progress, [&](BenchResult& result) {
+        return std::make_unique<FrameEntrant>(result, molecule, start, device);
     });
-    for (size_t i = 0; i < entrants.size(); ++i)
-        out[places[i]] = entrants[i]->finish();
     device.context->checkErrors("bench");
-    return out;
-}
-
-std::vector<std::vector<BenchCase>> byGroup(const std::vector<BenchCase>& cases) {
-    std::vector<std::vector<BenchCase>> out;
-    for (const BenchCase& one : cases) {
-        if (out.empty() || out.back().front().group != one.group) out.emplace_back();
-        out.back().push_back(one);
-    }
     return out;
 }
 

@@ -20,6 +20,7 @@
 
 #include "bench/case.h"
 #include "bench/runner.h"
+#include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
 #include "measure/timing.h"
 
@@ -27,8 +28,8 @@ namespace shoal::bench {
 
 struct BenchResult {
     BenchCase one;
-    std::string leftOut;    // why it was not measured; empty: it was
-    measure::Spread frame;  // s
+    std::string leftOut;         // why it was not measured; empty: it was
+    measure::Spread frame = {};  // s
     int framesPerSample = 1;
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
     double operations = 0;                  // BenchRunner's
@@ -37,8 +38,8 @@ struct BenchResult {
     double perMolecule() const { return frame.min / one.count; }  // s, by the shortest
 };
 
-// Reports what is being done, and the estimated seconds that this group still takes.
-using BenchProgress = std::function<void(const std::string& what, double secondsLeft)>;
+// Reports the share of the work that is done, in [0, 1].
+using BenchProgress = std::function<void(double share)>;
 
 // Cases of one group: same molecule and count. Error: the driver refuses a shader.
 std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const BenchMolecules& molecules,
@@ -46,7 +47,47 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
                                       const BenchProgress& progress);
 
 // The cases of a list by their groups, in the order of the list.
-std::vector<std::vector<BenchCase>> byGroup(const std::vector<BenchCase>& cases);
+template <typename Case>
+std::vector<std::vector<Case>> byGroup(const std::vector<Case>& cases) {
+    std::vector<std::vector<Case>> out;
+    for (const Case& one : cases) {
+        if (out.empty() || out.back().front().group != one.group) out.emplace_back();
+        out.back().push_back(one);
+    }
+    return out;
+}
+
+// Measures in turn what is not left out. make(result) gives a pointer to what measures it: it has warmUp(),
+// the seconds of a visit after that, visit(), and finish(), which writes the times into the result. What the
+// device has no memory for is left out.
+template <typename Result, typename Make>
+void measureInTurn(std::vector<Result>& results, const measure::Schedule& schedule,
+                   const BenchProgress& progress, const Make& make) {
+    std::vector<decltype(make(results.front()))> entrants;
+    std::vector<double> cost;
+    for (Result& result : results) {
+        progress(0);
+        if (!result.leftOut.empty()) continue;
+        try {
+            entrants.push_back(make(result));
+        } catch (const gpu::OutOfMemory& error) {
+            result.leftOut = error.message();
+            continue;
+        }
+        measure::pinRasteriserThreads();
+        entrants.back()->warmUp();
+        cost.push_back(entrants.back()->seconds);
+    }
+    const measure::VisitPlan plan = measure::planVisits(cost, schedule);
+    double done = 0;
+    measure::takeTurns(plan, [&](size_t i) {
+        entrants[i]->visit();
+        done += cost[i];
+        progress(done / plan.seconds);
+    });
+    for (const auto& entrant : entrants)
+        entrant->finish();
+}
 
 // ---- Errors
 // The error that a speed buys: quads spinning in the air, after 1 s at the benchmark's step, against the
@@ -62,9 +103,9 @@ struct BenchError {
     std::optional<double> relative;
 };
 
-// Calls `progress` some times with the share that is done. `count`: molecules.
+// `count`: molecules.
 std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const BenchDevice& device, int count,
-                                      const std::function<void(double share)>& progress);
+                                      const BenchProgress& progress);
 
 // ---- Passes
 // Time per pass, from the passes' own timers: queries on a GPU, waits and a clock on a CPU rasteriser.
@@ -79,7 +120,7 @@ struct PassTable {
 
 // Quads that are drawn, so that normals are computed, without a picture; round after round for `seconds`.
 std::vector<PassTable> measurePasses(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
-                                     double seconds, const std::function<void(double share)>& progress);
+                                     double seconds, const BenchProgress& progress);
 
 // ---- Start
 // How long it takes from nothing to the first frame.
@@ -97,7 +138,7 @@ struct StartTime {
 
 // Makes a folder for a cache of its own and removes it. Empty below OpenGL 4.3.
 std::vector<StartTime> measureStart(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
-                                    const std::function<void(double share)>& progress);
+                                    const BenchProgress& progress);
 
 // ---- Verdict, pure: ratios between cases, and whether the project's targets hold
 

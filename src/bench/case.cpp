@@ -3,17 +3,23 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "measure/method_runner.h"
+#include "molecule/molecule_file.h"
 #include "scene/field_kinds.h"
 
 namespace shoal::bench {
 
 namespace {
 
+void add(std::vector<BenchCase>& out, BenchCase one, const std::string& label) {
+    one.label = label;
+    out.push_back(std::move(one));
+}
+
 void addBaselines(std::vector<BenchCase>& out, BenchCase one) {
     for (const Subject subject : {Subject::avx512, Subject::avx2, Subject::scalar}) {
         one.subject = subject;
-        one.label = name(subject);
-        out.push_back(one);
+        add(out, one, name(subject));
     }
 }
 
@@ -28,39 +34,33 @@ BenchCase grouped(const char* molecule, const char* many, int count) {
 // One size of one molecule on everything that can run it.
 void addSize(std::vector<BenchCase>& out, const BenchCase& base, bool pictures) {
     BenchCase one = base;
-    const auto add = [&](const char* label) {
-        one.label = label;
-        out.push_back(one);
-    };
-    add("fused");
+    add(out, one, "fused");
     one.inPlace = true;
-    add("fused, in place");
+    add(out, one, "fused, in place");
     one = base;
     one.subject = Subject::pingPong;
-    add("ping-pong");
+    add(out, one, "ping-pong");
     addBaselines(out, base);
     one = base;
     one.drawn = pictures;
     if (pictures) {
-        add("fused, drawn");
+        add(out, one, "fused, drawn");
         one.subject = Subject::pingPong;
-        add("ping-pong, drawn");
+        add(out, one, "ping-pong, drawn");
     }
     one = base;
     for (const Subject subject : {Subject::bufferCopy, Subject::kernelCopy, Subject::memoryCopy}) {
         one.subject = subject;
-        add(name(subject));
+        add(out, one, name(subject));
     }
 }
 
 void addLeapfrog(std::vector<BenchCase>& out, const BenchCase& base) {
     BenchCase one = base;
     one.solver = SolverKind::leapfrog;
-    one.label = "fused, leapfrog";
-    out.push_back(one);
+    add(out, one, "fused, leapfrog");
     one.subject = Subject::pingPong;
-    one.label = "ping-pong, leapfrog";
-    out.push_back(one);
+    add(out, one, "ping-pong, leapfrog");
 }
 
 void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
@@ -68,13 +68,11 @@ void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
     one.substeps = 16;
     for (const Subject subject : {Subject::fused, Subject::avx512, Subject::avx2}) {
         one.subject = subject;
-        one.label = std::string(name(subject)) + ", 16 substeps";
-        out.push_back(one);
+        add(out, one, std::string(name(subject)) + ", 16 substeps");
     }
     one = base;
     one.subject = Subject::multiplyAdd;
-    one.label = name(one.subject);
-    out.push_back(one);
+    add(out, one, name(one.subject));
 }
 
 void addSamplings(std::vector<BenchCase>& out, int count) {
@@ -83,24 +81,19 @@ void addSamplings(std::vector<BenchCase>& out, int count) {
         one.wind = wind;
         const std::string what = name(wind);
         one.subject = Subject::fused;
-        for (const FieldSampling sampling :
-             {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+        for (const FieldSampling sampling : measure::allSamplings) {
             one.sampling = sampling;
-            one.label = "fused, " + what + ", " + shoal::name(sampling);
-            out.push_back(one);
+            add(out, one, "fused, " + what + ", " + shoal::name(sampling));
         }
         one.sampling = FieldSampling::vertexSubstep;
         one.subject = Subject::pingPong;
-        one.label = "ping-pong, " + what + ", " + shoal::name(one.sampling);
-        out.push_back(one);
+        add(out, one, "ping-pong, " + what + ", " + shoal::name(one.sampling));
     }
     one.solver = SolverKind::leapfrog;
     one.subject = Subject::fused;
-    for (const FieldSampling sampling :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+    for (const FieldSampling sampling : measure::allSamplings) {
         one.sampling = sampling;
-        one.label = std::string("fused, leapfrog, gusts, ") + shoal::name(sampling);
-        out.push_back(one);
+        add(out, one, std::string("fused, leapfrog, gusts, ") + shoal::name(sampling));
     }
 }
 
@@ -109,8 +102,7 @@ void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* man
     BenchCase one = grouped(molecule, many, count);
     for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
         one.lanes = lanes;
-        one.label = std::string("fused, a lane a ") + shoal::name(lanes);
-        out.push_back(one);
+        add(out, one, std::string("fused, a lane a ") + shoal::name(lanes));
     }
     one.lanes = Lanes::automatic;
     addBaselines(out, one);
@@ -130,6 +122,9 @@ const char* name(Wind wind) {
 }
 bool isPath(Subject subject) {
     return subject == Subject::fused || subject == Subject::pingPong;
+}
+Path pathOf(Subject subject) {
+    return subject == Subject::fused ? Path::fused : Path::pingPong;
 }
 bool isBaseline(Subject subject) {
     return subject == Subject::avx512 || subject == Subject::avx2 || subject == Subject::scalar;
@@ -161,8 +156,7 @@ std::vector<BenchCase> benchCases(bool quick) {
     addSize(out, base, true);
     for (const Subject subject : {Subject::bulletBodies, Subject::bulletMerged}) {
         base.subject = subject;
-        base.label = name(subject);
-        out.push_back(base);
+        add(out, base, name(subject));
     }
     base = grouped("quad", "quads", 16384);
     addSize(out, base, true);
@@ -181,6 +175,20 @@ std::vector<BenchCase> benchCases(bool quick) {
     addLanes(out, "fish", "fish in lanes", 4096);
     addLanes(out, "cloth", "cloths of 64 vertices in lanes", 1024);
     return out;
+}
+
+BenchMolecules::BenchMolecules(const std::string& folder)
+    : quad(readMolecule(folder + "/quad.json")),
+      cross(readMolecule(folder + "/cross.json")),
+      fish(readMolecule(folder + "/fish.json")),
+      cloth(bench::cloth(8)) {}
+
+const Molecule& BenchMolecules::of(const std::string& name) const {
+    if (name == "quad") return quad;
+    if (name == "cross") return cross;
+    if (name == "fish") return fish;
+    EXPECTS(name == "cloth");
+    return cloth;
 }
 
 Molecule cloth(int side) {
@@ -211,6 +219,17 @@ Molecule cloth(int side) {
             out.triangles.push_back({at(row, column + 1), at(row + 1, column), at(row + 1, column + 1)});
         }
     }
+    return out;
+}
+
+HeightFieldCollider hills(double half) {
+    HeightFieldCollider out;
+    out.columns = out.rows = 128;
+    out.low = {-half, -half};
+    out.high = {half, half};
+    for (int row = 0; row < out.rows; ++row)
+        for (int column = 0; column < out.columns; ++column)
+            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
     return out;
 }
 

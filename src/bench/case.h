@@ -28,6 +28,7 @@ enum class Subject {
 };
 const char* name(Subject subject);  // "fused", "ping-pong", "AVX-512", …
 bool isPath(Subject subject);       // fused or ping-pong
+Path pathOf(Subject subject);       // of those
 bool isBaseline(Subject subject);   // AVX-512, AVX2 or scalar
 bool isCopy(Subject subject);       // moves the state and does nothing else
 Simd simdOf(Subject subject);       // of a baseline
@@ -71,6 +72,8 @@ struct BenchMolecules {
     const Molecule& of(const std::string& name) const;
 };
 Molecule cloth(int side);
+// Gentle hills within `half` m of the origin, about 1.5 m below it.
+HeightFieldCollider hills(double half);
 
 Scene benchScene(const BenchCase& one, const Molecule& molecule);
 // Returns the step of the baseline in a scene of benchScene().

@@ -4,17 +4,15 @@
 #include <cmath>
 #include <memory>
 #include <random>
+#include <tuple>
 
 #include "bench/contact_baseline.h"
-#include "gpu/gl.h"
 #include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
-
-using measure::Clock, measure::secondsSince;
 
 constexpr double contactTime = 1.0 / 120;  // s: a frame is one contact step of two substeps
 
@@ -55,20 +53,13 @@ Plan planOf(const ContactCase& one, const Molecule& quad, bool contact) {
     return plan;
 }
 
-// The last value of a pass, s.
-double lastOf(const gpu::PassTimers& timers, const char* name) {
-    for (const gpu::PassTime& pass : timers.report())
-        if (pass.name == name) return pass.last;
-    return 0;
-}
-
-class Entrant {
+class ContactEntrant {
   public:
-    Entrant(const ContactCase& one, const Molecule& quad, const BenchDevice& device)
-        : contact_(*device.context, device.shaderRoot, planOf(one, quad, true), options(device)),
-          plain_(*device.context, device.shaderRoot, planOf(one, quad, false), options(device)),
-          baseline_(weightsOf(quad), one.quads, float(ContactCase::radius), device.cores) {
-        result.one = one;
+    ContactEntrant(ContactTimes& result, const Molecule& quad, const BenchDevice& device)
+        : result_(result),
+          contact_(*device.context, device.shaderRoot, planOf(result.one, quad, true), options(device)),
+          plain_(*device.context, device.shaderRoot, planOf(result.one, quad, false), options(device)),
+          baseline_(weightsOf(quad), result.one.quads, float(ContactCase::radius), device.cores) {
         const Plan& plan = contact_.plan();
         result.spheres = size_t(plan.contact.spheres);
         result.bytes = contact_.contact()->bytes();
@@ -84,61 +75,55 @@ class Entrant {
     // Not counted: compiles, touches memory, and compares what both find; then what a visit costs.
     void warmUp() {
         visit();
-        result.dropped = contact_.contact()->dropped();
+        result_.dropped = contact_.contact()->dropped();
         const auto found = contact_.contact()->found(), expected = baseline_.found();
-        result.contacts = found.size();
-        result.baselineContacts = expected.size();
+        result_.contacts = found.size();
+        result_.baselineContacts = expected.size();
         std::vector<std::pair<int, int>> differ;
         std::set_symmetric_difference(found.begin(), found.end(), expected.begin(), expected.end(),
                                       std::back_inserter(differ));
         if (differ.size() > 2 + found.size() / 100)
-            throw Error(concat("bench collide: of ", found.size(), " contacts of ", result.one.quads,
+            throw Error(concat("bench collide: of ", found.size(), " contacts of ", result_.one.quads,
                                " quads the baseline finds ", differ.size(), " otherwise"));
-        const Clock::time_point start = Clock::now();
-        visit();
-        seconds = secondsSince(start);
-        for (std::vector<double>* samples : {&fused_, &grid_, &search_, &response_, &all_, &cpu_})
-            samples->clear();
+        seconds = measure::secondsOf([&] { visit(); });
+        for (std::vector<double>& samples : samples_)
+            samples.clear();
     }
 
     void visit() {
         plain_.restart();
         plain_.frame();
-        fused_.push_back(lastOf(plain_.timers(), "fused"));
         contact_.restart();
         contact_.frame();
         const gpu::PassTimers& timers = contact_.timers();
-        grid_.push_back(lastOf(timers, "contact grid"));
-        search_.push_back(lastOf(timers, "contact search"));
-        response_.push_back(lastOf(timers, "contact response"));
-        all_.push_back(grid_.back() + search_.back() + response_.back());
+        const double grid = lastOf(timers, "contact grid"), search = lastOf(timers, "contact search"),
+                     response = lastOf(timers, "contact response");
         baseline_.set(start_);
-        const Clock::time_point start = Clock::now();
-        baseline_.step(step_);
-        cpu_.push_back(secondsSince(start));
+        const double baseline = measure::secondsOf([&] { baseline_.step(step_); });
+        const double taken[] = {lastOf(plain_.timers(), "fused"), grid,    search, response,
+                                grid + search + response,         baseline};
+        for (size_t i = 0; i < std::size(times); ++i)
+            samples_[i].push_back(taken[i]);
     }
 
-    ContactTimes finish() {
-        result.fused = measure::spreadOf(fused_);
-        result.grid = measure::spreadOf(grid_);
-        result.search = measure::spreadOf(search_);
-        result.response = measure::spreadOf(response_);
-        result.contact = measure::spreadOf(all_);
-        result.baseline = measure::spreadOf(cpu_);
-        return result;
+    void finish() {
+        for (size_t i = 0; i < std::size(times); ++i)
+            result_.*times[i] = measure::spreadOf(samples_[i]);
     }
 
-    ContactTimes result;
     double seconds = 0;  // of a visit
 
   private:
+    static constexpr measure::Spread ContactTimes::*times[] = {
+        &ContactTimes::fused,    &ContactTimes::grid,    &ContactTimes::search,
+        &ContactTimes::response, &ContactTimes::contact, &ContactTimes::baseline};
+
     static SimulationOptions options(const BenchDevice& device) {
-        SimulationOptions out;
-        out.drawn = false;
-        out.path = Path::fused;
-        out.timing = gpu::PassTimers::Mode::finish;  // one frame at a time is waited for anyway
-        out.cache = device.cache;
-        return out;
+        // one frame at a time is waited for anyway
+        return {.drawn = false,
+                .timing = gpu::PassTimers::Mode::finish,
+                .path = Path::fused,
+                .cache = device.cache};
     }
     static std::vector<float> weightsOf(const Molecule& quad) {
         std::vector<float> out;
@@ -147,11 +132,12 @@ class Entrant {
         return out;
     }
 
+    ContactTimes& result_;
     Simulation contact_, plain_;
     ContactBaseline baseline_;
     ContactBaselineStep step_;
     GroupState start_;
-    std::vector<double> fused_, grid_, search_, response_, all_, cpu_;  // s
+    std::vector<double> samples_[std::size(times)];  // s
 };
 
 }  // namespace
@@ -159,43 +145,22 @@ class Entrant {
 std::vector<ContactCase> contactCases(bool quick) {
     std::vector<ContactCase> out;
     const double moderate = std::pow(1.07 * 0.2 * std::sqrt(2.0), 3), dense = std::pow(0.15, 3);
-    for (const int quads : {1024, 4096, 16384, 65536, 131072})
-        if (!quick || quads <= 4096) out.push_back({"moderate", quads, moderate});
-    for (const int quads : {1024, 4096, 16384, 65536, 131072})
-        if (!quick || quads <= 1024) out.push_back({"dense", quads, dense});
+    for (const auto& [density, room, most] :
+         {std::tuple("moderate", moderate, 4096), std::tuple("dense", dense, 1024)})
+        for (const int quads : {1024, 4096, 16384, 65536, 131072})
+            if (!quick || quads <= most) out.push_back({density, quads, room});
     return out;
 }
 
 std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, const Molecule& quad,
                                          const BenchDevice& device, const measure::Schedule& schedule,
-                                         const CollideProgress& progress) {
+                                         const BenchProgress& progress) {
     std::vector<ContactTimes> out;
-    std::vector<std::unique_ptr<Entrant>> entrants;
-    std::vector<size_t> places;  // of the entrants in `out`
-    std::vector<double> cost;
-    for (const ContactCase& one : cases) {
-        out.emplace_back().one = one;
-        if (!device.context->info().computeShaders) {
-            out.back().leftOut = "needs OpenGL 4.3";
-            continue;
-        }
-        try {
-            entrants.push_back(std::make_unique<Entrant>(one, quad, device));
-        } catch (const gpu::OutOfMemory& error) {
-            out.back().leftOut = error.message();
-            continue;
-        }
-        measure::pinRasteriserThreads();
-        entrants.back()->warmUp();
-        places.push_back(out.size() - 1);
-        cost.push_back(entrants.back()->seconds);
-    }
-    const measure::VisitPlan plan = measure::planVisits(cost, schedule);
-    measure::takeTurns(
-        plan, [&](int round) { progress(double(round) / plan.rounds); },
-        [&](size_t i) { entrants[i]->visit(); });
-    for (size_t i = 0; i < entrants.size(); ++i)
-        out[places[i]] = entrants[i]->finish();
+    for (const ContactCase& one : cases)
+        out.push_back(
+            {.one = one, .leftOut = device.context->info().computeShaders ? "" : "needs OpenGL 4.3"});
+    measureInTurn(out, schedule, progress,
+                  [&](ContactTimes& times) { return std::make_unique<ContactEntrant>(times, quad, device); });
     device.context->checkErrors("bench collide");
     return out;
 }

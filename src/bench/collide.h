@@ -9,7 +9,6 @@
 // begins with the state that this contact step begins with, to the bit.
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -18,9 +17,6 @@
 #include "measure/timing.h"
 
 namespace shoal::bench {
-
-// Reports the share of the work that is done, in [0, 1].
-using CollideProgress = std::function<void(double share)>;
 
 struct ContactCase {
     std::string density;  // "moderate", "dense"
@@ -34,20 +30,20 @@ struct ContactTimes {
     ContactCase one;
     std::string leftOut;  // why it was not measured; empty: it was
     size_t spheres = 0, contacts = 0;
-    uint32_t dropped = 0;                             // contacts that did not fit into a list
-    size_t baselineContacts = 0;                      // differ by what rounding decides
-    size_t bytes = 0;                                 // of contact, on the device
-    measure::Spread fused;                            // s, of the step before: two substeps, without contact
-    measure::Spread grid, search, response, contact;  // s; contact: all three
-    measure::Spread baseline;                         // s
-    double perQuad() const { return contact.min / one.quads; }  // s, by the shortest
+    uint32_t dropped = 0;         // contacts that did not fit into a list
+    size_t baselineContacts = 0;  // differ by what rounding decides
+    size_t bytes = 0;             // of contact, on the device
+    measure::Spread fused = {};   // s, of the step before: two substeps, without contact
+    measure::Spread grid = {}, search = {}, response = {}, contact = {};  // s; contact: all three
+    measure::Spread baseline = {};                                        // s
+    double perQuad() const { return contact.min / one.quads; }            // s, by the shortest
     double ratio() const { return contact.min / baseline.min; }
 };
 
 // Error: the driver refuses a shader; both find contacts that differ by more than rounding explains.
 std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, const Molecule& quad,
                                          const BenchDevice& device, const measure::Schedule& schedule,
-                                         const CollideProgress& progress);
+                                         const BenchProgress& progress);
 
 // ---- UberFlow
 // UberFlow's five experiments [Kipfer 2004, section 5, table 2] on squares of particles, all of
@@ -69,7 +65,8 @@ struct UberFlowTimes {
     std::vector<double> published;  // frames a second, for each of uberFlowSides(false); empty: none
     int side = 0;                   // of the square
     std::string leftOut;            // why it was not measured; empty: it was
-    measure::Spread motion, contact, sort, draw, frame;  // s; contact: without the sort of the grid
+    measure::Spread motion = {}, contact = {}, sort = {}, draw = {},
+                    frame = {};  // s; contact: without the sort of the grid
     double framesPerSecond() const { return 1 / frame.min; }
     // Without the picture, which is another than the paper's points of one pixel.
     double undrawnFramesPerSecond() const { return 1 / (motion.min + contact.min + sort.min); }
@@ -79,8 +76,7 @@ std::vector<int> uberFlowSides(bool quick);
 
 // Cases of one size. `point`: a molecule of one vertex. Error: the driver refuses a shader.
 std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, const BenchDevice& device,
-                                           const measure::Schedule& schedule,
-                                           const CollideProgress& progress);
+                                           const measure::Schedule& schedule, const BenchProgress& progress);
 
 // ---- Searches
 // The searches of contact against brute force: what share of the contacts each finds, and at what time.
@@ -112,6 +108,6 @@ struct SearchReport {
 };
 
 SearchReport measureSearches(const Molecule& point, bool quick, const BenchDevice& device,
-                             const measure::Schedule& schedule, const CollideProgress& progress);
+                             const measure::Schedule& schedule, const BenchProgress& progress);
 
 }  // namespace shoal::bench

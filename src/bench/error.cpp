@@ -1,15 +1,18 @@
 #include "bench/bench.h"
 
-#include <atomic>
 #include <cmath>
-#include <thread>
 
+#include "core/parallel.h"
+#include "measure/accuracy_reference.h"
+#include "measure/method_runner.h"
 #include "reference/solve.h"
 #include "simulate/simulation.h"
 
 namespace shoal::bench {
 
 namespace {
+
+using measure::ExactEnds;
 
 constexpr double duration = 1;      // s
 constexpr double tolerance = 1e-7;  // of the reference
@@ -19,8 +22,7 @@ std::vector<BenchError> errorCases() {
     for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog}) {
         for (const Wind wind : {Wind::uniform, Wind::gusts}) {
             out.push_back({Subject::pingPong, solver, wind, FieldSampling::vertexSubstep, {}});
-            for (const FieldSampling sampling :
-                 {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame}) {
+            for (const FieldSampling sampling : measure::allSamplings) {
                 // reading a uniform wind less often changes nothing
                 if (wind == Wind::uniform && sampling != FieldSampling::vertexSubstep) continue;
                 out.push_back({Subject::fused, solver, wind, sampling, {}});
@@ -43,13 +45,6 @@ Scene inTheAir(const BenchError& error, const Molecule& molecule, int count) {
     return scene;
 }
 
-reference::State stateOf(const Snapshot& snapshot, int m) {
-    const auto first = ptrdiff_t(m) * snapshot.vertexCount, last = first + snapshot.vertexCount;
-    return {snapshot.time,
-            {snapshot.positions.begin() + first, snapshot.positions.begin() + last},
-            {snapshot.velocities.begin() + first, snapshot.velocities.begin() + last}};
-}
-
 // Where the molecules of one wind are at the end; empty where the reference does not converge.
 using Exact = std::vector<std::optional<reference::State>>;
 
@@ -61,20 +56,11 @@ Exact solveAll(const Scene& scene, const Snapshot& start, int cores) {
     problem.drag = group.drag;
     problem.fields = scene.fields;
     Exact out(size_t(start.count));
-    std::atomic<int> next = 0;
-    const auto work = [&] {
-        for (int m = next++; m < start.count; m = next++) {
-            const reference::Solution solution =
-                reference::solve(problem, stateOf(start, m), duration, tolerance);
-            if (solution.converged) out[size_t(m)] = solution.state;
-        }
-    };
-    std::vector<std::thread> threads;
-    for (int i = 1; i < cores; ++i)
-        threads.emplace_back(work);
-    work();
-    for (std::thread& thread : threads)
-        thread.join();
+    parallel(start.count, cores, [&](int m) {
+        const reference::Solution solution =
+            reference::solve(problem, ExactEnds::stateOf(start, m), duration, tolerance);
+        if (solution.converged) out[size_t(m)] = solution.state;
+    });
     return out;
 }
 
@@ -82,7 +68,7 @@ std::optional<double> rms(const Snapshot& end, const Exact& exact, double size) 
     double sum = 0;
     for (int m = 0; m < end.count; ++m) {
         if (!exact[size_t(m)]) return std::nullopt;
-        const double error = reference::relativeError(stateOf(end, m), *exact[size_t(m)], size);
+        const double error = reference::relativeError(ExactEnds::stateOf(end, m), *exact[size_t(m)], size);
         sum += error * error / end.count;
     }
     return std::sqrt(sum);
@@ -91,7 +77,7 @@ std::optional<double> rms(const Snapshot& end, const Exact& exact, double size) 
 }  // namespace
 
 std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const BenchDevice& device, int count,
-                                      const std::function<void(double share)>& progress) {
+                                      const BenchProgress& progress) {
     std::vector<BenchError> out = errorCases();
     std::optional<Exact> exact[2];
     for (size_t i = 0; i < out.size(); ++i) {
@@ -99,10 +85,7 @@ std::vector<BenchError> measureErrors(const BenchMolecules& molecules, const Ben
         BenchError& one = out[i];
         if (needsCompute(one.subject) && !device.context->info().computeShaders) continue;
         const Scene scene = inTheAir(one, molecules.quad, count);
-        SimulationOptions options;
-        options.drawn = false;
-        options.path = one.subject == Subject::fused ? Path::fused : Path::pingPong;
-        options.cache = device.cache;
+        const SimulationOptions options{.drawn = false, .path = pathOf(one.subject), .cache = device.cache};
         Simulation simulation(*device.context, device.shaderRoot, compile(scene), options);
         std::optional<Exact>& solution = exact[size_t(one.wind)];
         if (!solution) solution = solveAll(scene, simulation.snapshot(0), device.cores);

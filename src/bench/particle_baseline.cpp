@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <new>
 
 #include "bench/baseline_simd.h"
 #include "bench/baseline_threads.h"
@@ -41,21 +40,13 @@ struct V1 {
     static void leave() {}
 };
 
-// A thread's own.
-struct Part {
+// A thread's own, in cache lines of its own.
+struct alignas(64) Part {
     enum Component { x, y, z, vx, vy, vz, age, life, components };
-    static constexpr size_t alignment = 64;
-
     Part(size_t room_, uint32_t seed)
-        : room(room_),
-          stride((room_ + 15) / 16 * 16),
-          random(seed),
-          data(new (std::align_val_t(alignment)) float[components * stride]()) {}
-    ~Part() { operator delete[](data, std::align_val_t(alignment)); }
-    Part(const Part&) = delete;
-    Part& operator=(const Part&) = delete;
+        : room(room_), stride((room_ + 15) / 16 * 16), random(seed), data(components * stride) {}
 
-    float* of(int component) const { return data + size_t(component) * stride; }
+    float* of(int component) const { return data.data() + size_t(component) * stride; }
     float uniform() {  // in [0, 1), xorshift [Marsaglia 2003]
         random ^= random << 13;
         random ^= random >> 17;
@@ -90,7 +81,7 @@ struct Part {
 
     size_t room, stride, count = 0;
     uint32_t random;
-    float* data;
+    AlignedFloats data;
 };
 
 ParticleKernelStep kernelStep(const ParticleStep& step) {
@@ -125,14 +116,13 @@ struct ParticleBaseline::Data {
         if (simd == Simd::avx2) kernel = avx2Kernels->particles;
         if (simd == Simd::avx512) kernel = avx512Kernels->particles;
         for (int i = 0; i < count; ++i) {
-            const size_t room =
-                capacity * size_t(i + 1) / size_t(count) - capacity * size_t(i) / size_t(count);
-            parts.push_back(std::make_unique<Part>(room, 2463534242u + uint32_t(i)));
+            const auto [first, last] = threads.part(capacity, i);
+            parts.emplace_back(last - first, 2463534242u + uint32_t(i));
         }
     }
     PinnedThreads threads;
     ParticleKernel kernel = nullptr;
-    std::vector<std::unique_ptr<Part>> parts;
+    std::vector<Part> parts;
 };
 
 ParticleBaseline::ParticleBaseline(size_t capacity, Simd simd, int threads) {
@@ -145,15 +135,15 @@ ParticleBaseline::~ParticleBaseline() = default;
 void ParticleBaseline::set(std::span<const vec3> positions, std::span<const vec3> velocities) {
     EXPECTS(positions.size() == velocities.size());
     size_t next = 0;
-    for (const std::unique_ptr<Part>& part : data_->parts) {
-        part->count = std::min(part->room, positions.size() - next);
-        for (size_t i = 0; i < part->count; ++i, ++next) {
+    for (Part& part : data_->parts) {
+        part.count = std::min(part.room, positions.size() - next);
+        for (size_t i = 0; i < part.count; ++i, ++next) {
             for (int k = 0; k < 3; ++k) {
-                part->of(Part::x + k)[i] = positions[next][k];
-                part->of(Part::vx + k)[i] = velocities[next][k];
+                part.of(Part::x + k)[i] = positions[next][k];
+                part.of(Part::vx + k)[i] = velocities[next][k];
             }
-            part->of(Part::age)[i] = 0;
-            part->of(Part::life)[i] = std::numeric_limits<float>::infinity();
+            part.of(Part::age)[i] = 0;
+            part.of(Part::life)[i] = std::numeric_limits<float>::infinity();
         }
     }
     EXPECTS(next == positions.size());
@@ -163,31 +153,30 @@ void ParticleBaseline::step(const ParticleStep& step) {
     Data& d = *data_;
     const ParticleKernelStep constants = kernelStep(step);
     d.threads.run([&](int index) {
-        Part& part = *d.parts[size_t(index)];
+        Part& part = d.parts[size_t(index)];
         float* const ages = step.births > 0 ? part.of(Part::age) : nullptr;
         d.kernel({part.of(Part::x), part.of(Part::y), part.of(Part::z), part.of(Part::vx), part.of(Part::vy),
                   part.of(Part::vz), ages},
                  int(part.count), constants);
         if (step.births == 0) return;
         part.letDie();
-        const int threads = d.threads.count();
-        part.spawn(int(int64_t(step.births) * (index + 1) / threads - int64_t(step.births) * index / threads),
-                   step);
+        const auto [first, last] = d.threads.part(size_t(step.births), index);
+        part.spawn(int(last - first), step);
     });
 }
 
 size_t ParticleBaseline::count() const {
     size_t out = 0;
-    for (const std::unique_ptr<Part>& part : data_->parts)
-        out += part->count;
+    for (const Part& part : data_->parts)
+        out += part.count;
     return out;
 }
 
 std::vector<ParticleBaseline::Particle> ParticleBaseline::get() const {
     std::vector<Particle> out;
-    for (const std::unique_ptr<Part>& part : data_->parts) {
-        const auto at = [&](int component, size_t i) { return part->of(component)[i]; };
-        for (size_t i = 0; i < part->count; ++i)
+    for (const Part& part : data_->parts) {
+        const auto at = [&](int component, size_t i) { return part.of(component)[i]; };
+        for (size_t i = 0; i < part.count; ++i)
             out.push_back({vec3(at(Part::x, i), at(Part::y, i), at(Part::z, i)),
                            vec3(at(Part::vx, i), at(Part::vy, i), at(Part::vz, i)), at(Part::age, i),
                            at(Part::life, i)});
@@ -197,9 +186,9 @@ std::vector<ParticleBaseline::Particle> ParticleBaseline::get() const {
 
 std::vector<std::span<const float>> ParticleBaseline::positions() const {
     std::vector<std::span<const float>> out;
-    for (const std::unique_ptr<Part>& part : data_->parts)
+    for (const Part& part : data_->parts)
         for (const int component : {Part::x, Part::y, Part::z})
-            out.emplace_back(part->of(component), part->count);
+            out.emplace_back(part.of(component), part.count);
     return out;
 }
 

@@ -23,8 +23,8 @@ class Cases {
 
     void side(int side) {
         side_ = side;
-        motion();
-        heights();
+        motion(false);
+        motion(true);
         sort();
         contact();
         births(0.01);
@@ -63,30 +63,21 @@ class Cases {
         return out;
     }
 
-    void motion() {
-        begin("motion");
-        for (const SolverKind kind :
-             {SolverKind::leapfrog, SolverKind::euler, SolverKind::verlet, SolverKind::rk4}) {
+    void motion(bool heights) {
+        begin(heights ? "height field" : "motion");
+        const size_t first = all.size();
+        std::vector<SolverKind> kinds = {SolverKind::leapfrog, SolverKind::euler};
+        if (!heights) kinds.insert(kinds.end(), {SolverKind::verlet, SolverKind::rk4});
+        for (const SolverKind kind : kinds) {
             ParticleCase& one = add(concat("fused, ", name(kind)));
             one.solver = kind;
-            if (kind == SolverKind::euler) one.published = motionOnly.at(side_);
+            if (kind == SolverKind::euler) one.published = (heights ? heightField : motionOnly).at(side_);
         }
         add("fused, leapfrog, in place").inPlace = true;
         loop();
         add("copy of the state").what = What::copy;
-    }
-    void heights() {
-        begin("height field");
-        for (const SolverKind kind : {SolverKind::leapfrog, SolverKind::euler}) {
-            ParticleCase& one = add(concat("fused, ", name(kind)));
-            one.solver = kind;
-            if (kind == SolverKind::euler) one.published = heightField.at(side_);
-        }
-        add("fused, leapfrog, in place").inPlace = true;
-        loop();
-        add("copy of the state").what = What::copy;
-        for (size_t i = all.size() - 5; i < all.size(); ++i)
-            all[i].heights = true;
+        for (size_t i = first; i < all.size(); ++i)
+            all[i].heights = heights;
     }
     void sort() {
         begin("sort");
@@ -141,17 +132,6 @@ std::vector<ParticleCase> particleCases(bool quick) {
     return out.all;
 }
 
-static HeightFieldCollider hills() {
-    HeightFieldCollider out;
-    out.columns = out.rows = 128;
-    out.low = {-8, -8};
-    out.high = {8, 8};
-    for (int row = 0; row < out.rows; ++row)
-        for (int column = 0; column < out.columns; ++column)
-            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
-    return out;
-}
-
 static void addBirths(const ParticleCase& one, Group& group) {
     const double born = one.turnover * one.count(), frames = 1 / one.turnover;
     Lifecycle& life = group.life.emplace();
@@ -176,7 +156,7 @@ Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecu
     scene.solver.substeps = one.substeps;
     scene.contact.steps = 1;
     scene.fields.emplace_back().shape = UniformField{{2, 0, 0.5}};
-    if (one.heights) scene.colliders.emplace_back().shape = hills();
+    if (one.heights) scene.colliders.emplace_back().shape = hills(8);
     Group group;
     group.name = one.quads ? "quads" : "points";
     group.molecule = one.quads ? quad : point;

@@ -4,9 +4,9 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <random>
 
 #include "bench/particle_baseline.h"
+#include "bench/sort.h"
 #include "gpu/gl.h"
 #include "scene/field_kinds.h"
 #include "simulate/simulation.h"
@@ -15,7 +15,6 @@ namespace shoal::bench {
 
 namespace {
 
-using measure::Clock, measure::secondsSince;
 using What = ParticleCase::What;
 
 constexpr int framesBefore = 30, framesTimed = 8;
@@ -27,11 +26,8 @@ int framesToSteady(const ParticleCase& one) {
 }
 
 Simulation makeSimulation(const ParticleCase& one, const Scene& scene, const BenchDevice& device) {
-    SimulationOptions options;
-    options.path = Path::fused;
-    options.inPlace = one.inPlace;
-    options.drawn = one.drawn.has_value();
-    options.cache = device.cache;
+    const SimulationOptions options{
+        .drawn = one.drawn.has_value(), .path = Path::fused, .inPlace = one.inPlace, .cache = device.cache};
     return Simulation(*device.context, device.shaderRoot, compile(scene), options);
 }
 
@@ -64,11 +60,7 @@ class StepRunner : public BenchRunner {
         const int row = one_.sort == SortMethod::radix ? 0 : one_.side;
         sorter_ = std::make_unique<Sorter>(*device.context, device.shaderRoot, *one_.sort, pairs, row,
                                            device.cache);
-        std::mt19937 random(1);
-        std::vector<KeyIndex> keys(pairs);
-        for (size_t i = 0; i < pairs; ++i)
-            keys[i] = {uint32_t(random()), uint32_t(i)};
-        sorter_->upload(keys);
+        sorter_->upload(randomKeys(pairs));
     }
     void sort() {
         if (one_.spreadFrames == 0) return sorter_->sort();
@@ -83,13 +75,6 @@ class StepRunner : public BenchRunner {
     int spread_ = 0;
     Draw draw_;
 };
-
-Simd bestSimd() {
-    Simd out = Simd::scalar;
-    for (const Simd better : {Simd::avx2, Simd::avx512})
-        if (available(better)) out = better;
-    return out;
-}
 
 ParticleStep loopStep(const ParticleCase& one, const Scene& scene) {
     const Group& group = scene.groups[0];
@@ -196,14 +181,16 @@ std::string reasonToLeaveOut(const ParticleCase& one, const BenchDevice& device)
     return {};
 }
 
-class Entrant {
+class ParticleEntrant {
   public:
-    Entrant(const ParticleCase& one, const Molecule& point, const Molecule& quad, const BenchDevice& device)
-        : runner_(makeParticleRunner(one, point, quad, device)), context_(*device.context) {
-        result.one = one;
+    ParticleEntrant(ParticleTimes& result, const Molecule& point, const Molecule& quad,
+                    const BenchDevice& device)
+        : result_(result),
+          runner_(makeParticleRunner(result.one, point, quad, device)),
+          context_(*device.context) {
         result.movedBytes = runner_->movedBytes;
-        steps_ = dynamic_cast<const StepRunner*>(runner_.get());
-        if (!one.allocator) steps_ = nullptr;
+        result.error = positionError(result.one, point, device);
+        if (result.one.allocator) steps_ = dynamic_cast<const StepRunner*>(runner_.get());
         if (steps_) before_ = steps_->simulation().lifeCounts(0);
         if (steps_) framesAtStart_ = steps_->simulation().frames();
     }
@@ -213,9 +200,7 @@ class Entrant {
         frames_ = 1;
         visit();
         if (samples_.back() < slowFrameSeconds) frames_ = framesTimed;
-        const Clock::time_point start = Clock::now();
-        visit();
-        seconds = secondsSince(start);
+        seconds = measure::secondsOf([&] { visit(); });
         samples_.clear();
         packing_.clear();
         timedFrames_ = 0;
@@ -224,40 +209,34 @@ class Entrant {
 
     void visit() {
         runner_->restart();
-        runner_->frame();
-        runner_->finish();
+        runner_->run(1);
         const gpu::Traffic before = context_.traffic();
-        const Clock::time_point start = Clock::now();
-        for (int i = 0; i < frames_; ++i)
-            runner_->frame();
-        runner_->finish();
-        samples_.push_back(secondsSince(start) / frames_);
+        samples_.push_back(measure::secondsOf([&] { runner_->run(frames_); }) / frames_);
         const gpu::Traffic crossed = context_.traffic() - before;
         moved_ +=
             double(crossed.total(gpu::Traffic::Kind::state) + crossed.total(gpu::Traffic::Kind::births));
         timedFrames_ += frames_;
         if (!steps_) return;
         const LifeCounts counts = steps_->simulation().lifeCounts(0);
-        result.live = counts.live;
+        result_.live = counts.live;
         packing_.push_back(double(counts.mark) / std::max(1, counts.live));
     }
 
-    ParticleTimes finish() {
-        result.frame = measure::spreadOf(samples_);
-        result.busBytes = moved_ / std::max(1, timedFrames_);
-        if (!steps_) return result;
+    void finish() {
+        result_.frame = measure::spreadOf(samples_);
+        result_.busBytes = moved_ / std::max(1, timedFrames_);
+        if (!steps_) return;
         const LifeCounts counts = steps_->simulation().lifeCounts(0);
         const double frames = steps_->simulation().frames() - framesAtStart_;
-        result.born = double(counts.born - before_.born) / frames;
-        result.lost = double(counts.lost - before_.lost) / frames;
-        result.packing = *std::max_element(packing_.begin(), packing_.end());
-        return result;
+        result_.born = double(counts.born - before_.born) / frames;
+        result_.lost = double(counts.lost - before_.lost) / frames;
+        result_.packing = *std::max_element(packing_.begin(), packing_.end());
     }
 
-    ParticleTimes result;
     double seconds = 0;  // of a visit
 
   private:
+    ParticleTimes& result_;
     std::unique_ptr<BenchRunner> runner_;
     gpu::Context& context_;
     const StepRunner* steps_ = nullptr;  // where they are born
@@ -314,29 +293,11 @@ std::vector<ParticleTimes> measureParticles(const std::vector<ParticleCase>& cas
                                             const Molecule& quad, const BenchDevice& device,
                                             const measure::Schedule& schedule) {
     std::vector<ParticleTimes> out;
-    std::vector<std::unique_ptr<Entrant>> entrants;
-    std::vector<size_t> places;  // of the entrants in `out`
-    std::vector<double> cost;
-    for (const ParticleCase& one : cases) {
-        ParticleTimes& times = out.emplace_back();
-        times.one = one;
-        times.leftOut = reasonToLeaveOut(one, device);
-        if (!times.leftOut.empty()) continue;
-        try {
-            entrants.push_back(std::make_unique<Entrant>(one, point, quad, device));
-        } catch (const gpu::OutOfMemory& error) {
-            times.leftOut = error.message();
-            continue;
-        }
-        entrants.back()->result.error = positionError(one, point, device);
-        measure::pinRasteriserThreads();
-        entrants.back()->warmUp();
-        places.push_back(out.size() - 1);
-        cost.push_back(entrants.back()->seconds);
-    }
-    measure::takeTurns(measure::planVisits(cost, schedule), [&](size_t i) { entrants[i]->visit(); });
-    for (size_t i = 0; i < entrants.size(); ++i)
-        out[places[i]] = entrants[i]->finish();
+    for (const ParticleCase& one : cases)
+        out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, device)});
+    measureInTurn(
+        out, schedule, [](double) {},
+        [&](ParticleTimes& times) { return std::make_unique<ParticleEntrant>(times, point, quad, device); });
     device.context->checkErrors("bench particles");
     return out;
 }

@@ -50,11 +50,11 @@ Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecu
 
 struct ParticleTimes {
     ParticleCase one;
-    std::string leftOut;          // why it was not measured; empty: it was
-    measure::Spread frame;        // s
-    size_t movedBytes = 0;        // read and written in a frame, at the least; 0: not known
-    double busBytes = 0;          // of state and places, a frame
-    std::optional<double> error;  // m: see positionError
+    std::string leftOut;               // why it was not measured; empty: it was
+    measure::Spread frame = {};        // s
+    size_t movedBytes = 0;             // read and written in a frame, at the least; 0: not known
+    double busBytes = 0;               // of state and places, a frame
+    std::optional<double> error = {};  // m: see positionError
     // Where they are born:
     double born = 0, lost = 0;     // a frame
     double live = 0, packing = 1;  // packing: one past the last place that is taken, over the living

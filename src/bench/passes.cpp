@@ -21,10 +21,10 @@ struct Run {
 
 void frame(Run& run) {
     glFinish();
-    const Clock::time_point start = Clock::now();
-    run.simulation->frame();
-    glFinish();
-    run.frames.push_back(secondsSince(start));
+    run.frames.push_back(measure::secondsOf([&] {
+        run.simulation->frame();
+        glFinish();
+    }));
 }
 
 Run makeRun(const PassTable& table, const BenchMolecules& molecules, const BenchDevice& device) {
@@ -34,10 +34,9 @@ Run makeRun(const PassTable& table, const BenchMolecules& molecules, const Bench
     like.solver = table.solver;
     Plan plan = compile(benchScene(like, molecules.quad));
     plan.groups[0].start = BenchStart(like, molecules.quad, device.cores).packed;
-    SimulationOptions options;
-    options.path = table.subject == Subject::fused ? Path::fused : Path::pingPong;
-    options.timing = gpu::PassTimers::suitedTo(device.context->info());
-    options.cache = device.cache;
+    const SimulationOptions options{.timing = gpu::PassTimers::suitedTo(device.context->info()),
+                                    .path = pathOf(table.subject),
+                                    .cache = device.cache};
     Run out{table,
             std::make_unique<Simulation>(*device.context, device.shaderRoot, std::move(plan), options),
             {}};
@@ -51,7 +50,7 @@ Run makeRun(const PassTable& table, const BenchMolecules& molecules, const Bench
 }  // namespace
 
 std::vector<PassTable> measurePasses(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
-                                     double seconds, const std::function<void(double share)>& progress) {
+                                     double seconds, const BenchProgress& progress) {
     std::vector<int> counts = {1024, 16384, 131072};
     if (quick) counts.pop_back();
     std::vector<Run> runs;

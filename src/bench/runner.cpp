@@ -40,13 +40,11 @@ class PathRunner : public BenchRunner {
         return out;
     }
     static SimulationOptions optionsOf(const BenchCase& one, const BenchDevice& device) {
-        SimulationOptions out;
-        out.drawn = one.drawn;
-        out.path = one.subject == Subject::fused ? Path::fused : Path::pingPong;
-        out.inPlace = one.inPlace;
-        out.lanes = one.lanes;
-        out.cache = device.cache;
-        return out;
+        return {.drawn = one.drawn,
+                .path = pathOf(one.subject),
+                .inPlace = one.inPlace,
+                .lanes = one.lanes,
+                .cache = device.cache};
     }
 
     Scene scene_;
@@ -83,7 +81,6 @@ class BufferCopy : public BenchRunner {
             side = gpu::Buffer(*device.context, gpu::Buffer::Use::storage, zeros.data(), bytes, "copy");
         stateBytes = movedBytes = 2 * bytes;
     }
-    void restart() override {}
     void frame() override {
         sides_[current_].copyTo(sides_[1 - current_], sides_[0].bytes());
         current_ = 1 - current_;
@@ -137,7 +134,6 @@ class MultiplyAdd : public BenchRunner {
                               size_t(groups * lanesOfGroup) * sizeof(float), "multiply-adds");
         operations = 16.0 * rounds * groups * lanesOfGroup;
     }
-    void restart() override {}
     void frame() override {
         program_.use();
         program_.set("factor", glm::vec4(0.999f, 0.998f, 0.997f, 0.996f));
@@ -159,11 +155,9 @@ class MemoryCopy : public BenchRunner {
     MemoryCopy(size_t bytes, int cores) : threads_(cores), from_(bytes, 'x'), to_(bytes, 'y') {
         stateBytes = movedBytes = 2 * bytes;
     }
-    void restart() override {}
     void frame() override {
         threads_.run([&](int index) {
-            const size_t n = size_t(threads_.count()), bytes = from_.size();
-            const size_t first = bytes * size_t(index) / n, last = bytes * size_t(index + 1) / n;
+            const auto [first, last] = threads_.part(from_.size(), index);
             std::memcpy(to_.data() + first, from_.data() + first, last - first);
         });
         std::swap(from_, to_);
@@ -191,10 +185,7 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
     for (size_t i = 0; i < packed.positions.size(); ++i)
         positions.push_back(packed.anchors[i / vertices] + packed.positions[i]);
     velocities = packed.velocities;
-    Simd simd = Simd::scalar;
-    for (const Simd better : {Simd::avx2, Simd::avx512})
-        if (available(better)) simd = better;
-    Baseline baseline(molecule, one.count, simd, cores);
+    Baseline baseline(molecule, one.count, bestSimd(), cores);
     baseline.set(positions, velocities);
     const BaselineStep step = baselineStep(scene);
     for (int i = 0; i < framesBefore; ++i)
@@ -206,6 +197,12 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
         for (size_t i = m * vertices; i < (m + 1) * vertices; ++i)
             packed.positions[i] = positions[i] - packed.anchors[m];
     }
+}
+
+double lastOf(const gpu::PassTimers& timers, const char* pass) {
+    for (const gpu::PassTime& one : timers.report())
+        if (one.name == pass) return one.last;
+    return 0;
 }
 
 size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {

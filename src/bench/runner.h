@@ -12,6 +12,7 @@
 #include "bench/case.h"
 #include "compile/plan.h"
 #include "gpu/context.h"
+#include "gpu/pass_timers.h"
 #include "gpu/program_cache.h"
 #include "simulate/state_view.h"
 
@@ -29,7 +30,7 @@ struct BenchDevice {
     gpu::Context* context = nullptr;
     std::string shaderRoot;
     gpu::ProgramCache* cache = nullptr;
-    DrawMaker makeDraw;           // null: cases with a picture are left out
+    DrawMaker makeDraw = {};      // null: cases with a picture are left out
     int cores = 1;                // threads of the baselines
     BulletMaker makeBullet = {};  // null: its cases are left out
 };
@@ -47,9 +48,14 @@ struct BenchStart {
 class BenchRunner {
   public:
     virtual ~BenchRunner() = default;
-    virtual void restart() = 0;  // to the start
+    virtual void restart() {}  // to the start
     virtual void frame() = 0;
     virtual void finish() {}  // waits until the frames are done
+    void run(int frames) {
+        for (int i = 0; i < frames; ++i)
+            frame();
+        finish();
+    }
 
     size_t stateBytes = 0;           // where the state lives, all copies of it
     size_t movedBytes = 0;           // read and written in a frame, at the least; 0: not known
@@ -66,6 +72,9 @@ std::string reasonToLeaveOut(const BenchCase& one, const Molecule& molecule, con
 // Borrows all of its arguments. Error: out of memory, the driver refuses a shader.
 std::unique_ptr<BenchRunner> makeRunner(const BenchCase& one, const Molecule& molecule,
                                         const BenchStart& start, const BenchDevice& device);
+
+// The last value of a pass, s; 0 without it.
+double lastOf(const gpu::PassTimers& timers, const char* pass);
 
 // Bytes that one frame of the fused path reads and writes at the least: each molecule once.
 size_t fusedBytesPerFrame(const Plan& plan, bool drawn);

@@ -10,49 +10,36 @@ namespace shoal::bench {
 
 namespace {
 
-using measure::Clock, measure::secondsSince;
-
-class Entrant {
+class SchoolEntrant {
   public:
-    Entrant(const SchoolCase& one, const Molecule& fry, const BenchDevice& device)
-        : simulation_(*device.context, device.shaderRoot, compile(schoolScene(one, fry)), options(device)) {
-        result.one = one;
-    }
+    SchoolEntrant(const SchoolCase& one, const Molecule& fry, const BenchDevice& device)
+        : one_(one),
+          simulation_(*device.context, device.shaderRoot, compile(schoolScene(one, fry)),
+                      {.drawn = false, .path = Path::fused, .cache = device.cache}) {}
 
     // Half a second, by which they are in motion; then what a visit costs.
     void warmUp() {
-        for (int i = 0; i < 30; ++i)
-            simulation_.frame();
-        simulation_.check();
+        run(30);
         visit();
         seconds = samples_.back() * frames;
         samples_.clear();
     }
     void visit() {
-        const Clock::time_point start = Clock::now();
-        for (int i = 0; i < frames; ++i)
-            simulation_.frame();
-        simulation_.check();  // waits
-        samples_.push_back(secondsSince(start) / frames);
+        samples_.push_back(measure::secondsOf([&] { run(frames); }) / frames);
     }
-    SchoolTimes finish() {
-        result.frame = measure::spreadOf(samples_);
-        return result;
-    }
+    SchoolTimes finish() const { return {one_, measure::spreadOf(samples_)}; }
 
     double seconds = 0;  // of a visit
 
   private:
     static constexpr int frames = 4;
-    static SimulationOptions options(const BenchDevice& device) {
-        SimulationOptions out;
-        out.path = Path::fused;
-        out.drawn = false;
-        out.cache = device.cache;
-        return out;
+    void run(int count) {
+        for (int i = 0; i < count; ++i)
+            simulation_.frame();
+        simulation_.check();  // waits
     }
+    SchoolCase one_;
     Simulation simulation_;
-    SchoolTimes result;
     std::vector<double> samples_;
 };
 
@@ -88,9 +75,9 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
 
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
                                         const BenchDevice& device, double seconds) {
-    std::vector<std::unique_ptr<Entrant>> entrants;
+    std::vector<std::unique_ptr<SchoolEntrant>> entrants;
     for (const SchoolCase& one : cases)
-        entrants.push_back(std::make_unique<Entrant>(one, fry, device));
+        entrants.push_back(std::make_unique<SchoolEntrant>(one, fry, device));
     double round = 0;
     for (auto& entrant : entrants)
         entrant->warmUp();

@@ -57,12 +57,12 @@ size_t common(const Pairs& a, const Pairs& b) {
 }
 
 std::unique_ptr<Simulation> simulationOf(const Scene& scene, const BenchDevice& device) {
-    SimulationOptions options;
-    options.drawn = false;
-    options.path = Path::fused;
-    options.timing = gpu::PassTimers::Mode::finish;
-    options.cache = device.cache;
-    options.watchdog = false;  // what overlaps is pushed apart in no time
+    // No watchdog: what overlaps is pushed apart in no time.
+    const SimulationOptions options{.drawn = false,
+                                    .timing = gpu::PassTimers::Mode::finish,
+                                    .path = Path::fused,
+                                    .cache = device.cache,
+                                    .watchdog = false};
     return std::make_unique<Simulation>(*device.context, device.shaderRoot, compile(scene), options);
 }
 
@@ -74,10 +74,8 @@ struct Run {
     void visit() {
         simulation->restart();
         simulation->frame();
-        double time = 0;
-        for (const gpu::PassTime& pass : simulation->timers().report())
-            if (pass.name == "contact grid" || pass.name == "contact search") time += pass.last;
-        seconds.push_back(time);
+        const gpu::PassTimers& timers = simulation->timers();
+        seconds.push_back(lastOf(timers, "contact grid") + lastOf(timers, "contact search"));
     }
 };
 
@@ -100,7 +98,7 @@ std::vector<Run> runsOf(double perCell, int count, const Molecule& point, const 
 }
 
 std::vector<SearchShare> measureShares(int count, const Molecule& point, const BenchDevice& device,
-                                       const measure::Schedule& schedule, const CollideProgress& progress) {
+                                       const measure::Schedule& schedule, const BenchProgress& progress) {
     std::vector<SearchShare> out;
     const std::vector<double> densities = {0.05, 0.2, 1, 4};
     for (size_t d = 0; d < densities.size(); ++d) {
@@ -172,7 +170,7 @@ StepShare lookEvery(double step, ContactSearch search, const Flight& flight, Sim
 }  // namespace
 
 SearchReport measureSearches(const Molecule& point, bool quick, const BenchDevice& device,
-                             const measure::Schedule& schedule, const CollideProgress& progress) {
+                             const measure::Schedule& schedule, const BenchProgress& progress) {
     SearchReport out;
     if (!device.context->info().computeShaders) return out;
     out.spheres = quick ? 2048 : 16384;

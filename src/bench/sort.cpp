@@ -4,7 +4,6 @@
 #include <memory>
 #include <random>
 
-#include "core/contract.h"
 #include "core/error.h"
 #include "gpu/gl.h"
 
@@ -12,7 +11,6 @@ namespace shoal::bench {
 
 namespace {
 
-using measure::Clock, measure::secondsSince;
 using Pairs = std::vector<KeyIndex>;
 
 // One case, made once and run in turn with the others.
@@ -32,7 +30,7 @@ bool ascending(const Pairs& pairs, size_t first, size_t end) {
 
 class DeviceSort : public SortRunner {
   public:
-    DeviceSort(const SortBenchDevice& device, SortMethod method, bool rowsOnly, int side, const Pairs& input)
+    DeviceSort(const BenchDevice& device, SortMethod method, bool rowsOnly, int side, const Pairs& input)
         : input_(input),
           rowsOnly_(rowsOnly),
           side_(size_t(side)),
@@ -88,7 +86,7 @@ class StdSort : public SortRunner {
 
 class PairCopy : public SortRunner {
   public:
-    PairCopy(const SortBenchDevice& device, const Pairs& input)
+    PairCopy(const BenchDevice& device, const Pairs& input)
         : from_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copied"),
           to_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copy") {}
     void restart() override {}
@@ -108,7 +106,7 @@ struct Running {
     std::vector<double> seconds;
 };
 
-std::vector<Running> runnersOf(int side, const SortBenchDevice& device, const Pairs& input) {
+std::vector<Running> runnersOf(int side, const BenchDevice& device, const Pairs& input) {
     std::vector<Running> out;
     const auto add = [&](SortTime time, std::unique_ptr<SortRunner> runner) {
         if (runner) time.passes = runner->passes;
@@ -136,12 +134,6 @@ std::vector<Running> runnersOf(int side, const SortBenchDevice& device, const Pa
     return out;
 }
 
-double timed(SortRunner& runner) {
-    const Clock::time_point start = Clock::now();
-    runner.run();
-    return secondsSince(start);
-}
-
 // A first run of each, not counted: it finds what a visit costs, and whether the sort sorts.
 std::vector<double> costs(std::vector<Running>& all) {
     std::vector<double> out;
@@ -152,10 +144,10 @@ std::vector<double> costs(std::vector<Running>& all) {
         }
         one.runner->run();
         if (!one.runner->isSorted()) throw Error(concat("bench sort: ", one.time.name, " did not sort"));
-        const Clock::time_point start = Clock::now();
-        one.runner->restart();
-        one.runner->run();
-        out.push_back(secondsSince(start));
+        out.push_back(measure::secondsOf([&] {
+            one.runner->restart();
+            one.runner->run();
+        }));
     }
     return out;
 }
@@ -168,35 +160,26 @@ const SortTime* SortTable::find(SortMethod method, bool rowsOnly) const {
     return nullptr;
 }
 
-const SortTime& SortTable::stdSort() const {
-    EXPECTS(times.size() >= 2);
-    return times[times.size() - 2];
-}
-
-const SortTime& SortTable::copy() const {
-    EXPECTS(!times.empty());
-    return times.back();
-}
-
-double SortTable::itemsPerSecond(const SortTime& time) const {
-    return time.seconds.min > 0 ? double(pairs()) / time.seconds.min : 0;
-}
-
 std::optional<double> SortTable::shareOfCopy(const SortTime& time) const {
     if (time.method != SortMethod::radix || !time.leftOut.empty()) return {};
     return time.passes * copy().seconds.min / time.seconds.min;
 }
 
-SortTable measureSorts(int side, const SortBenchDevice& device, const measure::Schedule& schedule) {
+std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask) {
     std::mt19937 random(1);
-    Pairs input(size_t(side) * size_t(side));
-    for (size_t i = 0; i < input.size(); ++i)
-        input[i] = {uint32_t(random()), uint32_t(i)};
+    std::vector<KeyIndex> out(count);
+    for (size_t i = 0; i < count; ++i)
+        out[i] = {uint32_t(random()) & mask, uint32_t(i)};
+    return out;
+}
+
+SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule) {
+    const Pairs input = randomKeys(size_t(side) * size_t(side));
     std::vector<Running> all = runnersOf(side, device, input);
     measure::takeTurns(measure::planVisits(costs(all), schedule), [&](size_t i) {
         if (!all[i].runner) return;
         all[i].runner->restart();
-        all[i].seconds.push_back(timed(*all[i].runner));
+        all[i].seconds.push_back(measure::secondsOf([&] { all[i].runner->run(); }));
     });
     SortTable out;
     out.side = side;

@@ -6,13 +6,12 @@
 // pairs back (not timed), one sort between two waits. Keys are random, all 32 bits of them.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/bench.h"
-#include "gpu/context.h"
-#include "gpu/program_cache.h"
 #include "measure/timing.h"
 #include "sort/sorter.h"
 
@@ -34,25 +33,24 @@ struct SortTable {
 
     size_t pairs() const { return size_t(side) * size_t(side); }
     const SortTime* find(SortMethod method, bool rowsOnly = false) const;
-    const SortTime& stdSort() const;
-    const SortTime& copy() const;
-    double itemsPerSecond(const SortTime& time) const;  // by the shortest
+    const SortTime& stdSort() const { return times.at(times.size() - 2); }
+    const SortTime& copy() const { return times.at(times.size() - 1); }
+    double itemsPerSecond(const SortTime& time) const {  // by the shortest
+        return time.seconds.min > 0 ? double(pairs()) / time.seconds.min : 0;
+    }
     // A pass of the radix sort against a copy, which moves as many bytes as a pass does at the least.
     std::optional<double> shareOfCopy(const SortTime& time) const;
 };
 
-struct SortBenchDevice {
-    gpu::Context* context = nullptr;
-    std::string shaderRoot;
-    gpu::ProgramCache* cache = nullptr;
-};
+// Keys of all bits of the mask, with their indices; the same every time.
+std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask = ~0u);
 
 // Error: a sort did not sort; out of memory; the driver refuses a shader.
-SortTable measureSorts(int side, const SortBenchDevice& device, const measure::Schedule& schedule);
+SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule);
 // The speed of a sort as others published it.
 struct PublishedSort {
     const char* where;
-    double millionItems[4];  // a second, for 128, 256, 512 and 1024 squared
+    std::array<double, 4> millionItems;  // a second, for 128, 256, 512 and 1024 squared
 };
 std::vector<PublishedSort> publishedSorts();
 

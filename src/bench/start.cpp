@@ -32,10 +32,7 @@ class ScratchFolder {
 };
 
 double firstFrame(const Plan& plan, const BenchDevice& device, gpu::ProgramCache* cache) {
-    SimulationOptions options;
-    options.path = Path::fused;
-    options.drawn = false;
-    options.cache = cache;
+    const SimulationOptions options{.drawn = false, .path = Path::fused, .cache = cache};
     Plan own = plan;
     glFinish();
     const Clock::time_point start = Clock::now();
@@ -59,7 +56,7 @@ Molecule unseen(const Molecule& molecule) {
 }  // namespace
 
 std::vector<StartTime> measureStart(const BenchMolecules& molecules, const BenchDevice& device, bool quick,
-                                    const std::function<void(double share)>& progress) {
+                                    const BenchProgress& progress) {
     std::vector<StartTime> out;
     if (!device.context->info().computeShaders) return out;
     for (const char* molecule : {"quad", "cross", "fish"})

@@ -4,19 +4,17 @@
 #include <bit>
 #include <cmath>
 #include <memory>
-#include <random>
 
+#include "bench/sort.h"
 #include "gpu/gl.h"
 #include "scene/field_kinds.h"
 #include "simulate/simulation.h"
-#include "sort/sorter.h"
 
 namespace shoal::bench {
 
 namespace {
 
 using glm::vec3;
-using measure::Clock, measure::secondsSince;
 
 constexpr double frameRate = 60, gamma = 1, half = 4, radius = 0.01;
 
@@ -60,17 +58,6 @@ std::vector<Experiment> experiments() {
     };
 }
 
-HeightFieldCollider hills() {
-    HeightFieldCollider out;
-    out.columns = out.rows = 128;
-    out.low = {-half, -half};
-    out.high = {half, half};
-    for (int row = 0; row < out.rows; ++row)
-        for (int column = 0; column < out.columns; ++column)
-            out.heights.push_back(float(0.4 * std::sin(0.15 * column) * std::sin(0.11 * row) - 1.5));
-    return out;
-}
-
 // Particles in a cube, in a vortex; with contact about a fifth of a sphere a cell.
 Scene sceneOf(const Experiment& one, int side, const Molecule& point) {
     Scene scene;
@@ -83,7 +70,7 @@ Scene sceneOf(const Experiment& one, int side, const Molecule& point) {
     scene.contact.response = one.response;
     scene.contact.search = one.search.value_or(ContactSearch::exact);
     scene.fields.emplace_back().shape = VortexField{};
-    if (one.heights) scene.colliders.emplace_back().shape = hills();
+    if (one.heights) scene.colliders.emplace_back().shape = hills(half);
     Group group;
     group.name = "particles";
     group.molecule = point;
@@ -105,20 +92,13 @@ Scene sceneOf(const Experiment& one, int side, const Molecule& point) {
     return scene;
 }
 
-double timed(const std::function<void()>& work) {
+template <typename Work>
+double timed(const Work& work) {
     glFinish();
-    const Clock::time_point start = Clock::now();
-    work();
-    glFinish();
-    return secondsSince(start);
-}
-
-std::vector<KeyIndex> randomKeys(int count, uint32_t mask) {
-    std::mt19937 random(1);
-    std::vector<KeyIndex> out;
-    for (int i = 0; i < count; ++i)
-        out.push_back({uint32_t(random()) & mask, uint32_t(i)});
-    return out;
+    return measure::secondsOf([&] {
+        work();
+        glFinish();
+    });
 }
 
 // E5: what a particle engine on the CPU does in a frame. One thread, plain arrays.
@@ -171,28 +151,19 @@ class CpuParticles {
     gpu::Buffer buffer_;
 };
 
-class Entrant {
+class UberFlowEntrant {
   public:
-    Entrant(Experiment one, int side, const Molecule& point, const BenchDevice& device)
-        : one_(std::move(one)), side_(side) {
-        result.experiment = one_.name;
-        result.how = one_.how;
-        result.published = one_.published;
-        result.side = side;
-        const bool compute = device.context->info().computeShaders;
-        if (!compute && (one_.search || one_.sort == SortMethod::radix)) {
-            result.leftOut = "needs OpenGL 4.3";
-            return;
-        }
+    UberFlowEntrant(UberFlowTimes& result, const Experiment& one, const Molecule& point,
+                    const BenchDevice& device)
+        : result_(result), one_(one) {
+        const int side = result.side;
         const Scene scene = sceneOf(one_, side, point);
         Plan plan = compile(scene);
         const int bits = plan.contact.tableBits;
         const GroupState start = plan.groups[0].start;
-        SimulationOptions options;
-        options.timing = gpu::PassTimers::Mode::finish;
-        options.cache = device.cache;
-        simulation_ =
-            std::make_unique<Simulation>(*device.context, device.shaderRoot, std::move(plan), options);
+        simulation_ = std::make_unique<Simulation>(
+            *device.context, device.shaderRoot, std::move(plan),
+            SimulationOptions{.timing = gpu::PassTimers::Mode::finish, .cache = device.cache});
         if (device.makeDraw) draw_ = device.makeDraw(scene, simulation_->plan());
         if (one_.onCpu) cpu_ = std::make_unique<CpuParticles>(start, *device.context);
         const auto sorter = [&](SortMethod method) {
@@ -204,13 +175,14 @@ class Entrant {
             gridBits_ = bits;
             grid_ = sorter(SortMethod::radix);
         }
-        keys_ = randomKeys(side * side, one_.search ? (1u << bits) - 1 : ~0u);
+        keys_ = randomKeys(size_t(side * side), one_.search ? (1u << bits) - 1 : ~0u);
+    }
+
+    void warmUp() {
         visit();
-        const Clock::time_point begin = Clock::now();
-        visit();
-        seconds = secondsSince(begin);
-        for (std::vector<double>* samples : {&motion_, &contact_, &sort_, &drawing_, &frame_})
-            samples->clear();
+        seconds = measure::secondsOf([&] { visit(); });
+        for (std::vector<double>& samples : samples_)
+            samples.clear();
     }
 
     void visit() {
@@ -223,9 +195,7 @@ class Entrant {
         if (one_.search) {
             // the grid's own sort is measured by itself, and stands with the sorts
             const double all = motion;
-            motion = 0;
-            for (const gpu::PassTime& pass : simulation_->timers().report())
-                if (pass.name == "fused") motion = pass.last;
+            motion = lastOf(simulation_->timers(), "fused");
             const double gridSort = timed([&] { grid_->sort(gridBits_); });
             const double sorts = one_.search == ContactSearch::staggered ? 2 : 1;
             contact = std::max(0.0, all - motion - sorts * gridSort);
@@ -234,34 +204,32 @@ class Entrant {
         if (cpu_) sort = timed([&] { cpu_->sortAndUpload(); });
         if (sorter_) sort = timed([&] { one_.rows ? sorter_->sortRows() : sorter_->sort(); });
         const double drawing = draw_ ? timed([&] { draw_(simulation_->state()); }) : 0;
-        motion_.push_back(motion);
-        contact_.push_back(contact);
-        sort_.push_back(sort);
-        drawing_.push_back(drawing);
-        frame_.push_back(motion + contact + sort + drawing);
+        const double taken[] = {motion, contact, sort, drawing, motion + contact + sort + drawing};
+        for (size_t i = 0; i < std::size(times); ++i)
+            samples_[i].push_back(taken[i]);
     }
 
-    UberFlowTimes finish() {
-        result.motion = measure::spreadOf(motion_);
-        result.contact = measure::spreadOf(contact_);
-        result.sort = measure::spreadOf(sort_);
-        result.draw = measure::spreadOf(drawing_);
-        result.frame = measure::spreadOf(frame_);
-        return result;
+    void finish() {
+        for (size_t i = 0; i < std::size(times); ++i)
+            result_.*times[i] = measure::spreadOf(samples_[i]);
     }
 
-    UberFlowTimes result;
     double seconds = 0;  // of a visit
 
   private:
-    Experiment one_;
-    int side_, gridBits_ = 0;
+    static constexpr measure::Spread UberFlowTimes::*times[] = {&UberFlowTimes::motion,
+                                                                &UberFlowTimes::contact, &UberFlowTimes::sort,
+                                                                &UberFlowTimes::draw, &UberFlowTimes::frame};
+
+    UberFlowTimes& result_;
+    const Experiment& one_;
+    int gridBits_ = 0;
     std::unique_ptr<Simulation> simulation_;
     std::unique_ptr<Sorter> sorter_, grid_;
     std::unique_ptr<CpuParticles> cpu_;
     Draw draw_;
     std::vector<KeyIndex> keys_;
-    std::vector<double> motion_, contact_, sort_, drawing_, frame_;  // s
+    std::vector<double> samples_[std::size(times)];  // s
 };
 
 }  // namespace
@@ -272,24 +240,17 @@ std::vector<int> uberFlowSides(bool quick) {
 }
 
 std::vector<UberFlowTimes> measureUberFlow(int side, const Molecule& point, const BenchDevice& device,
-                                           const measure::Schedule& schedule,
-                                           const CollideProgress& progress) {
-    std::vector<std::unique_ptr<Entrant>> entrants;
-    std::vector<double> cost;
-    for (const Experiment& one : experiments()) {
-        entrants.push_back(std::make_unique<Entrant>(one, side, point, device));
-        cost.push_back(entrants.back()->result.leftOut.empty() ? entrants.back()->seconds : 1);
-    }
-    measure::pinRasteriserThreads();
-    const measure::VisitPlan plan = measure::planVisits(cost, schedule);
-    measure::takeTurns(
-        plan, [&](int round) { progress(double(round) / plan.rounds); },
-        [&](size_t i) {
-            if (entrants[i]->result.leftOut.empty()) entrants[i]->visit();
-        });
+                                           const measure::Schedule& schedule, const BenchProgress& progress) {
+    const std::vector<Experiment> all = experiments();
+    const bool compute = device.context->info().computeShaders;
     std::vector<UberFlowTimes> out;
-    for (const std::unique_ptr<Entrant>& entrant : entrants)
-        out.push_back(entrant->finish());
+    for (const Experiment& one : all) {
+        const bool runs = compute || (!one.search && one.sort != SortMethod::radix);
+        out.push_back({one.name, one.how, one.published, side, runs ? "" : "needs OpenGL 4.3"});
+    }
+    measureInTurn(out, schedule, progress, [&](UberFlowTimes& times) {
+        return std::make_unique<UberFlowEntrant>(times, all[size_t(&times - out.data())], point, device);
+    });
     device.context->checkErrors("bench collide");
     return out;
 }

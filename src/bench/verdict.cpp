@@ -1,13 +1,13 @@
 #include "bench/bench.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <functional>
 
 namespace shoal::bench {
 
 namespace {
 
+using measure::formatted;
 using Test = std::function<bool(const BenchCase&)>;
 
 const BenchResult* find(const std::vector<BenchResult>& all, const Test& test) {
@@ -187,28 +187,21 @@ std::vector<std::string> distances(const std::vector<BenchResult>& all) {
         if (result.one.subject != Subject::fused || result.one.inPlace) continue;
         const Ratios ratios = ratiosOf(result, all);
         if (!ratios.shareOfPeak || !ratios.shareOfCopy) continue;
-        char text[200];
-        std::snprintf(text, sizeof text,
-                      "%s: %.3g GB/s, %.0f%% of a copy; about %.3g Gflop/s, %.0f%% of multiply-adds alone",
+        out.push_back(
+            formatted("%s: %.3g GB/s, %.0f%% of a copy; about %.3g Gflop/s, %.0f%% of multiply-adds alone",
                       result.one.name().c_str(), *ratios.bandwidth * 1e-9, *ratios.shareOfCopy * 100,
-                      *ratios.arithmetic * 1e-9, *ratios.shareOfPeak * 100);
-        out.emplace_back(text);
+                      *ratios.arithmetic * 1e-9, *ratios.shareOfPeak * 100));
     }
     return out;
 }
 
 std::string sentence(const Target& target) {
     const std::string unit = target.unit == "x" ? " times" : " " + target.unit;
-    const auto number = [](double value) {
-        char text[32];
-        std::snprintf(text, sizeof text, "%.3g", value);
-        return std::string(text);
-    };
     const std::string wanted =
-        (target.atLeast ? "wanted: at least " : "wanted: at most ") + number(target.limit);
+        formatted("wanted: at %s %.3g", target.atLeast ? "least" : "most", target.limit);
     if (!target.measured) return target.what + " (" + wanted + unit + ")";
-    std::string out = target.what + ": " + number(*target.measured) + unit;
-    if (target.ofMedians) out += ", by medians " + number(*target.ofMedians);
+    std::string out = target.what + formatted(": %.3g", *target.measured) + unit;
+    if (target.ofMedians) out += formatted(", by medians %.3g", *target.ofMedians);
     return out + " (" + wanted + ")";
 }
 

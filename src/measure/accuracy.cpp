@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "scene/field_kinds.h"
 namespace shoal::measure {
@@ -376,7 +375,7 @@ std::vector<FieldSampling> samplingsThatDiffer(const Scene& scene) {
         return field.box || !std::holds_alternative<UniformField>(*field.shape);
     });
     if (!dragged || !varies) return {FieldSampling::vertexSubstep};
-    return {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame};
+    return {std::begin(allSamplings), std::end(allSamplings)};
 }
 
 std::vector<Step> stepLadder(bool fine, int mostSplits) {

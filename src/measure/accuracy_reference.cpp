@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
-#include <exception>
-#include <mutex>
-#include <thread>
 
 #include "compile/surface_pair.h"
+#include "core/parallel.h"
 #include "measure/timing.h"
 #include "reference/forces.h"
 
@@ -46,34 +44,7 @@ reference::Problem problemOf(const Scene& scene, const GroupPlan& plan, int m) {
 double measureStep(const reference::Problem& problem, const reference::State& start, double duration) {
     const double h = duration / double(reference::firstSteps(problem, duration));
     constexpr int64_t steps = 16;
-    const Clock::time_point begin = Clock::now();
-    reference::integrate(problem, start, h * steps, steps);
-    return secondsSince(begin) / steps;
-}
-
-// Work for each index below `count`, on so many threads. The first exception of a worker is the caller's.
-template <typename Work>
-void inParallel(int count, int threads, const Work& work) {
-    std::atomic<int> next = 0;
-    std::mutex mutex;
-    std::exception_ptr failed;
-    const auto some = [&] {
-        try {
-            for (int i = next++; i < count; i = next++)
-                work(i);
-        } catch (...) {
-            next = count;
-            const std::lock_guard lock(mutex);
-            if (!failed) failed = std::current_exception();
-        }
-    };
-    {
-        std::vector<std::jthread> all;
-        for (int i = 1; i < std::min(threads, count); ++i)
-            all.emplace_back(some);
-        some();
-    }
-    if (failed) std::rethrow_exception(failed);
+    return secondsOf([&] { reference::integrate(problem, start, h * steps, steps); }) / steps;
 }
 
 double totalMass(const Molecule& molecule) {
@@ -202,7 +173,7 @@ Settled ExactEnds::solve(double tolerance, double secondsAMolecule) {
     std::vector<reference::Solution> solutions(molecules_.size());
     std::atomic<bool> hopeless = false;  // one that is too stiff or chaotic is enough
     constexpr int halvings = 12;
-    inParallel(int(molecules_.size()), cores_, [&](int i) {
+    parallel(int(molecules_.size()), cores_, [&](int i) {
         if (hopeless) return;
         const One& one = molecules_[size_t(i)];
         reference::Solution& solution = solutions[size_t(i)];

@@ -1,11 +1,11 @@
 #include "measure/calibrate.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "core/contract.h"
 #include "core/file.h"
+#include "measure/report_json.h"
 
 namespace shoal::measure {
 
@@ -34,11 +34,7 @@ class Hash {
         add(double(values.size()));
         if (!values.empty()) bytes(values.data(), values.size() * sizeof(T));
     }
-    std::string digits() const {
-        char text[20];
-        std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value_));
-        return text;
-    }
+    std::string digits() const { return formatted("%016llx", static_cast<unsigned long long>(value_)); }
 
   private:
     uint64_t value_ = 14695981039346656037ull;
@@ -83,16 +79,10 @@ void addDevice(Hash& hash, const AccuracyDevice& device) {
 }
 
 JsonValue asJson(const Candidate& one) {
-    JsonValue out = JsonValue::makeObject();
-    out.add("solver", JsonValue::makeString(name(one.method.solver)))
-        .add("fieldSampling", JsonValue::makeString(name(one.method.sampling)))
-        .add("substeps", JsonValue::makeNumber(one.substeps))
-        .add("error", one.error ? JsonValue::makeNumber(*one.error) : JsonValue())
-        .add("worst", one.worst ? JsonValue::makeNumber(*one.worst) : JsonValue())
-        .add("secondsPerVertexAndSecond", one.cost > 0 ? JsonValue::makeNumber(one.cost) : JsonValue())
-        .add("reached", JsonValue::makeBoolean(one.reached))
-        .add("why", JsonValue::makeString(one.why));
-    return out;
+    const std::optional<double> cost = one.cost > 0 ? std::optional(one.cost) : std::nullopt;
+    return object(key("solver", name(one.method.solver)), key("fieldSampling", name(one.method.sampling)),
+                  key("substeps", one.substeps), key("error", one.error), key("worst", one.worst),
+                  key("secondsPerVertexAndSecond", cost), key("reached", one.reached), key("why", one.why));
 }
 
 Method methodOf(JsonReader& reader) {
@@ -101,8 +91,7 @@ Method methodOf(JsonReader& reader) {
     reader.need("fieldSampling", sampling);
     Method out;
     out.solver = solverOf(solver).value_or(SolverKind::leapfrog);
-    for (const FieldSampling one :
-         {FieldSampling::vertexSubstep, FieldSampling::vertexFrame, FieldSampling::moleculeFrame})
+    for (const FieldSampling one : allSamplings)
         if (sampling == name(one)) out.sampling = one;
     return out;
 }
@@ -111,12 +100,14 @@ Candidate candidateOf(JsonReader& reader) {
     Candidate out;
     out.method = methodOf(reader);
     reader.need("substeps", out.substeps);
-    const JsonValue* error = reader.raw("error");
-    if (error != nullptr && error->kind == JsonValue::Kind::number) out.error = error->number;
-    const JsonValue* worst = reader.raw("worst");
-    if (worst != nullptr && worst->kind == JsonValue::Kind::number) out.worst = worst->number;
-    const JsonValue* cost = reader.raw("secondsPerVertexAndSecond");
-    if (cost != nullptr && cost->kind == JsonValue::Kind::number) out.cost = cost->number;
+    const auto known = [&](const char* key) -> std::optional<double> {
+        const JsonValue* value = reader.raw(key);
+        if (value == nullptr || value->kind != JsonValue::Kind::number) return std::nullopt;
+        return value->number;
+    };
+    out.error = known("error");
+    out.worst = known("worst");
+    out.cost = known("secondsPerVertexAndSecond").value_or(0);
     reader.need("reached", out.reached);
     reader.need("why", out.why);
     return out;
@@ -155,27 +146,14 @@ std::string calibrationKey(const Plan& plan, const CalibrationOptions& options,
 }
 
 JsonValue asJson(const Calibration& one) {
-    JsonValue candidates = JsonValue::makeArray();
-    for (const Candidate& candidate : one.candidates)
-        candidates.items.push_back(asJson(candidate));
-    JsonValue out = JsonValue::makeObject();
-    out.add("target", JsonValue::makeNumber(one.target))
-        .add("solver", JsonValue::makeString(name(one.method.solver)))
-        .add("fieldSampling", JsonValue::makeString(name(one.method.sampling)))
-        .add("substeps", JsonValue::makeNumber(one.substeps))
-        .add("error", JsonValue::makeNumber(one.error))
-        .add("worst", JsonValue::makeNumber(one.sample.worst))
-        .add("measured", JsonValue::makeNumber(one.sample.measured))
-        .add("above", JsonValue::makeNumber(one.sample.above))
-        .add("compared", JsonValue::makeNumber(one.sample.compared))
-        .add("untold", JsonValue::makeNumber(one.sample.untold))
-        .add("how", JsonValue::makeString(one.how))
-        .add("secondsPerVertexAndSecond", JsonValue::makeNumber(one.cost))
-        .add("duration", JsonValue::makeNumber(one.duration))
-        .add("why", JsonValue::makeString(one.why))
-        .add("seconds", JsonValue::makeNumber(one.seconds))
-        .add("candidates", std::move(candidates));
-    return out;
+    return object(key("target", one.target), key("solver", name(one.method.solver)),
+                  key("fieldSampling", name(one.method.sampling)), key("substeps", one.substeps),
+                  key("error", one.error), key("worst", one.sample.worst),
+                  key("measured", one.sample.measured), key("above", one.sample.above),
+                  key("compared", one.sample.compared), key("untold", one.sample.untold), key("how", one.how),
+                  key("secondsPerVertexAndSecond", one.cost), key("duration", one.duration),
+                  key("why", one.why), key("seconds", one.seconds),
+                  key("candidates", arrayOf(one.candidates, asJson)));
 }
 
 std::optional<Calibration> loadCalibration(const std::string& folder, const std::string& key) {

@@ -62,13 +62,13 @@ void MethodRunner::finish() const {
 }
 
 double MethodRunner::warmUp() {
-    const Clock::time_point start = Clock::now();
-    restart();
-    frame();
-    finish();
-    restart();
-    finish();
-    return secondsSince(start);
+    return secondsOf([this] {
+        restart();
+        frame();
+        finish();
+        restart();
+        finish();
+    });
 }
 
 void MethodRunner::run(int frames) {
@@ -84,10 +84,10 @@ double MethodRunner::secondsOfFrame(Step step) {
     double least = 1e30;
     for (int i = 0; i < 3; ++i) {
         finish();
-        const Clock::time_point start = Clock::now();
-        frame();
-        finish();
-        const double seconds = secondsSince(start);
+        const double seconds = secondsOf([this] {
+            frame();
+            finish();
+        });
         if (i > 0) least = std::min(least, seconds);
     }
     return least;

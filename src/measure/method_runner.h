@@ -17,6 +17,9 @@
 
 namespace shoal::measure {
 
+inline constexpr FieldSampling allSamplings[] = {FieldSampling::vertexSubstep, FieldSampling::vertexFrame,
+                                                 FieldSampling::moleculeFrame};
+
 struct Method {
     SolverKind solver = SolverKind::leapfrog;
     FieldSampling sampling = FieldSampling::vertexSubstep;

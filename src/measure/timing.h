@@ -11,6 +11,12 @@ namespace shoal::measure {
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start);
+template <typename Work>
+double secondsOf(const Work& work) {
+    const Clock::time_point start = Clock::now();
+    work();
+    return secondsSince(start);
+}
 
 struct Spread {
     double min = 0, median = 0;  // of the values; 0 without any
@@ -40,23 +46,16 @@ struct VisitPlan {
 };
 // `cost`: seconds of one visit, for each case.
 VisitPlan planVisits(const std::vector<double>& cost, const Schedule& schedule);
-// Calls visit(i) for each case in each round that it takes part in, and begin(round) before each round.
-template <typename Begin, typename Visit>
-void takeTurns(const VisitPlan& plan, Begin begin, Visit visit) {
-    for (int round = 0; round < plan.rounds; ++round) {
-        begin(round);
-        for (size_t i = 0; i < plan.samples.size(); ++i)
-            if (plan.visits(i, round)) visit(i);
-    }
-}
+// Calls visit(i) for each case in each round that it takes part in.
 template <typename Visit>
 void takeTurns(const VisitPlan& plan, Visit visit) {
-    takeTurns(
-        plan, [](int) {}, visit);
+    for (int round = 0; round < plan.rounds; ++round)
+        for (size_t i = 0; i < plan.samples.size(); ++i)
+            if (plan.visits(i, round)) visit(i);
 }
 
-// A number by a format of printf; a time in nanoseconds, of three digits that count.
-std::string formatted(const char* format, double value);
+// As std::printf writes it; a time in nanoseconds, of three digits that count.
+__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...);
 std::string nanoseconds(double seconds);
 
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU

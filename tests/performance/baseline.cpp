@@ -176,19 +176,18 @@ void printBullet() {
     std::printf("\n%d quads as soft bodies of Bullet, one thread\n  %-24s %14s %13s %15s\n", count, "",
                 "falling: min ns", "landed: min ns", "lowest vertex m");
     for (const int substeps : {1, 4}) {
-        for (const auto& [form, words] : {std::pair{BulletBaseline::Form::bodies, "a body each"},
-                                          {BulletBaseline::Form::merged, "all in one body"}}) {
-            BulletBaseline bullet(molecule, count, form);
+        for (const auto& [merged, words] : {std::pair{false, "a body each"}, {true, "all in one body"}}) {
+            const std::unique_ptr<BulletBaseline> bullet = makeBullet(molecule, count, merged);
             double least[] = {1e30, 1e30};  // s: falling, landed
             for (int i = 0; i < 240; ++i) {
                 const double start = now();
                 for (int k = 0; k < substeps; ++k)
-                    bullet.frame(1.0 / 60 / substeps);
+                    bullet->frame(1.0 / 60 / substeps);
                 double& one = least[i >= 120];
                 if (i < 12 || i >= 228) one = std::min(one, now() - start);
             }
             std::printf("  %-15s %d a frame %15.0f %14.0f %15.4f\n", words, substeps, least[0] * 1e9 / count,
-                        least[1] * 1e9 / count, bullet.lowestHeight());
+                        least[1] * 1e9 / count, bullet->lowestHeight());
         }
     }
 }

@@ -1,0 +1,63 @@
+// JSON of reports, built from names and values:
+//   return object(key("name", one.name), key("size", one.size), key("error", one.error));
+#pragma once
+
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "core/json.h"
+
+namespace shoal {
+
+// Numbers, texts, flags, vectors and JSON as what they are; an optional that holds nothing as null; a
+// std::vector as an array.
+template <typename T>
+JsonValue toJson(const T& value) {
+    if constexpr (std::is_same_v<T, JsonValue>) {
+        return value;
+    } else if constexpr (std::is_same_v<T, bool>) {
+        return JsonValue::makeBoolean(value);
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return JsonValue::makeNumber(double(value));
+    } else if constexpr (std::is_convertible_v<const T&, std::string>) {
+        return JsonValue::makeString(value);
+    } else if constexpr (requires { value.has_value(); }) {
+        return value ? toJson(*value) : JsonValue();
+    } else if constexpr (requires { value.begin(); }) {
+        JsonValue out = JsonValue::makeArray();
+        for (const auto& one : value)
+            out.items.push_back(toJson(one));
+        return out;
+    } else {
+        return JsonValue::makeVector(value);
+    }
+}
+
+// A member of an object, and an object of some of them.
+template <typename T>
+JsonMember key(const char* name, const T& value) {
+    return {name, toJson(value)};
+}
+template <typename... Members>
+JsonValue& append(JsonValue& object, Members... members) {
+    (object.members.push_back(std::move(members)), ...);
+    return object;
+}
+template <typename... Members>
+JsonValue object(Members... members) {
+    JsonValue out = JsonValue::makeObject();
+    return append(out, std::move(members)...);
+}
+
+// The JSON of each, in an array.
+template <typename T>
+JsonValue arrayOf(const std::vector<T>& items, JsonValue (*json)(const std::type_identity_t<T>&)) {
+    JsonValue out = JsonValue::makeArray();
+    for (const T& item : items)
+        out.items.push_back(json(item));
+    return out;
+}
+
+}  // namespace shoal
