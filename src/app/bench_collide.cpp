@@ -13,23 +13,23 @@ using namespace bench;
 
 namespace {
 
-struct Wanted {
+struct CollideCases {
     bool molecules = false, uberFlow = false, searches = false;
     int groups(bool quick) const {
         return int(molecules) + int(searches) + (uberFlow ? int(uberFlowSides(quick).size()) : 0);
     }
 };
 
-Wanted wantedOf(const std::string& only) {
+CollideCases collideCasesOf(const std::string& only) {
     const auto named = [&](const std::string& name) { return name.find(only) != std::string::npos; };
-    const Wanted out{named("molecules"), named("UberFlow"), named("searches")};
+    const CollideCases out{named("molecules"), named("UberFlow"), named("searches")};
     if (!out.molecules && !out.uberFlow && !out.searches)
         throw Error(concat("--only: nothing has \"", only,
                            "\" in its name; there are \"molecules\", \"UberFlow\" and \"searches\""));
     return out;
 }
 
-void measureAll(const Wanted& wanted, const Options& options, const BenchDevice& device,
+void measureAll(const CollideCases& wanted, const Options& options, const BenchDevice& device,
                 const measure::Schedule& schedule, CollideReport& report) {
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
@@ -54,7 +54,7 @@ void measureAll(const Wanted& wanted, const Options& options, const BenchDevice&
 }  // namespace
 
 int benchCollideCommand(const Options& options) {
-    const Wanted wanted = wantedOf(options.only);
+    const CollideCases wanted = collideCasesOf(options.only);
     BenchSession session(options, 20, 2);
     CollideReport report;
     report.secondsAGroup = session.schedule.seconds;

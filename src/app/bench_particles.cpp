@@ -13,7 +13,7 @@ using namespace bench;
 
 namespace {
 
-std::vector<ParticleCase> wantedOf(const Options& options) {
+std::vector<ParticleCase> particleCasesOf(const Options& options) {
     std::vector<ParticleCase> all = particleCases(options.quick), some;
     std::copy_if(all.begin(), all.end(), std::back_inserter(some),
                  [&](const ParticleCase& one) { return one.name().find(options.only) != std::string::npos; });
@@ -27,7 +27,7 @@ std::vector<ParticleCase> wantedOf(const Options& options) {
 }  // namespace
 
 int benchParticlesCommand(const Options& options) {
-    const std::vector<std::vector<ParticleCase>> groups = byGroup(wantedOf(options));
+    const std::vector<std::vector<ParticleCase>> groups = byGroup(particleCasesOf(options));
     const std::string folder = moleculeFolder() + "/";
     const Molecule quad = readMolecule(folder + "quad.json"), point = readMolecule(folder + "point.json");
     BenchSession session(options, 8, 1);

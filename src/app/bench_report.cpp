@@ -18,12 +18,12 @@ std::string orDash(const std::optional<double>& value) {
     return value ? short3(*value) : "-";
 }
 
-constexpr int columns[] = {-40, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
+constexpr int benchColumns[] = {-40, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
 
 std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all) {
     const std::string label = "  " + result.one.label;
     if (!result.leftOut.empty())
-        return formatted("%*s   left out: %s\n", columns[0], label.c_str(), result.leftOut.c_str());
+        return formatted("%*s   left out: %s\n", benchColumns[0], label.c_str(), result.leftOut.c_str());
     const Ratios ratios = ratiosOf(result, all);
     const auto each = [&](size_t bytes) -> std::string {
         return bytes > 0 ? formatted("%.0f", double(bytes) / result.one.count) : "-";
@@ -34,7 +34,7 @@ std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all
          orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
          each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
          ratios.shareOfCopy ? formatted("%.0f%%", *ratios.shareOfCopy * 100) : "-"},
-        columns);
+        benchColumns);
 }
 
 void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) {
@@ -45,7 +45,7 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
             out << "\n"
                 << tableRow({group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
                              "moved", "GB/s", "copy"},
-                            columns);
+                            benchColumns);
         }
         out << rowOf(result, results);
     }

@@ -70,8 +70,8 @@ std::string timesText(const SortTable& table) {
         out += formatted("  %-32s%6s%10.3f%11.3f%9d", time.name.c_str(),
                          time.passes > 0 ? std::to_string(time.passes).c_str() : "-", time.seconds.min * 1e3,
                          time.seconds.median * 1e3, time.seconds.samples);
-        const double passes = time.copy ? 1 : time.passes;
-        if (passes > 0) out += formatted("%13.2f", passes * 16e-9 * double(table.pairs()) / time.seconds.min);
+        const double count = time.copy ? 1 : time.passes;
+        if (count > 0) out += formatted("%13.2f", count * 16e-9 * double(table.pairs()) / time.seconds.min);
         if (const auto share = table.shareOfCopy(time)) out += formatted("%5.0f%%", 100 * *share);
         out += "\n";
     }

@@ -180,7 +180,7 @@ struct BakedField {
     DistanceField field;
 };
 
-std::vector<BakedField> ofScene(const Options& options, std::vector<Warning>& warnings) {
+std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warning>& warnings) {
     const Options::Field& asked = options.field;
     if (asked.resolution || asked.error || asked.shell || asked.thickness)
         throw Error(
@@ -202,7 +202,7 @@ std::vector<BakedField> ofScene(const Options& options, std::vector<Warning>& wa
     return out;
 }
 
-std::vector<BakedField> ofModel(const Options& options, std::vector<Warning>& warnings) {
+std::vector<BakedField> fieldsOfModel(const Options& options, std::vector<Warning>& warnings) {
     const std::string& file = options.files.front();
     BakedField out;
     out.name = std::filesystem::path(file).stem().string();
@@ -276,7 +276,8 @@ SlicePlane planeOf(const Options& options, const BakedField& baked) {
 int fieldCommand(const Options& options) {
     std::vector<Warning> warnings;
     const bool scene = lowerExtension(options.files.front()) == ".json";
-    std::vector<BakedField> fields = scene ? ofScene(options, warnings) : ofModel(options, warnings);
+    std::vector<BakedField> fields =
+        scene ? fieldsOfScene(options, warnings) : fieldsOfModel(options, warnings);
     tellWarnings(warnings);
     if (!options.only.empty())
         std::erase_if(fields,

@@ -26,7 +26,7 @@ JsonValue asJson(const gpu::ContextProbe& probe) {
         key("subgroups", info.subgroups), key("paths", paths));
 }
 
-void print(const gpu::ContextProbe& probe) {
+void printProbe(const gpu::ContextProbe& probe) {
     std::cout << gpu::name(probe.kind) << "\n";
     if (!probe.info) {
         std::cout << "  not available: " << probe.reason << "\n";
@@ -57,7 +57,7 @@ int infoCommand(const Options& options) {
         std::cout << writeJson(
             object(key("version", SHOAL_VERSION), key("contexts", arrayOf(probes, asJson))));
     else
-        std::for_each(probes.begin(), probes.end(), print);
+        std::for_each(probes.begin(), probes.end(), printProbe);
     const auto available = [](const gpu::ContextProbe& probe) { return probe.info.has_value(); };
     return std::any_of(probes.begin(), probes.end(), available) ? 0 : 1;
 }

@@ -41,7 +41,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
         out << "the reference is good to " << exponent(a.referenceError) << "\n";
 }
 
-constexpr int columns[] = {12, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
+constexpr int measureColumns[] = {12, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
 
 void addPoint(std::ostringstream& out, const AccuracyPoint& point, const MeasureReport& report) {
     std::vector<std::string> cells = {steps(point), bench::grouped(int(point.stepsPerSecond + 0.5))};
@@ -65,7 +65,7 @@ void addPoint(std::ostringstream& out, const AccuracyPoint& point, const Measure
     drift(&Drift::momentum);
     drift(&Drift::angularMomentum);
     cells.push_back(&point == chosenPoint(report) ? "chosen" : point.front ? "front" : "");
-    out << tableRow(cells, columns);
+    out << tableRow(cells, measureColumns);
 }
 
 void addCurve(std::ostringstream& out, const Method& method, const MeasureReport& report) {
@@ -94,7 +94,7 @@ void addCurve(std::ostringstream& out, const Method& method, const MeasureReport
         if (!head)
             out << tableRow({"substeps", "steps/s", "error", "centroid", "shape", "worst", "min ns",
                              "median ns", "energy", "momentum", "angular"},
-                            columns);
+                            measureColumns);
         head = true;
         addPoint(out, point, report);
     }

@@ -22,7 +22,7 @@ using window::EditorStage, window::Projector, window::StageSettings;
 
 namespace {
 
-constexpr size_t columns = 2, rows = 3;
+constexpr size_t sheetColumns = 2, sheetRows = 3;
 const glm::vec4 pale(0.92f, 0.96f, 0.9f, 1), warm(0.98f, 0.72f, 0.3f, 1), pinColor(1, 0.5f, 0.35f, 1),
     normalColor(0.4f, 0.75f, 1, 0.9f);
 
@@ -37,7 +37,7 @@ class Sheet {
         : molecule_(molecule),
           stage_(context, cache),
           side_(height),
-          small_{(width - height) / int(columns), height / int(rows)},
+          small_{(width - height) / int(sheetColumns), height / int(sheetRows)},
           image_{width, height, 4, std::vector<uint8_t>(size_t(width) * size_t(height) * 4, 255)} {
         StageSettings settings;
         settings.around = StageSettings::Around::still;
@@ -58,9 +58,10 @@ class Sheet {
 
     Image draw() {
         drawRest();
-        const std::vector<Mode> modes = modesOf(molecule_, molecule_.hasPins(), columns * rows);
-        for (size_t i = 0; i < columns * rows; ++i) {
-            const glm::ivec2 corner(side_ + int(i % columns) * small_.x, int(i / columns) * small_.y);
+        const std::vector<Mode> modes = modesOf(molecule_, molecule_.hasPins(), sheetColumns * sheetRows);
+        for (size_t i = 0; i < sheetColumns * sheetRows; ++i) {
+            const glm::ivec2 corner(side_ + int(i % sheetColumns) * small_.x,
+                                    int(i / sheetColumns) * small_.y);
             Canvas canvas(image_, corner, small_ - 2);
             if (i < modes.size()) {
                 drawMode(canvas, modes[i]);

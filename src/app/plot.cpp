@@ -312,7 +312,7 @@ const char* axes =
     "set grid xtics ytics linetype 1 linecolor rgb '#D8D8D8' linewidth 0.6\n";
 
 // The key of a grid: every solver that appears, in a panel of its own.
-std::string key(const std::vector<AccuracyPanel>& panels) {
+std::string legend(const std::vector<AccuracyPanel>& panels) {
     std::set<Method> methods;
     for (const AccuracyPanel& panel : panels)
         for (const AccuracyPoint& point : panel.points)
@@ -358,7 +358,7 @@ std::string gridScript(const std::string& output, const std::string& title, int 
     }
     out << "set origin 0,0\nset size 1," << double(foot) / height
         << "\nset lmargin 1\nset rmargin 1\nset tmargin 0\nset bmargin 0\n"
-        << key(panels) << "unset multiplot\nset output\n";
+        << legend(panels) << "unset multiplot\nset output\n";
     return out.str();
 }
 

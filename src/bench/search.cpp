@@ -66,7 +66,7 @@ std::unique_ptr<Simulation> simulationOf(const Scene& scene, const BenchDevice& 
     return std::make_unique<Simulation>(*device.context, device.shaderRoot, compile(scene), options);
 }
 
-struct Run {
+struct SearchRun {
     SearchShare share;
     std::unique_ptr<Simulation> simulation;
     std::vector<double> seconds;
@@ -79,11 +79,11 @@ struct Run {
     }
 };
 
-std::vector<Run> runsOf(double perCell, int count, const Molecule& point, const BenchDevice& device) {
-    std::vector<Run> out;
+std::vector<SearchRun> runsOf(double perCell, int count, const Molecule& point, const BenchDevice& device) {
+    std::vector<SearchRun> out;
     Pairs expected;
     for (const ContactSearch search : searches) {
-        Run run;
+        SearchRun run;
         run.simulation = simulationOf(sceneOf(search, count, perCell, point), device);
         if (out.empty()) expected = reference::touching(spheresOf(run.simulation->plan().groups[0].start));
         run.share.search = search;
@@ -103,13 +103,13 @@ std::vector<SearchShare> measureShares(int count, const Molecule& point, const B
     const std::vector<double> densities = {0.05, 0.2, 1, 4};
     for (size_t d = 0; d < densities.size(); ++d) {
         progress(double(d) / double(densities.size()));
-        std::vector<Run> runs = runsOf(densities[d], count, point, device);
+        std::vector<SearchRun> runs = runsOf(densities[d], count, point, device);
         measure::pinRasteriserThreads();
         const int rounds = std::max(schedule.leastSamples, int(schedule.seconds * 20));
         for (int i = 0; i < std::min(rounds, schedule.mostSamples); ++i)
-            for (Run& run : runs)
+            for (SearchRun& run : runs)
                 run.visit();
-        for (Run& run : runs) {
+        for (SearchRun& run : runs) {
             run.share.time = measure::spreadOf(std::move(run.seconds));
             out.push_back(run.share);
         }

@@ -11,7 +11,7 @@ namespace shoal::bench {
 
 namespace {
 
-using Pairs = std::vector<KeyIndex>;
+using KeyPairs = std::vector<KeyIndex>;
 
 // One case, made once and run in turn with the others.
 class SortRunner {
@@ -23,14 +23,14 @@ class SortRunner {
     int passes = 0;
 };
 
-bool ascending(const Pairs& pairs, size_t first, size_t end) {
+bool ascending(const KeyPairs& pairs, size_t first, size_t end) {
     return std::is_sorted(pairs.begin() + ptrdiff_t(first), pairs.begin() + ptrdiff_t(end),
                           [](const KeyIndex& a, const KeyIndex& b) { return a.key < b.key; });
 }
 
 class DeviceSort : public SortRunner {
   public:
-    DeviceSort(const BenchDevice& device, SortMethod method, bool rowsOnly, int side, const Pairs& input)
+    DeviceSort(const BenchDevice& device, SortMethod method, bool rowsOnly, int side, const KeyPairs& input)
         : input_(input),
           rowsOnly_(rowsOnly),
           side_(size_t(side)),
@@ -54,7 +54,7 @@ class DeviceSort : public SortRunner {
         glFinish();
     }
     bool isSorted() override {
-        const Pairs out = sorter_.download();
+        const KeyPairs out = sorter_.download();
         const size_t block = rowsOnly_ ? side_ : out.size();
         for (size_t first = 0; first < out.size(); first += block)
             if (!ascending(out, first, first + block)) return false;
@@ -62,7 +62,7 @@ class DeviceSort : public SortRunner {
     }
 
   private:
-    const Pairs& input_;
+    const KeyPairs& input_;
     bool rowsOnly_;
     size_t side_;
     Sorter sorter_;
@@ -71,7 +71,7 @@ class DeviceSort : public SortRunner {
 // In memory, one thread, as 64-bit numbers with the key above the index.
 class StdSort : public SortRunner {
   public:
-    explicit StdSort(const Pairs& input) : input_(input), pairs_(input.size()) { restart(); }
+    explicit StdSort(const KeyPairs& input) : input_(input), pairs_(input.size()) { restart(); }
     void restart() override {
         std::transform(input_.begin(), input_.end(), pairs_.begin(),
                        [](const KeyIndex& pair) { return uint64_t(pair.key) << 32 | pair.index; });
@@ -80,13 +80,13 @@ class StdSort : public SortRunner {
     bool isSorted() override { return std::is_sorted(pairs_.begin(), pairs_.end()); }
 
   private:
-    const Pairs& input_;
+    const KeyPairs& input_;
     std::vector<uint64_t> pairs_;
 };
 
 class PairCopy : public SortRunner {
   public:
-    PairCopy(const BenchDevice& device, const Pairs& input)
+    PairCopy(const BenchDevice& device, const KeyPairs& input)
         : from_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copied"),
           to_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copy") {}
     void restart() override {}
@@ -106,7 +106,7 @@ struct Running {
     std::vector<double> seconds;
 };
 
-std::vector<Running> runnersOf(int side, const BenchDevice& device, const Pairs& input) {
+std::vector<Running> runnersOf(int side, const BenchDevice& device, const KeyPairs& input) {
     std::vector<Running> out;
     const auto add = [&](SortTime time, std::unique_ptr<SortRunner> runner) {
         if (runner) time.passes = runner->passes;
@@ -174,7 +174,7 @@ std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask) {
 }
 
 SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule) {
-    const Pairs input = randomKeys(size_t(side) * size_t(side));
+    const KeyPairs input = randomKeys(size_t(side) * size_t(side));
     std::vector<Running> all = runnersOf(side, device, input);
     measure::takeTurns(measure::planVisits(costs(all), schedule), [&](size_t i) {
         if (!all[i].runner) return;
