@@ -121,14 +121,8 @@ void TextureContact::drawAll(TextureState& state, const Into& into) const {
 
 // Binds what shaders/state/textures.glsl reads.
 void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
-    const GroupPlan& plan = plan_->groups[group.group];
     program.use();
-    program.set("firstRow", plan.texture.firstRow);
-    program.set("slabRows", plan.texture.slabRows);
-    program.set("moleculeCount", plan.count);
-    program.set("vertexCount", plan.vertexCount);
-    program.set("firstRecordRow", plan.texture.firstRecordRow);
-    program.set("topologyBase", plan.topologyBase);
+    setGroup(program, plan_->groups[group.group]);
     program.set("firstSphere", group.firstSphere);
     program.texture("positions", 0, state.position.read(group.group));
     program.texture("velocities", 1, state.velocity.read(group.group));
