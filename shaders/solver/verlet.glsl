@@ -4,27 +4,4 @@
 //   way to its rest length, at most all of it (physics/spring.glsl, through VERLET in the springs' text).
 //   A collider is a constraint on the position as well (constrain in physics/collide.glsl): what entered is moved out.
 //   v = (x' - x) / h: what is left of it after positions are rounded.
-
-void beginSolver()
-{
-}
-
-// A substep up to contact.
-void advance(int step)
-{
-    float time = float(step) * substep;
-    thrust(true);
-    kickWhole(step, time);
-    sampleHere(time);
-    for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) {
-            vec3 before = x[i];
-            x[i] += dragged(v[i], fluid[i], FALL(i), normal[i]) * substep;
-            v[i] = (x[i] - before) / substep;
-        }
-    }
-}
-
-void finishSolver()
-{
-}
+#include "solver/euler.glsl"

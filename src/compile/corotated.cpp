@@ -96,10 +96,7 @@ std::string restText(const Molecule& molecule) {
     }
     centre /= total;
     const size_t count = molecule.vertices.size();
-    const auto arm = [&](size_t v) {
-        const glm::dvec3 p = molecule.vertices[v].position - centre;
-        return concat("vec3(", glslLiteral(p.x), ", ", glslLiteral(p.y), ", ", glslLiteral(p.z), ")");
-    };
+    const auto arm = [&](size_t v) { return glslLiteral(molecule.vertices[v].position - centre); };
     const auto share = [&](size_t v) { return glslLiteral(molecule.vertices[v].mass / total); };
     return glslArray("vec3", "restArm", count, arm) + glslArray("float", "massShare", count, share);
 }

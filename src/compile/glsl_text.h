@@ -4,6 +4,8 @@
 #include <charconv>
 #include <string>
 
+#include <glm/glm.hpp>
+
 #include "core/error.h"
 
 namespace shoal {
@@ -15,6 +17,10 @@ inline std::string glslLiteral(double value) {
     std::string out(text, end);
     if (out.find_first_of(".en") == std::string::npos) out += ".0";
     return out;
+}
+
+inline std::string glslLiteral(const glm::dvec3& v) {
+    return concat("vec3(", glslLiteral(v.x), ", ", glslLiteral(v.y), ", ", glslLiteral(v.z), ")");
 }
 
 // const float name[VERTICES] = float[](...); `value`: the text of element i

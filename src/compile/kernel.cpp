@@ -30,10 +30,8 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
         return std::string(needs.pins && molecule.vertices[v].pinned ? "true" : "false");
     });
     if (needs.life)
-        out += glslArray("vec3", "restPlace", count, [&](size_t v) {
-            const glm::dvec3& p = molecule.vertices[v].position;
-            return concat("vec3(", glslLiteral(p.x), ", ", glslLiteral(p.y), ", ", glslLiteral(p.z), ")");
-        });
+        out += glslArray("vec3", "restPlace", count,
+                         [&](size_t v) { return glslLiteral(molecule.vertices[v].position); });
     if (needs.release) {
         out +=
             "\n// N: the strongest pull of the springs on a pin.\nfloat pullOnPins()\n{\n    float pull = "
@@ -121,6 +119,14 @@ const char* springVariables(const Needs& needs) {
     return needs.liveSprings ? "    vec4 s;\n    vec4 m;\n" : "";
 }
 
+// The force of a spring, added to its ends: of the way between these, and of their relative velocity.
+std::string forceText(const Spring& spring, const SpringText& numbers, const std::string& way,
+                      const std::string& relative, const std::string& stiffness) {
+    return concat(numbers.load, "    f = springForce(", way, ", ", numbers.damped ? relative : "vec3(0.0)",
+                  ", ", stiffness, ", ", numbers.damping, ", ", numbers.restLength, ");\n    ",
+                  at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+}
+
 std::string springText(const Molecule& molecule, const Needs& needs, bool isBounded) {
     std::string out = concat(
         "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
@@ -130,13 +136,9 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         const SpringText numbers = numbersOf(molecule, i, needs);
-        const std::string relative =
-            numbers.damped ? concat(at("w", spring.a), " - ", at("w", spring.b)) : "vec3(0.0)";
-        out += concat(numbers.load, "    f = springForce(", at("x", spring.a), " - ", at("x", spring.b), ", ",
-                      relative, ", ",
-                      isBounded ? bounded(molecule, spring, numbers.stiffness) : numbers.stiffness, ", ",
-                      numbers.damping, ", ", numbers.restLength, ");\n    ", at("force", spring.a),
-                      " += f;\n    ", at("force", spring.b), " -= f;\n");
+        out += forceText(spring, numbers, concat(at("x", spring.a), " - ", at("x", spring.b)),
+                         concat(at("w", spring.a), " - ", at("w", spring.b)),
+                         isBounded ? bounded(molecule, spring, numbers.stiffness) : numbers.stiffness);
     }
     return out + "}\n";
 }
@@ -171,12 +173,9 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
         const Spring& spring = molecule.springs[i];
         const SpringText numbers = numbersOf(molecule, i, needs);
         const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
-        const std::string relative =
-            numbers.damped ? concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta")
-                           : "vec3(0.0)";
-        out += concat("    f = springForce((x", a, " - x", b, ") + (q", a, " - q", b, "), ", relative, ", ",
-                      numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ");\n    force", a,
-                      " += f;\n    force", b, " -= f;\n");
+        out += forceText(spring, numbers, concat("(x", a, " - x", b, ") + (q", a, " - q", b, ")"),
+                         concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"),
+                         numbers.stiffness);
     }
     return out + "}\n";
 }

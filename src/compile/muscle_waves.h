@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "compile/needs.h"
+#include "compile/kernel.h"
 #include "molecule/molecule.h"
 
 namespace shoal {

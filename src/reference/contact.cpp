@@ -59,6 +59,14 @@ struct Event {
     }
 };
 
+// Impact with a surface of unit normal n: the velocity after it.
+glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double restitution, double friction) {
+    const double vn = glm::dot(velocity, n);
+    const glm::dvec3 tangential = velocity - vn * n;
+    const double speed = glm::length(tangential), lost = friction * (1 + restitution) * std::abs(vn);
+    return (speed > lost ? tangential * (1 - lost / speed) : glm::dvec3(0)) - restitution * vn * n;
+}
+
 class ContactIntegrator {
   public:
     ContactIntegrator(const Problem& problem, const State& start)
@@ -394,13 +402,6 @@ class ContactIntegrator {
 };
 
 }  // namespace
-
-glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double restitution, double friction) {
-    const double vn = glm::dot(velocity, n);
-    const glm::dvec3 tangential = velocity - vn * n;
-    const double speed = glm::length(tangential), lost = friction * (1 + restitution) * std::abs(vn);
-    return (speed > lost ? tangential * (1 - lost / speed) : glm::dvec3(0)) - restitution * vn * n;
-}
 
 ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps,
                                 const Deadline& deadline) {

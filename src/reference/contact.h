@@ -63,9 +63,6 @@ struct ContactRun {
 ContactRun integrateWithContact(const Problem& problem, const State& start, double duration, int64_t steps,
                                 const Deadline& deadline = Deadline());
 
-// Impact with a surface of unit normal n: the velocity after it.
-glm::dvec3 afterImpact(const glm::dvec3& velocity, const glm::dvec3& n, double restitution, double friction);
-
 constexpr double restSpeed = 1e-8;  // m/s: slower than this along a normal is not moving
 
 // The events that change how a vertex moves.

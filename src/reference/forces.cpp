@@ -55,10 +55,6 @@ std::vector<Force> forcesOn(const Scene& scene, const Group& group) {
     return out;
 }
 
-glm::dvec3 shapeAcceleration(const ForceShape& shape, const glm::dvec3& x) {
-    return std::visit([&](const auto& force) { return acceleration(force, x); }, shape);
-}
-
 glm::dvec3 forceAcceleration(const std::vector<Force>& forces, const glm::dvec3& x, double time) {
     glm::dvec3 sum(0);
     forEach(forces, time,
@@ -81,20 +77,6 @@ glm::dvec3 thrustAcceleration(const std::vector<Force>& forces, const glm::dvec3
             if (force.rate < 0 || glm::length(velocity) < force.limit) rate += force.rate;
     });
     return rate * velocity;
-}
-
-glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration) {
-    forEach(forces, time, [&]<typename Kind>(const Kind& force, const glm::dvec3&) {
-        if constexpr (std::is_same_v<Kind, ThrustForce>) {
-            const double speed = glm::length(velocity), grown = speed * std::exp(force.rate * duration);
-            if (speed == 0) return;
-            if (force.rate < 0)
-                velocity *= grown / speed;
-            else if (speed < force.limit)
-                velocity *= std::min(grown, force.limit) / speed;
-        }
-    });
-    return velocity;
 }
 
 glm::dvec3 meanVelocity(const Problem& problem, const std::vector<glm::dvec3>& velocity) {

@@ -14,16 +14,12 @@ std::vector<Force> forcesOn(const Scene& scene, const Group& group);
 
 // Sum of attract and vortexLine at x, m/s^2.
 glm::dvec3 forceAcceleration(const std::vector<Force>& forces, const glm::dvec3& x, double time);
-// One of them, without its path; 0 for thrust and wind.
-glm::dvec3 shapeAcceleration(const ForceShape& shape, const glm::dvec3& x);
 
 // Sum of the winds, m/s: part of the fluid's velocity.
 glm::dvec3 forceWind(const std::vector<Force>& forces, double time);
 
-// Thrust on a molecule's mean velocity: the acceleration, m/s^2, and the velocity after `duration` (s),
-// exactly, with the factors of `time`.
+// The acceleration by thrust at a molecule's mean velocity, m/s^2.
 glm::dvec3 thrustAcceleration(const std::vector<Force>& forces, const glm::dvec3& velocity, double time);
-glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration);
 
 // By mass; pinned vertices count as at rest.
 struct Problem;

@@ -3,22 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "molecule/skin.h"
-#include "reference/equations.h"
-
 namespace shoal::reference {
 
 namespace {
 
 glm::dvec3 freeVelocity(const Problem& problem, const Vectors& velocity, size_t vertex) {
     return problem.pinned(vertex) ? glm::dvec3(0) : velocity[vertex];
-}
-
-Vectors freeVelocities(const Problem& problem, const Vectors& velocity) {
-    Vectors out(velocity.size());
-    for (size_t i = 0; i < out.size(); ++i)
-        out[i] = freeVelocity(problem, velocity, i);
-    return out;
 }
 
 }  // namespace
@@ -30,34 +20,6 @@ double restLength(const Problem& problem, const Spring& spring, double time) {
         length *= 1 + muscle->amplitude * std::sin(turns + muscle->phase + problem.phase);
     }
     return length;
-}
-
-State restState(const Problem& problem, const Instance& instance, const glm::dvec3& velocity,
-                const glm::dvec3& spin) {
-    State state;
-    for (size_t i = 0; i < problem.molecule->vertices.size(); ++i) {
-        const glm::dvec3 arm = instance.rotation * (instance.scale * problem.molecule->vertices[i].position);
-        state.position.push_back(instance.position + arm);
-        state.velocity.push_back(problem.pinned(i) ? glm::dvec3(0) : velocity + glm::cross(spin, arm));
-    }
-    return state;
-}
-
-Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
-                           double time) {
-    Vectors out;
-    Equations(problem).springs(position, freeVelocities(problem, velocity), time, out);
-    return out;
-}
-
-Vectors normals(const Problem& problem, const Vectors& position) {
-    return vertexNormals(*problem.molecule, position);
-}
-
-Vectors acceleration(const Problem& problem, const State& state) {
-    Vectors out;
-    Equations(problem).everything(state.position, freeVelocities(problem, state.velocity), state.time, out);
-    return out;
 }
 
 double kineticEnergy(const Problem& problem, const State& state) {

@@ -45,21 +45,8 @@ struct State {
 
 using Vectors = std::vector<glm::dvec3>;
 
-// The rest shape, scaled, turned and moved to the instance, with velocity + spin x (x - placed origin) where
-// free.
-State restState(const Problem& problem, const Instance& instance = {}, const glm::dvec3& velocity = {},
-                const glm::dvec3& spin = {});
-
 // m, with the muscle's share at that time.
 double restLength(const Problem& problem, const Spring& spring, double time);
-// Spring forces divided by the mass, 0 at pinned vertices.
-Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
-                           double time);
-// Unit normals: the sum of the area vectors of the triangles around a vertex; 0 where that vanishes.
-Vectors normals(const Problem& problem, const Vectors& position);
-// Everything: springs, gravity, drag.
-Vectors acceleration(const Problem& problem, const State& state);
-
 double kineticEnergy(const Problem& problem, const State& state);  // J
 double springEnergy(const Problem& problem, const State& state);   // J, with rest lengths of that moment
 // Kinetic + spring + gravity (0 at the origin), in J.

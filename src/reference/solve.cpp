@@ -12,28 +12,6 @@ namespace shoal::reference {
 
 namespace {
 
-// Equations and contact count on pinned vertices that stand still; what a state says of their velocity is
-// kept for its caller.
-void standStill(const Problem& problem, Vectors& velocity) {
-    for (size_t i = 0; i < velocity.size(); ++i) {
-        if (problem.pinned(i)) velocity[i] = glm::dvec3(0);
-    }
-}
-
-void giveBack(const Problem& problem, const Vectors& before, Vectors& velocity) {
-    for (size_t i = 0; i < velocity.size(); ++i) {
-        if (problem.pinned(i)) velocity[i] = before[i];
-    }
-}
-
-// The rates of change of free motion.
-auto motion(Equations& equations) {
-    return [&equations](const Vectors& x, const Vectors& v, double time, RungeKutta::Rates& out) {
-        equations.everything(x, v, time, out.velocity);
-        out.position = v;
-    };
-}
-
 // Whether the springs' damping alone takes every oscillation of at least `rate` rad/s down by e^-20. A mode
 // of frequency w decays at w^2 c / 2k when all springs have that c / k; the least c / k bounds it.
 bool dampedAway(const Problem& problem, double rate, double duration) {
@@ -54,40 +32,40 @@ bool finite(const State& state) {
 State integrateFreely(const Problem& problem, State state, double duration, int64_t steps,
                       Deadline& deadline) {
     Equations equations(problem);
+    const auto rates = [&](const Vectors& x, const Vectors& v, double time, RungeKutta::Rates& out) {
+        equations.everything(x, v, time, out.velocity);
+        out.position = v;
+    };
     RungeKutta method(equations.vertices());
     const double begin = state.time, h = duration / double(steps);
     State next = state;
     for (int64_t i = 0; i < steps; ++i) {
         deadline.check();
-        method.step(state, h, motion(equations), next);
+        method.step(state, h, rates, next);
         std::swap(state, next);
         state.time = begin + double(i + 1) * h;  // a sum of many steps would wander
     }
     return state;
 }
 
-// With whether contact has come to an end in every step.
+// With whether contact has come to an end in every step. Equations and contact count on pinned vertices that
+// stand still; what the start says of their velocity is kept for the caller.
 ContactRun run(const Problem& problem, const State& start, double duration, int64_t steps,
                Deadline& deadline) {
     State still = start;
-    standStill(problem, still.velocity);
+    for (size_t i = 0; i < still.velocity.size(); ++i) {
+        if (problem.pinned(i)) still.velocity[i] = glm::dvec3(0);
+    }
     ContactRun out = problem.colliders.empty()
                          ? ContactRun{integrateFreely(problem, std::move(still), duration, steps, deadline)}
                          : integrateWithContact(problem, still, duration, steps, deadline);
-    giveBack(problem, start.velocity, out.state.velocity);
+    for (size_t i = 0; i < still.velocity.size(); ++i) {
+        if (problem.pinned(i)) out.state.velocity[i] = start.velocity[i];
+    }
     return out;
 }
 
 }  // namespace
-
-void rungeKuttaStep(const Problem& problem, State& state, double h) {
-    Equations equations(problem);
-    State still = state, next = state;
-    standStill(problem, still.velocity);
-    RungeKutta(equations.vertices()).step(still, h, motion(equations), next);
-    giveBack(problem, state.velocity, next.velocity);
-    state = std::move(next);
-}
 
 State integrate(const Problem& problem, const State& start, double duration, int64_t steps) {
     Deadline never;

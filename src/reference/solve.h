@@ -8,9 +8,6 @@
 
 namespace shoal::reference {
 
-// One classical step: RK4. Without contact.
-void rungeKuttaStep(const Problem& problem, State& state, double h);
-
 // `steps` equal steps over `duration`, with contact where the problem has colliders.
 State integrate(const Problem& problem, const State& start, double duration, int64_t steps);
 

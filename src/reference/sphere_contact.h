@@ -1,5 +1,4 @@
-// Contact of spheres in double precision, by brute force: the same equations as shaders/physics/pair.glsl and
-// shaders/contact/respond.glsl (docs/contact.md), written for themselves.
+// Contact of spheres in double precision, by brute force. Their response: tests/reference/sphere_response.h.
 #pragma once
 
 #include <utility>
@@ -18,16 +17,5 @@ struct Sphere {
 
 // All that overlap, of different molecules: first below second. O(n^2).
 std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres);
-
-struct SphereResponse {
-    double stepTime = 0;   // s, since the last contact step
-    double restSpeed = 0;  // m/s: slower is rest
-    double restitution = 0.2, friction = 0.5;
-    int iterations = 4;
-};
-
-// Moves the spheres apart and changes their velocities, all contacts at once.
-void respond(std::vector<Sphere>& spheres, const std::vector<std::pair<int, int>>& contacts,
-             const SphereResponse& settings);
 
 }  // namespace shoal::reference

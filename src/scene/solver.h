@@ -1,5 +1,5 @@
 // The methods that advance a molecule, and what to know of each. Definitions: shaders/solver/<name>.glsl; the
-// same in double precision: reference/discrete.h. h is a substep, w the molecule's highest frequency.
+// same in double precision: tests/reference/discrete.h. h is a substep, w the molecule's highest frequency.
 #pragma once
 
 #include <optional>

@@ -139,11 +139,9 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
     parts_.back().count = group.count - parts_.back().first;
 }
 
-// Returns a part's range of a buffer with `elements` 4-vectors a molecule.
-static GroupBuffers::Range rangeOf(const BufferLayout& layout, const GroupBuffers::Part& part,
-                                   const Buffer& buffer, int elements) {
+GroupBuffers::Range GroupBuffers::rangeOf(const Part& part, const Buffer& buffer, int elements) const {
     const size_t bytes = size_t(elements) * sizeof(glm::vec4);
-    return {&buffer, size_t(part.first) * bytes, layout.padded(size_t(part.count)) * bytes};
+    return {&buffer, size_t(part.first) * bytes, layout_.padded(size_t(part.count)) * bytes};
 }
 
 // Parts are whole workgroups, so that the molecules of a part are one range of every buffer.
@@ -163,7 +161,7 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
         part.first = int(first);
         part.count = int(std::min(most, molecules_ - first));
         const auto texture = [&](const Buffer& buffer, int count, const char* label) {
-            const Range range = rangeOf(layout_, part, buffer, count);
+            const Range range = rangeOf(part, buffer, count);
             return BufferTexture(context, buffer, label, range.offset, range.bytes);
         };
         for (size_t side = 0; side < (inPlace_ ? 1u : 2u); ++side)
@@ -174,26 +172,6 @@ void GroupBuffers::split(gpu::Context& context, size_t largestPart) {
         if (normals_) part.normal = texture(normals_, layout_.positionElements(), "normals");
         parts_.push_back(std::move(part));
     }
-}
-
-GroupBuffers::Range GroupBuffers::newState(const Part& part) const {
-    return rangeOf(layout_, part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
-}
-
-GroupBuffers::Range GroupBuffers::currentState(const Part& part) const {
-    return rangeOf(layout_, part, state_[size_t(current_)], layout_.stateElements());
-}
-
-GroupBuffers::Range GroupBuffers::records(const Part& part) const {
-    return rangeOf(layout_, part, records_, 1);
-}
-
-GroupBuffers::Range GroupBuffers::constants(const Part& part) const {
-    return rangeOf(layout_, part, constants_, 1);
-}
-
-GroupBuffers::Range GroupBuffers::normals(const Part& part) const {
-    return rangeOf(layout_, part, normals_, layout_.positionElements());
 }
 
 void store(const gpu::Program& program, const char* block, int binding, const GroupBuffers::Range& range) {

@@ -51,11 +51,15 @@ class GroupBuffers {
         const gpu::Buffer* buffer;
         size_t offset, bytes;
     };
-    Range newState(const Part& part) const;
-    Range currentState(const Part& part) const;  // to be changed between dispatches
-    Range records(const Part& part) const;
-    Range constants(const Part& part) const;
-    Range normals(const Part& part) const;
+    Range newState(const Part& part) const {
+        return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
+    }
+    Range currentState(const Part& part) const {  // to be changed between dispatches
+        return rangeOf(part, state_[size_t(current_)], layout_.stateElements());
+    }
+    Range records(const Part& part) const { return rangeOf(part, records_, 1); }
+    Range constants(const Part& part) const { return rangeOf(part, constants_, 1); }
+    Range normals(const Part& part) const { return rangeOf(part, normals_, layout_.positionElements()); }
     const gpu::Buffer& steering() const { return steering_; }  // of all parts
     void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
 
@@ -65,6 +69,8 @@ class GroupBuffers {
     bool inPlace() const { return inPlace_; }
 
   private:
+    // A part of a buffer with so many 4-vectors a molecule.
+    Range rangeOf(const Part& part, const gpu::Buffer& buffer, int elements) const;
     void split(gpu::Context& context, size_t largestPart);
     GroupState readSide(const GroupPlan& group, const gpu::Buffer& side) const;
 

@@ -65,20 +65,9 @@ template <typename State, typename Visit>
 void forEachArray(State& state, Visit visit) {
     auto& [positions, velocities, anchors, released, displacements, velocityChanges, lives, seeds, looks,
            clocks, totals, ends, freed, steering] = state;
-    visit(positions);
-    visit(velocities);
-    visit(anchors);
-    visit(released);
-    visit(displacements);
-    visit(velocityChanges);
-    visit(lives);
-    visit(seeds);
-    visit(looks);
-    visit(clocks);
-    visit(totals);
-    visit(ends);
-    visit(freed);
-    visit(steering);
+    const auto visitAll = [&](auto&... arrays) { (visit(arrays), ...); };
+    visitAll(positions, velocities, anchors, released, displacements, velocityChanges, lives, seeds, looks,
+             clocks, totals, ends, freed, steering);
 }
 
 // Room for what the file holds, by what its head says.
@@ -127,9 +116,8 @@ std::vector<GroupState> readBody(FileReader& file, const Head& head, const Plan&
 // ---- What a run can go on from
 
 bool sensible(const Parameters& p) {
-    for (const double value :
-         {p.gravity.x, p.gravity.y, p.gravity.z, p.wind, p.drag, p.stiffness, p.damping, p.frameTime})
-        if (!std::isfinite(value)) return false;
+    for (const double* value : checkpoint::numbersOf(p))
+        if (!std::isfinite(*value)) return false;
     return p.frameTime > 0 && p.substeps >= 1 && p.substeps <= mostSubsteps;
 }
 

@@ -27,7 +27,6 @@
 #include <filesystem>
 
 #include "compile/plan.h"
-#include "simulate/parameters.h"
 #include "simulate/simulation.h"
 
 namespace shoal {

@@ -2,8 +2,6 @@
 
 #include <utility>
 
-#include "simulate/step.h"
-
 namespace shoal::checkpoint {
 
 namespace {
@@ -103,19 +101,13 @@ namespace {
 class Packer {
   public:
     template <typename T>
-    void add(const T& value) {
+    void operator()(const T& value) {
         static_assert(std::is_arithmetic_v<T>);
         bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
     }
-    void add(const std::string& text) {
-        add(uint32_t(text.size()));
+    void operator()(const std::string& text) {
+        (*this)(uint32_t(text.size()));
         bytes += text;
-    }
-    void add(const Parameters& p) {
-        for (const double value :
-             {p.gravity.x, p.gravity.y, p.gravity.z, p.wind, p.drag, p.stiffness, p.damping, p.frameTime})
-            add(value);
-        add(int32_t(p.substeps));
     }
     std::string bytes;
 };
@@ -124,22 +116,14 @@ class Unpacker {
   public:
     Unpacker(const std::string& bytes, const Location& location) : bytes_(bytes), location_(location) {}
     template <typename T>
-    void take(T& value) {
+    void operator()(T& value) {
         static_assert(std::is_arithmetic_v<T>);
         std::memcpy(&value, piece(sizeof value), sizeof value);
     }
-    void take(std::string& text) {
+    void operator()(std::string& text) {
         uint32_t length = 0;
-        take(length);
+        (*this)(length);
         text.assign(piece(length), length);
-    }
-    void take(Parameters& p) {
-        for (double* value : {&p.gravity.x, &p.gravity.y, &p.gravity.z, &p.wind, &p.drag, &p.stiffness,
-                              &p.damping, &p.frameTime})
-            take(*value);
-        int32_t substeps = 0;
-        take(substeps);
-        p.substeps = substeps;
     }
     bool atEnd() const { return at_ == bytes_.size(); }
 
@@ -153,26 +137,41 @@ class Unpacker {
     size_t at_ = 0;
 };
 
+// The parts of a head in the file's order, to a Packer or from an Unpacker. `groups`: how many there are.
+template <typename Archive, typename AnyHead, typename Count>
+void visitStart(Archive& archive, AnyHead& head, Count& groups) {
+    archive(head.time);
+    archive(head.step);
+    archive(head.forces);
+    archive(head.frames);
+    archive(groups);
+    for (auto* parameters : {&head.parameters, &head.own}) {
+        for (auto* number : numbersOf(*parameters))
+            archive(*number);
+        static_assert(sizeof parameters->substeps == sizeof(int32_t));
+        archive(parameters->substeps);
+    }
+}
+
+template <typename Archive, typename AnyGroup>
+void visitGroup(Archive& archive, AnyGroup& group) {
+    archive(group.name);
+    archive(group.count);
+    archive(group.vertexCount);
+    archive(group.springCount);
+    archive(group.shape);
+    archive(group.instances);
+    archive(group.keeps);
+}
+
 }  // namespace
 
 std::string pack(const Head& head) {
     Packer out;
-    out.add(head.time);
-    out.add(head.step);
-    out.add(head.forces);
-    out.add(head.frames);
-    out.add(uint32_t(head.groups.size()));
-    out.add(head.parameters);
-    out.add(head.own);
-    for (const GroupHead& group : head.groups) {
-        out.add(group.name);
-        out.add(group.count);
-        out.add(group.vertexCount);
-        out.add(group.springCount);
-        out.add(group.shape);
-        out.add(group.instances);
-        out.add(group.keeps);
-    }
+    const auto groups = uint32_t(head.groups.size());
+    visitStart(out, head, groups);
+    for (const GroupHead& group : head.groups)
+        visitGroup(out, group);
     return out.bytes;
 }
 
@@ -180,23 +179,9 @@ Head unpack(const std::string& bytes, const Location& location) {
     Unpacker in(bytes, location);
     Head head;
     uint32_t groups = 0;
-    in.take(head.time);
-    in.take(head.step);
-    in.take(head.forces);
-    in.take(head.frames);
-    in.take(groups);
-    in.take(head.parameters);
-    in.take(head.own);
-    for (uint32_t g = 0; g < groups; ++g) {
-        GroupHead& group = head.groups.emplace_back();
-        in.take(group.name);
-        in.take(group.count);
-        in.take(group.vertexCount);
-        in.take(group.springCount);
-        in.take(group.shape);
-        in.take(group.instances);
-        in.take(group.keeps);
-    }
+    visitStart(in, head, groups);
+    for (uint32_t g = 0; g < groups; ++g)
+        visitGroup(in, head.groups.emplace_back());
     if (!in.atEnd()) throw Error(location, "is damaged: its head does not fit together");
     return head;
 }

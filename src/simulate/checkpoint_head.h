@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -10,7 +11,7 @@
 #include <vector>
 
 #include "compile/plan.h"
-#include "simulate/parameters.h"
+#include "simulate/step.h"
 
 namespace shoal::checkpoint {
 
@@ -41,6 +42,13 @@ class Checksum {
 };
 
 constexpr int32_t keepsHistory = 1, keepsSteering = 2;
+
+// The numbers of parameters that a file holds, in its order; those of a Parameters, const or not.
+template <typename P>
+auto numbersOf(P& p) {
+    return std::array{&p.gravity.x, &p.gravity.y, &p.gravity.z, &p.wind,
+                      &p.drag,      &p.stiffness, &p.damping,   &p.frameTime};
+}
 
 struct GroupHead {
     std::string name;

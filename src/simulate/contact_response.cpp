@@ -1,5 +1,4 @@
-// The response of contact on the fused path: the impulses of all contacts, in Jacobi iterations, into the
-// state.
+// The passes of the response of contact on the fused path.
 #include "simulate/molecule_contact.h"
 
 namespace shoal {
@@ -12,8 +11,7 @@ void MoleculeContact::dispatchActive(const Program& program) const {
 }
 
 // Binds what all stages of the response read.
-MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, double stepTime,
-                                                        double restSpeed) const {
+MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, const Times& times) const {
     Textures textures(program);
     textures.add("places", places_.texture)
         .add("sorted", pairs_.texture)
@@ -22,27 +20,21 @@ MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, 
         .add("lists", lists_.texture)
         .add("counts", counts_.texture)
         .add("materials", materials_.texture);
-    program.set("count", contact_->spheres);
-    program.set("cell", float(contact_->cell));
-    program.set("groupCount", int(contact_->groups.size()));
     program.set("listStride", int(padded_));
-    program.set("stepTime", float(stepTime));
-    program.set("restSpeed", float(restSpeed));
+    setResponse(program, times);
     return textures;
 }
 
-void MoleculeContact::runNearest(double stepTime, double restSpeed, const Totals& totals) {
-    bindResponse(nearest_, stepTime, restSpeed);
+void MoleculeContact::runNearest(Buffers&, const Times& times, const Totals& totals) {
+    bindResponse(nearest_, times);
     nearest_.storage("NewImpulses", 0, impulses_[totals.next].buffer);
     nearest_.storage("Shifts", 2, shifts_.buffer);
     dispatchActive(nearest_);
     settled();
 }
 
-// The effective number of contacts that act on the same vertices.
-void MoleculeContact::runEffective(double stepTime, double restSpeed,
-                                   const std::vector<GroupBuffers>& state) {
-    Textures textures = bindResponse(effective_, stepTime, restSpeed);
+void MoleculeContact::runEffective(Buffers& state, const Times& times) {
+    Textures textures = bindResponse(effective_, times);
     if (walls_) textures.add("walls", nearWalls_.texture);
     if (triangles_)
         effective_.storage("Normals", 0, normals_.buffer);
@@ -64,9 +56,8 @@ void MoleculeContact::runEffective(double stepTime, double restSpeed,
     settled();
 }
 
-void MoleculeContact::runStage(const Program& program, double stepTime, double restSpeed,
-                               const Totals& totals) {
-    Textures textures = bindResponse(program, stepTime, restSpeed);
+void MoleculeContact::runStage(Buffers&, const Program& program, const Times& times, const Totals& totals) {
+    Textures textures = bindResponse(program, times);
     textures.add("effectiveCounts", effectiveCounts_.texture)
         .add("impulses", impulses_[totals.last].texture)
         // without momentum the earlier ones do not count, and nobody may have written them yet
@@ -86,7 +77,7 @@ void MoleculeContact::runStage(const Program& program, double stepTime, double r
     settled();
 }
 
-void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Totals& totals) {
+void MoleculeContact::spread(Buffers& state, const Totals& totals) {
     if (!triangles_) return;
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].spread;
@@ -105,14 +96,14 @@ void MoleculeContact::spread(const std::vector<GroupBuffers>& state, const Total
     settled();
 }
 
-void MoleculeContact::apply(const std::vector<GroupBuffers>& state, const Array& impulses) {
+void MoleculeContact::apply(Buffers& state, size_t impulses) {
     forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].apply;
         const bool ofVertices = contact_->groups[g].triangles;
         Textures(program)
             .add(ofVertices ? "slots" : "sorted", ofVertices ? slots_.texture : pairs_.texture)
             .add("counts", counts_.texture)
-            .add("impulses", impulses.texture)
+            .add("impulses", impulses_[impulses].texture)
             .add("shifts", shifts_.texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
@@ -125,35 +116,6 @@ void MoleculeContact::apply(const std::vector<GroupBuffers>& state, const Array&
             dispatchActive(program);
     });
     settled();
-}
-
-void MoleculeContact::respond(const Frame& frame, const std::vector<GroupBuffers>& state) {
-    const double stepTime = frame.parameters.frameTime;
-    // what gravity adds in two steps is no bounce
-    const double restSpeed = 2 * glm::length(frame.parameters.gravity) * stepTime;
-    Totals totals;
-    if (nearest_) {
-        runNearest(stepTime, restSpeed, totals);
-        return apply(state, impulses_[totals.next]);
-    }
-    runEffective(stepTime, restSpeed, state);
-    const auto run = [&](const Program& program) {
-        runStage(program, stepTime, restSpeed, totals);
-        totals = {totals.next, totals.last, totals.earlier};
-    };
-    run(guess_);
-    for (int i = 0; i < contact_->settings.iterations; ++i) {
-        totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
-        spread(state, totals);
-        run(relax_);
-    }
-    totals.momentum = 0;
-    for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
-        spread(state, totals);
-        run(friction_);
-    }
-    run(correction_);
-    apply(state, impulses_[totals.last]);
 }
 
 }  // namespace shoal

@@ -244,7 +244,7 @@ std::optional<std::vector<GroupState>> Fused::readBefore() const {
     for (size_t g = 0; g < state.size(); ++g) {
         if (state[g].inPlace()) return {};
         out.push_back(state[g].readBefore(plan_->groups[g]));
-        undoRecords(*plan_, plan_->groups[g], out.back());
+        undoRecords(plan_->groups[g], out.back());
     }
     return out;
 }

@@ -41,10 +41,8 @@ MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel,
 
 MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                                  const Tables& tables, gpu::ProgramCache* cache)
-    : context_(&context),
-      plan_(&plan),
-      contact_(&plan.contact),
-      tables_(&tables),
+    : ContactPasses(plan, tables),
+      context_(&context),
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
       sort_((checkLimits(context.info(), plan.contact, plan.contact.settings.location), context), shaderRoot,
             padded_, cache) {
@@ -109,22 +107,9 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         if (define) options.defines.emplace_back(define);
         return Program(*context_, shaderRoot, options);
     };
-    const auto stage = [&](const char* name) {
-        options.generated = responseStage(name);
-        return make("respond");
-    };
     order_ = make("order");
-    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
     if (staggered_.buffer) findStaggered_ = make("neighbors", "STAGGERED");
-    if (contact_->settings.response == ContactResponse::nearest) {
-        nearest_ = make("nearest");
-        return;
-    }
-    effective_ = make("effective");
-    guess_ = stage("guess");
-    relax_ = stage("relax");
-    friction_ = stage("friction");
-    correction_ = stage("correction");
+    makeStages(options, make);
 }
 
 void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& shaderRoot,
@@ -205,7 +190,7 @@ void MoleculeContact::setWalls(const Program& program, const ContactGroup& group
     program.storage("Walls", 4, nearWalls_.buffer);
 }
 
-void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::vector<GroupBuffers>& state) {
+void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& state) {
     forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
         const ContactGroup& group = contact_->groups[g];
         const Program& program = groups_[g].spheres;
@@ -218,7 +203,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, const std::ve
             setWalls(program, group, frame);
         }
         program.set("label", int(uint32_t(g) << 26) + part.first);
-        program.set("keyMask", (1 << contact_->tableBits) - 1);
+        program.set("keyMask", keyMask());
         program.set("cell", float(contact_->cell));
         program.set("givenRadius", float(group.radius));
         program.set("cellShift", glm::vec3(staggered ? float(contact_->cell / 2) : 0.0f));
@@ -238,7 +223,7 @@ void MoleculeContact::order() {
         .add("spherePlaces", spherePlaces_.texture)
         .add("sphereCells", sphereCells_.texture);
     order_.set("count", contact_->spheres);
-    order_.set("keyMask", (1 << contact_->tableBits) - 1);
+    order_.set("keyMask", keyMask());
     order_.storage("Starts", 0, starts_.buffer);
     order_.storage("Places", 1, places_.buffer);
     order_.storage("Slots", 2, slots_.buffer);
@@ -248,7 +233,7 @@ void MoleculeContact::order() {
     settled();
 }
 
-void MoleculeContact::buildGrid(const Frame& frame, const std::vector<GroupBuffers>& state) {
+void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
     const size_t count = size_t(contact_->spheres);
     makeKeys(false, frame, state);
     sort_.sort(pairs_.buffer, count, contact_->tableBits);
@@ -268,7 +253,7 @@ void MoleculeContact::find(const Program& program) {
     if (contact_->settings.search == ContactSearch::exact) {
         textures.add("starts", starts_.texture);
         program.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
-        program.set("keyMask", (1 << contact_->tableBits) - 1);
+        program.set("keyMask", keyMask());
     }
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
     program.set("count", contact_->spheres);
@@ -282,23 +267,9 @@ void MoleculeContact::find(const Program& program) {
     settled();
 }
 
-void MoleculeContact::search() {
+void MoleculeContact::search(Buffers&) {
     find(find_);
     if (findStaggered_) find(findStaggered_);
-}
-
-void MoleculeContact::step(const Frame& frame, const std::vector<GroupBuffers>& state,
-                           gpu::PassTimers& timers) {
-    {
-        const auto timer = timers.time("contact grid");
-        buildGrid(frame, state);
-    }
-    {
-        const auto timer = timers.time("contact search");
-        search();
-    }
-    const auto timer = timers.time("contact response");
-    respond(frame, state);
 }
 
 uint32_t MoleculeContact::dropped() const {
@@ -322,9 +293,7 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
             out.emplace_back(std::minmax(int(sorted[2 * slot + 1]), int(sorted[2 * other + 1])));
         }
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+    return once(std::move(out));
 }
 
 size_t MoleculeContact::bytes() const {

@@ -18,28 +18,19 @@
 #include <string>
 #include <vector>
 
-#include "compile/plan.h"
 #include "gpu/buffer.h"
-#include "gpu/pass_timers.h"
-#include "gpu/program.h"
 #include "simulate/buffer_state.h"
-#include "simulate/execution_path.h"
-#include "simulate/step.h"
-#include "simulate/tables.h"
+#include "simulate/contact_passes.h"
 #include "sort/radix_sort.h"
 
 namespace shoal {
 
-class MoleculeContact : public ContactResult {
+class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
   public:
     // Borrows the plan and the tables. Error: more spheres than the context can hold, with how many it can;
     // out of memory.
     MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                     const Tables& tables, gpu::ProgramCache* cache);
-
-    // Spheres that touch are pushed apart and bounce, rub and rest, in the current side of the state.
-    // `frame`: the substeps since the last contact step.
-    void step(const Frame& frame, const std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
     uint32_t dropped() const override;
     int listLength() const override { return contact_->listLength; }
@@ -47,6 +38,7 @@ class MoleculeContact : public ContactResult {
     size_t bytes() const override;
 
   private:
+    using Buffers = const std::vector<GroupBuffers>;
     // A buffer and how shaders read it.
     struct Array {
         gpu::Buffer buffer;
@@ -79,29 +71,24 @@ class MoleculeContact : public ContactResult {
     void makeExclusions();
     void makeMaterials();
 
-    void buildGrid(const Frame& frame, const std::vector<GroupBuffers>& state);
-    void makeKeys(bool staggered, const Frame& frame, const std::vector<GroupBuffers>& state);
+    void buildGrid(const Frame& frame, Buffers& state) override;
+    void makeKeys(bool staggered, const Frame& frame, Buffers& state);
     void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
     void order();
-    void search();
+    void search(Buffers& state) override;
     void find(const gpu::Program& program);
-    void respond(const Frame& frame, const std::vector<GroupBuffers>& state);
-    // An iteration reads the totals of the two before it, which lie in these.
-    struct Totals {
-        size_t last = 0, earlier = 1, next = 2;
-        float momentum = 0;  // by how much it goes on beyond the last
-    };
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
                       int first) const;
-    Textures bindResponse(const gpu::Program& program, double stepTime, double restSpeed) const;
-    void runNearest(double stepTime, double restSpeed, const Totals& totals);
-    void runEffective(double stepTime, double restSpeed, const std::vector<GroupBuffers>& state);
-    void runStage(const gpu::Program& program, double stepTime, double restSpeed, const Totals& totals);
-    void spread(const std::vector<GroupBuffers>& state, const Totals& totals);
-    void apply(const std::vector<GroupBuffers>& state, const Array& impulses);
+    Textures bindResponse(const gpu::Program& program, const Times& times) const;
+    void runNearest(Buffers& state, const Times& times, const Totals& totals) override;
+    void runEffective(Buffers& state, const Times& times) override;
+    void runStage(Buffers& state, const gpu::Program& program, const Times& times,
+                  const Totals& totals) override;
+    void spread(Buffers& state, const Totals& totals) override;
+    void apply(Buffers& state, size_t impulses) override;
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
-    void forParts(const std::vector<GroupBuffers>& state, const Run& run) {
+    void forParts(Buffers& state, const Run& run) {
         for (size_t g = 0; g < groups_.size(); ++g) {
             const ContactGroup& group = contact_->groups[g];
             for (const GroupBuffers::Part& part : state[group.group].parts())
@@ -113,13 +100,10 @@ class MoleculeContact : public ContactResult {
     void dispatchActive(const gpu::Program& program) const;
 
     gpu::Context* context_;
-    const Plan* plan_;
-    const ContactPlan* contact_;
-    const Tables* tables_;
     size_t padded_;  // spheres, to whole workgroups
     bool triangles_ = false, self_ = false, walls_ = false;
     std::vector<GroupPrograms> groups_;
-    gpu::Program order_, find_, findStaggered_, effective_, guess_, relax_, friction_, correction_, nearest_;
+    gpu::Program order_, findStaggered_;
     RadixSort sort_;
     Array pairs_, staggered_, starts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_, normals_,
         velocities_;

@@ -5,15 +5,10 @@
 
 namespace shoal {
 
-using gpu::Framebuffer;
 using gpu::Program;
 using gpu::Texture;
 
 namespace {
-
-constexpr const char* fragmentShaders[] = {"passes/records.frag", "passes/normals.frag", "passes/thrust.frag",
-                                           "passes/restore.frag", "passes/advect.frag",  "passes/stage.frag",
-                                           "passes/collide.frag", "passes/watch.frag"};
 
 std::vector<std::string> defines(const GroupPlan& group) {
     const Needs& needs = group.needs;
@@ -77,7 +72,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         if (program || (pass.kind == PassKind::watch && !options.watchdog)) continue;
         gpu::ProgramOptions wanted;
         wanted.vertex = "passes/fullscreen.vert";
-        wanted.fragment = fragmentShaders[size_t(pass.kind)];
+        wanted.fragment = concat("passes/", name(pass.kind), ".frag");
         wanted.defines = defines(plan.groups[pass.group]);
         if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
         wanted.generated = {{"generated/fields.glsl", plan.fieldSource},
@@ -140,7 +135,7 @@ void PingPong::watch(gpu::PassTimers& timers) {
         const auto timer = timers.time(name(pass.kind));
         const GroupPlan& group = plan_->groups[pass.group];
         prepare(pass.kind, group, pass.group);
-        drawState(group, state.target(state.velocity.write(pass.group)));
+        drawState(group, {&state.velocity.write(pass.group)});
     }
     glEndQuery(GL_ANY_SAMPLES_PASSED);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -203,12 +198,7 @@ bool readsForces(PassKind kind, const Needs& needs) {
 const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t index) {
     const Program& program = *programs_[index][size_t(kind)];
     program.use();
-    program.set("firstRow", group.texture.firstRow);
-    program.set("slabRows", group.texture.slabRows);
-    program.set("moleculeCount", group.count);
-    program.set("vertexCount", group.vertexCount);
-    program.set("firstRecordRow", group.texture.firstRecordRow);
-    program.set("topologyBase", group.topologyBase);
+    setGroup(program, group);
     program.texture("positions", 0, state.position.read(index));
     program.texture("velocities", 1, state.velocity.read(index));
     if (state.acceleration) program.texture("accelerations", 2, state.acceleration.read(index));
@@ -241,16 +231,25 @@ void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan&
     program.set("forceParameters", std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
 }
 
-void PingPong::drawState(const GroupPlan& group, const Framebuffer& target) {
-    target.bind(0, group.texture.firstRow, std::min(stateWidth, group.count), group.texture.rows);
+void PingPong::draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets) {
+    state.target(targets).bind(0, firstRow, std::min(stateWidth, group.count), rows);
     noAttributes_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void PingPong::drawRecords(const GroupPlan& group, const Framebuffer& target) {
-    target.bind(0, group.texture.firstRecordRow, std::min(stateWidth, group.count), group.texture.slabRows);
-    noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+void PingPong::drawState(const GroupPlan& group, const Targets& targets) {
+    draw(group, group.texture.firstRow, group.texture.rows, targets);
+}
+
+void PingPong::drawVelocity(const GroupPlan& group, size_t index) {
+    drawState(group, {&state.velocity.write(index)});
+    state.velocity.flip(index);
+}
+
+void PingPong::drawMotion(const GroupPlan& group, size_t index) {
+    drawState(group, {&state.position.write(index), &state.velocity.write(index)});
+    state.position.flip(index);
+    state.velocity.flip(index);
 }
 
 void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
@@ -262,7 +261,7 @@ void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
         program.set("releaseChance", limits.chance);
         program.set("frame", step.frame.number);
     }
-    drawRecords(group, state.target(state.record.write(index)));
+    draw(group, group.texture.firstRecordRow, group.texture.slabRows, {&state.record.write(index)});
     state.record.flip(index);
 }
 
@@ -270,15 +269,14 @@ void PingPong::normals(const GroupPlan& group, size_t index, const Step& step, b
     const Program& program = prepare(PassKind::normals, group, index);
     const bool halfDrift = ahead && group.solver == SolverKind::leapfrog;
     program.set("aheadTime", float(halfDrift ? step.h / 2 : 0));
-    drawState(group, state.target(state.normal));
+    drawState(group, {&state.normal});
 }
 
 void PingPong::thrust(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::thrust, group, index);
     setForces(program, PassKind::thrust, group, step);
     program.set("whole", int(shoal::solver(group.solver).order == 1));
-    drawState(group, state.target(state.velocity.write(index)));
-    state.velocity.flip(index);
+    drawVelocity(group, index);
 }
 
 void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
@@ -286,16 +284,14 @@ void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, b
     if (group.solver != SolverKind::leapfrog) {
         setSprings(program, group, step, step.time, 0);
         program.set("kickTime", float(step.h));
-        drawState(group, state.target(state.velocity.write(index)));
-        state.velocity.flip(index);
-        return;
+        return drawVelocity(group, index);
     }
     setSprings(program, group, step, frameStart ? step.time : step.time + step.h,
                frameStart ? 0 : step.h / 2);
     program.set("kickTime", float(frameStart ? 0 : step.h / 2));
-    const Texture& acceleration = state.acceleration.write(index);
-    drawState(group, frameStart ? state.target(acceleration)
-                                : state.target(acceleration, &state.velocity.write(index)));
+    Targets targets = {&state.acceleration.write(index)};
+    if (!frameStart) targets.push_back(&state.velocity.write(index));
+    drawState(group, targets);
     state.acceleration.flip(index);
     if (!frameStart) state.velocity.flip(index);
 }
@@ -312,9 +308,7 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
     program.set("phi", drag.phi);
     program.set("slips", int(drag.slips));
     program.set("moveAnchors", int(step.first && group.needs.records));
-    drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
-    state.position.flip(index);
-    state.velocity.flip(index);
+    drawMotion(group, index);
 }
 
 // Stage s of a substep reads side s - 1 of the stages, or the state, and writes side s, or the new state.
@@ -327,7 +321,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
         const Program& normals = prepare(PassKind::normals, group, index);
         normals.texture("positions", 0, position);
         normals.set("aheadTime", 0.0f);
-        drawState(group, state.target(state.normal));
+        drawState(group, {&state.normal});
     }
     const Program& program = prepare(PassKind::stage, group, index);
     const double time = step.time + at[s] * step.h;
@@ -350,9 +344,9 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
                 glm::vec2(group.drag.normal, group.drag.tangent) * float(step.frame.parameters.drag));
     program.set("moveAnchors", int(step.first && group.needs.records));
     const bool last = s == 3;
-    drawState(group, state.target({last ? &state.position.write(index) : &state.stagePosition[write],
-                                   last ? &state.velocity.write(index) : &state.stageVelocity[write],
-                                   &state.sumVelocity[write], &state.sumAcceleration[write]}));
+    drawState(group, {last ? &state.position.write(index) : &state.stagePosition[write],
+                      last ? &state.velocity.write(index) : &state.stageVelocity[write],
+                      &state.sumVelocity[write], &state.sumAcceleration[write]});
     if (!last) return;
     state.position.flip(index);
     state.velocity.flip(index);
@@ -370,9 +364,7 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
             program.set("colliderParameters",
                         std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
     }
-    drawState(group, state.target(state.position.write(index), &state.velocity.write(index)));
-    state.position.flip(index);
-    state.velocity.flip(index);
+    drawMotion(group, index);
 }
 
 }  // namespace shoal

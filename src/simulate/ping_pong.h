@@ -70,8 +70,11 @@ class PingPong : public ExecutionPath {
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step, double time,
                     double predictTime);
     void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
-    void drawState(const GroupPlan& group, const gpu::Framebuffer& target);
-    void drawRecords(const GroupPlan& group, const gpu::Framebuffer& target);
+    using Targets = std::vector<const gpu::Texture*>;
+    void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);
+    void drawState(const GroupPlan& group, const Targets& targets);
+    void drawVelocity(const GroupPlan& group, size_t index);  // into the other side, the current one then
+    void drawMotion(const GroupPlan& group, size_t index);    // position and velocity, likewise
 
     const Plan* plan_;
     const Tables* tables_;

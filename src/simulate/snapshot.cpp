@@ -64,9 +64,9 @@ Snapshot Simulation::snapshot(size_t index) const {
 uint64_t Simulation::hash() const {
     uint64_t hash = 14695981039346656037ull;
     const auto add = [&](uint32_t bits) { hash = (hash ^ bits) * 1099511628211ull; };
-    const auto addAll = [&](const std::vector<glm::vec3>& values) {
-        for (const glm::vec3& value : values)
-            for (int c = 0; c < 3; ++c)
+    const auto addAll = [&](const auto& values) {
+        for (const auto& value : values)
+            for (int c = 0; c < value.length(); ++c)
                 add(std::bit_cast<uint32_t>(value[c]));
     };
     for (size_t g = 0; g < plan_.groups.size(); ++g) {
@@ -78,13 +78,8 @@ uint64_t Simulation::hash() const {
         addAll(state.anchors);
         for (const uint8_t released : state.released)
             add(released);
-        for (const glm::vec4& value : state.steering)
-            for (int c = 0; c < 4; ++c)
-                add(std::bit_cast<uint32_t>(value[c]));
-        for (const glm::vec2& life : state.lives) {
-            add(std::bit_cast<uint32_t>(life.x));
-            add(std::bit_cast<uint32_t>(life.y));
-        }
+        addAll(state.steering);
+        addAll(state.lives);
     }
     return hash;
 }

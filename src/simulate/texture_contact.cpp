@@ -20,9 +20,7 @@ static_assert(TextureContact::longestList % 4 == 0);
 
 TextureContact::TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                                const Tables& tables, gpu::ProgramCache* cache)
-    : plan_(&plan),
-      contact_(&plan.contact),
-      tables_(&tables),
+    : ContactPasses(plan, tables),
       rowBits_(plan.contact.rowBits()),
       sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
             cache),
@@ -86,24 +84,11 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
         options.label = concat("contact ", file);
         return Program(context, shaderRoot, options);
     };
-    const auto stage = [&](const char* name) {
-        options.generated = responseStage(name);
-        return make("respond");
-    };
     keys_ = make("keys");
     starts_ = make("starts");
     order_ = make("order");
     slots_ = make("slots");
-    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
-    if (contact_->settings.response == ContactResponse::nearest) {
-        nearest_ = make("nearest");
-        return;
-    }
-    effective_ = make("effective");
-    guess_ = stage("guess");
-    relax_ = stage("relax");
-    friction_ = stage("friction");
-    correction_ = stage("correction");
+    makeStages(options, make);
 }
 
 void TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
@@ -136,14 +121,8 @@ void TextureContact::drawAll(TextureState& state, const Into& into) const {
 
 // Binds what shaders/state/textures.glsl reads.
 void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
-    const GroupPlan& plan = plan_->groups[group.group];
     program.use();
-    program.set("firstRow", plan.texture.firstRow);
-    program.set("slabRows", plan.texture.slabRows);
-    program.set("moleculeCount", plan.count);
-    program.set("vertexCount", plan.vertexCount);
-    program.set("firstRecordRow", plan.texture.firstRecordRow);
-    program.set("topologyBase", plan.topologyBase);
+    setGroup(program, plan_->groups[group.group]);
     program.set("firstSphere", group.firstSphere);
     program.texture("positions", 0, state.position.read(group.group));
     program.texture("velocities", 1, state.velocity.read(group.group));
@@ -173,7 +152,7 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
     keys_.texture("sphereCells", 0, sphereCells_);
     keys_.texture("spherePlaces", 1, spherePlaces_);
     keys_.set("count", contact_->spheres);
-    keys_.set("keyMask", (1 << contact_->tableBits) - 1);
+    keys_.set("keyMask", keyMask());
     keys_.set("cell", float(contact_->cell));
     keys_.set("staggered", int(staggered));
     sort.drawInto(sort.target());
@@ -182,7 +161,7 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
     sort.sort();
 }
 
-void TextureContact::buildGrid(TextureState& state) {
+void TextureContact::buildGrid(const Frame&, TextureState& state) {
     makeSpheres(state);
     sortKeys(sort_, false);
     if (staggered_) sortKeys(*staggered_, true);
@@ -202,11 +181,11 @@ void TextureContact::buildGrid(TextureState& state) {
     slots_.texture("sphereCells", 1, sphereCells_);
     slots_.texture("starts", 2, startsOf_);
     slots_.set("count", contact_->spheres);
-    slots_.set("keyMask", (1 << contact_->tableBits) - 1);
+    slots_.set("keyMask", keyMask());
     drawAll(state, {&slotsOf_});
 }
 
-void TextureContact::find(TextureState& state) {
+void TextureContact::search(TextureState& state) {
     find_.use();
     find_.texture("places", 0, places_);
     find_.texture("cells", 1, cells_);
@@ -221,7 +200,7 @@ void TextureContact::find(TextureState& state) {
         find_.texture("slots", 5, slotsOf_);
     }
     find_.set("count", contact_->spheres);
-    find_.set("keyMask", (1 << contact_->tableBits) - 1);
+    find_.set("keyMask", keyMask());
     find_.set("cell", float(contact_->cell));
     countsSide_ = 1 - countsSide_;
     drawAll(state, {&counts_[countsSide_], &lists_});
@@ -236,11 +215,7 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
     program.texture("counts", 3, counts_[countsSide_]);
     program.texture("lists", 4, lists_);
     program.texture("materials", 5, materials_);
-    program.set("count", contact_->spheres);
-    program.set("cell", float(contact_->cell));
-    program.set("groupCount", int(contact_->groups.size()));
-    program.set("stepTime", float(times.step));
-    program.set("restSpeed", float(times.restSpeed));
+    setResponse(program, times);
     return 6;
 }
 
@@ -267,7 +242,7 @@ void TextureContact::runStage(TextureState& state, const Program& program, const
     }
 }
 
-void TextureContact::apply(TextureState& state, const Texture& impulses) {
+void TextureContact::apply(TextureState& state, size_t impulses) {
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const TextureLayout& at = plan_->groups[group.group].texture;
@@ -275,7 +250,7 @@ void TextureContact::apply(TextureState& state, const Texture& impulses) {
         bindState(program, group, state);
         program.texture("slots", 5, slotsOf_);
         program.texture("counts", 6, counts_[countsSide_]);
-        program.texture("impulses", 7, impulses);
+        program.texture("impulses", 7, impulses_[impulses]);
         program.texture("shifts", 8, shifts_);
         draw(state, {&state.position.write(group.group), &state.velocity.write(group.group)}, at.firstRow,
              at.rows);
@@ -284,46 +259,14 @@ void TextureContact::apply(TextureState& state, const Texture& impulses) {
     }
 }
 
-void TextureContact::respond(const Frame& frame, TextureState& state) {
-    const double stepTime = frame.parameters.frameTime;
-    // what gravity adds in two steps is no bounce
-    const Times times{stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime};
-    Totals totals;
-    if (nearest_) {
-        bindResponse(nearest_, times);
-        drawAll(state, {&impulses_[totals.next], &shifts_});
-        return apply(state, impulses_[totals.next]);
-    }
-    bindResponse(effective_, times);
-    drawAll(state, {&effectiveCounts_});
-    const auto run = [&](const Program& program) {
-        runStage(state, program, times, totals);
-        totals = {totals.next, totals.last, totals.earlier, 0, totals.pushes};
-    };
-    run(guess_);
-    for (int i = 0; i < contact_->settings.iterations; ++i) {
-        totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
-        run(relax_);
-    }
-    totals.momentum = 0;
-    totals.pushes = totals.last;
-    for (int i = 0; i < ContactPlan::frictionRounds; ++i)
-        run(friction_);
-    run(correction_);
-    apply(state, impulses_[totals.last]);
+void TextureContact::runNearest(TextureState& state, const Times& times, const Totals& totals) {
+    bindResponse(nearest_, times);
+    drawAll(state, {&impulses_[totals.next], &shifts_});
 }
 
-void TextureContact::step(const Frame& frame, TextureState& state, gpu::PassTimers& timers) {
-    {
-        const auto timer = timers.time("contact grid");
-        buildGrid(state);
-    }
-    {
-        const auto timer = timers.time("contact search");
-        find(state);
-    }
-    const auto timer = timers.time("contact response");
-    respond(frame, state);
+void TextureContact::runEffective(TextureState& state, const Times& times) {
+    bindResponse(effective_, times);
+    drawAll(state, {&effectiveCounts_});
 }
 
 static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
@@ -356,9 +299,7 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
             }
         }
     }
-    std::sort(out.begin(), out.end());
-    out.erase(std::unique(out.begin(), out.end()), out.end());
-    return out;
+    return once(std::move(out));
 }
 
 size_t TextureContact::bytes() const {

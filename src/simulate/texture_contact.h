@@ -21,32 +21,23 @@
 #include <string>
 #include <vector>
 
-#include "compile/plan.h"
 #include "gpu/buffer.h"
-#include "gpu/pass_timers.h"
-#include "gpu/program.h"
 #include "gpu/texture.h"
-#include "simulate/execution_path.h"
-#include "simulate/step.h"
-#include "simulate/tables.h"
+#include "simulate/contact_passes.h"
 #include "simulate/texture_state.h"
 #include "sort/network_sort.h"
 
 namespace shoal {
 
-class TextureContact : public ContactResult {
+class TextureContact : public ContactPasses<TextureState> {
   public:
     // Entries of a list: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
     static constexpr int longestList = 24;
 
-    // Borrows the plan and the tables. Error: out of memory; the driver refuses a shader.
+    // Borrows the plan and the tables. A step reads the current sides of positions and velocities and writes
+    // the others; blending, tests and masks are off in it. Error: out of memory; the driver refuses a shader.
     TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                    const Tables& tables, gpu::ProgramCache* cache);
-
-    // Spheres that touch are pushed apart and bounce, rub and rest: from the current sides of positions and
-    // velocities into the others. `frame`: the substeps since the last contact step. Blending, tests and
-    // masks are off.
-    void step(const Frame& frame, TextureState& state, gpu::PassTimers& timers);
 
     uint32_t dropped() const override;
     int listLength() const override { return longestList; }
@@ -57,16 +48,6 @@ class TextureContact : public ContactResult {
     struct GroupPrograms {
         gpu::Program spheres, apply;
     };
-    // An iteration reads the totals of the two before it, which lie in these.
-    struct Totals {
-        size_t last = 0, earlier = 1, next = 2;
-        float momentum = 0;            // by how much it goes on beyond the last
-        std::optional<size_t> pushes;  // where those lie that friction is bounded by
-    };
-    struct Times {
-        double step;       // s
-        double restSpeed;  // m/s
-    };
     using Into = std::vector<const gpu::Texture*>;
 
     void makeTextures(gpu::Context& context);
@@ -76,25 +57,23 @@ class TextureContact : public ContactResult {
 
     void makeSpheres(TextureState& state);
     void sortKeys(NetworkSort& sort, bool staggered);
-    void buildGrid(TextureState& state);
-    void find(TextureState& state);
-    void respond(const Frame& frame, TextureState& state);
+    void buildGrid(const Frame& frame, TextureState& state) override;
+    void search(TextureState& state) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
-    void runStage(TextureState& state, const gpu::Program& program, const Times& times, const Totals& totals);
-    void apply(TextureState& state, const gpu::Texture& impulses);
+    void runNearest(TextureState& state, const Times& times, const Totals& totals) override;
+    void runEffective(TextureState& state, const Times& times) override;
+    void runStage(TextureState& state, const gpu::Program& program, const Times& times,
+                  const Totals& totals) override;
+    void apply(TextureState& state, size_t impulses) override;
 
     void bindState(const gpu::Program& program, const ContactGroup& group, TextureState& state) const;
     void draw(TextureState& state, const Into& into, int firstRow, int rows) const;
     void drawAll(TextureState& state, const Into& into) const;  // the rows of all spheres
     int rowsOf(int numbers) const;
 
-    const Plan* plan_;
-    const ContactPlan* contact_;
-    const Tables* tables_;
     int rowBits_;
     std::vector<GroupPrograms> groups_;
-    gpu::Program keys_, starts_, order_, slots_, find_;
-    gpu::Program nearest_, effective_, guess_, relax_, friction_, correction_;
+    gpu::Program keys_, starts_, order_, slots_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;

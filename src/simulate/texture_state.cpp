@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "gpu/buffer.h"
+#include "gpu/program.h"
 
 namespace shoal {
 
@@ -32,6 +33,15 @@ static TwoSided makeSides(gpu::Context& context, const Plan& plan, int rows, con
         texture = makeTexture(context, plan, rows, label);
     sides.now.assign(plan.groups.size(), 0);
     return sides;
+}
+
+void setGroup(const gpu::Program& program, const GroupPlan& group) {
+    program.set("firstRow", group.texture.firstRow);
+    program.set("slabRows", group.texture.slabRows);
+    program.set("moleculeCount", group.count);
+    program.set("vertexCount", group.vertexCount);
+    program.set("firstRecordRow", group.texture.firstRecordRow);
+    program.set("topologyBase", group.topologyBase);
 }
 
 TextureState::TextureState(gpu::Context& context, const Plan& plan) : context_(&context) {
@@ -141,10 +151,6 @@ GroupState TextureState::readOne(const GroupPlan& group, size_t index, size_t mo
 
 std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
     return asVertices(group, downloadRows(normal, group.texture.firstRow, group.texture.rows));
-}
-
-const Framebuffer& TextureState::target(const Texture& first, const Texture* second) {
-    return second ? target({&first, second}) : target({&first});
 }
 
 const Framebuffer& TextureState::target(const std::vector<const Texture*>& colors) {

@@ -25,6 +25,13 @@
 
 namespace shoal {
 
+namespace gpu {
+class Program;
+}
+
+// Sets where the group's data lies, for shaders/state/textures.glsl.
+void setGroup(const gpu::Program& program, const GroupPlan& group);
+
 // Two textures, of which each group has its own current side: a group that did not step is never stale.
 struct TwoSided {
     std::array<gpu::Texture, 2> side;
@@ -55,7 +62,6 @@ class TextureState {
     gpu::Texture normal, constant;
 
     // Framebuffer that draws into the given sides (made once per combination).
-    const gpu::Framebuffer& target(const gpu::Texture& first, const gpu::Texture* second = nullptr);
     const gpu::Framebuffer& target(const std::vector<const gpu::Texture*>& colors);
 
   private:

@@ -20,19 +20,15 @@ glm::vec3 anchorShift(const glm::vec3& p) {
     return glm::floor(p * 16.0f + 0.5f) * 0.0625f;
 }
 
-bool isPinned(const Plan& plan, const GroupPlan& group, int vertex) {
-    return plan.topology[size_t(group.topologyBase + group.vertexCount + vertex)].y > 0.5f;
-}
-
 // In world coordinates.
 glm::dvec3 placeOf(const GroupState& state, size_t molecule, size_t vertex) {
     return glm::dvec3(state.anchors[molecule]) + glm::dvec3(state.positions[vertex]);
 }
 
-bool wasHeld(const Plan& plan, const GroupPlan& group, const GroupState& state, size_t molecule) {
-    for (int v = 0; v < group.vertexCount; ++v) {
-        if (!isPinned(plan, group, v)) continue;
-        const size_t i = molecule * size_t(group.vertexCount) + size_t(v);
+bool wasHeld(const GroupPlan& group, const GroupState& state, size_t molecule) {
+    for (size_t v = 0; v < group.pinned.size(); ++v) {
+        if (!group.pinned[v]) continue;
+        const size_t i = molecule * group.pinned.size() + v;
         if (state.velocities[i] != glm::vec3(0) ||
             placeOf(state, molecule, i) != placeOf(group.start, molecule, i))
             return false;
@@ -94,11 +90,11 @@ bool runsAway(const Alarm& alarm) {
 Runaway::Runaway(const Plan& plan, const Alarm& alarm)
     : Error(plan.groups[alarm.group].location, describe(plan, alarm)), alarm_(alarm) {}
 
-void undoRecords(const Plan& plan, const GroupPlan& group, GroupState& state) {
+void undoRecords(const GroupPlan& group, GroupState& state) {
     const size_t vertices = size_t(group.vertexCount);
     for (size_t m = 0; m < state.anchors.size(); ++m) {
         if (group.needs.records) state.anchors[m] -= anchorShift(state.positions[m * vertices]);
-        if (state.released[m] && wasHeld(plan, group, state, m)) state.released[m] = 0;
+        if (state.released[m] && wasHeld(group, state, m)) state.released[m] = 0;
     }
 }
 

@@ -51,6 +51,6 @@ class Runaway : public Error {
 // changes in place. This takes those of `state`, the side before the last frame, back to what they were then:
 // an anchor moved by a shift that follows from vertex 0, and pins that had not been released were where they
 // started, at rest.
-void undoRecords(const Plan& plan, const GroupPlan& group, GroupState& state);
+void undoRecords(const GroupPlan& group, GroupState& state);
 
 }  // namespace shoal

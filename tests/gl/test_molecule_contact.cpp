@@ -4,7 +4,7 @@
 
 #include "gl/feature_scenes.h"
 #include "gl/numerics.h"
-#include "reference/sphere_contact.h"
+#include "reference/sphere_response.h"
 #include "support/catch.h"
 
 namespace shoal {

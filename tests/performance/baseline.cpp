@@ -22,7 +22,7 @@
 #include "bench/baseline.h"
 #include "bench/baseline_threads.h"
 #include "molecule/molecule_file.h"
-#include "reference/problem.h"
+#include "reference/discrete.h"
 
 using namespace shoal;
 using namespace shoal::bench;

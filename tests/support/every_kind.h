@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "reference/problem.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "support/shapes.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/problem.h"
+#include "reference/discrete.h"
 
 namespace shoal::test {
 

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "bench/contact_baseline.h"
-#include "reference/sphere_contact.h"
+#include "reference/sphere_response.h"
 #include "support/catch.h"
 
 namespace shoal::bench {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "molecule/skin.h"
 #include "reference/discrete.h"
 #include "reference/fields.h"
 #include "reference/noise.h"
@@ -164,7 +165,7 @@ TEST_CASE("shader drag agrees with the reference's step", "[physics]") {
             problem.fields.push_back(test::field(UniformField{wind}));
             const reference::State start =
                 reference::restState(problem, {.rotation = test::turned()}, {0.5, 2, -1}, {1, 0, 1});
-            const reference::Vectors n = reference::normals(problem, start.position);
+            const reference::Vectors n = vertexNormals(*problem.molecule, start.position);
             reference::State next = start;
             const double h = 0.01;
             reference::eulerStep(problem, next, h);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "molecule/skin.h"
 #include "reference/discrete.h"
 #include "reference/fields.h"
 #include "reference/noise.h"
@@ -108,7 +109,7 @@ TEST_CASE("directional drag splits at the surface and equals plain drag for equa
     Problem problem{.molecule = &molecule, .drag = {9, 2}};
     problem.fields.push_back(test::field(UniformField{{1, 2, 3}}));
     const State state = restState(problem, {.rotation = test::turned()}, {0.2, 0, 0}, {1, 0, 2});
-    const Vectors a = acceleration(problem, state), n = normals(problem, state.position);
+    const Vectors a = acceleration(problem, state), n = vertexNormals(*problem.molecule, state.position);
     for (size_t i = 0; i < a.size(); ++i) {
         const glm::dvec3 slip = glm::dvec3(1, 2, 3) - state.velocity[i];
         CHECK(glm::length(n[i]) == Approx(1));

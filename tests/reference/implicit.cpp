@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 
 #include "compile/kernel.h"
+#include "molecule/skin.h"
 #include "reference/discrete.h"
 #include "reference/fields.h"
 #include "reference/forces.h"
@@ -70,7 +71,8 @@ Vectors fallAt(const Problem& problem, const Vectors& position, double time) {
 }
 
 Vectors surfaceAt(const Problem& problem, const Vectors& position) {
-    return problem.drag.directional() ? normals(problem, position) : Vectors(position.size(), glm::dvec3(0));
+    return problem.drag.directional() ? vertexNormals(*problem.molecule, position)
+                                      : Vectors(position.size(), glm::dvec3(0));
 }
 
 void relax(const Problem& problem, const State& state, Stage& stage, size_t index, double& pushed) {

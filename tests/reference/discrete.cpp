@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "molecule/skin.h"
+#include "reference/equations.h"
 #include "reference/fields.h"
 #include "reference/forces.h"
 #include "reference/solve.h"
@@ -31,7 +33,7 @@ glm::dvec3 linearPart(const Problem& problem, const glm::dvec3& v, const glm::dv
 void applyLinearPart(const Problem& problem, Vectors& velocity, const Vectors& position, double time,
                      double h, bool slips = false) {
     Vectors normal(position.size(), glm::dvec3(0));
-    if (problem.drag.directional()) normal = normals(problem, position);
+    if (problem.drag.directional()) normal = vertexNormals(*problem.molecule, position);
     for (size_t i = 0; i < position.size(); ++i) {
         if (problem.pinned(i)) continue;
         glm::dvec3 u(0);
@@ -48,7 +50,53 @@ void add(const Problem& problem, Vectors& to, const Vectors& rate, double h) {
     }
 }
 
+Vectors freeVelocities(const Problem& problem, const Vectors& velocity) {
+    Vectors out(velocity.size());
+    for (size_t i = 0; i < out.size(); ++i)
+        out[i] = problem.pinned(i) ? glm::dvec3(0) : velocity[i];
+    return out;
+}
+
 }  // namespace
+
+State restState(const Problem& problem, const Instance& instance, const glm::dvec3& velocity,
+                const glm::dvec3& spin) {
+    State state;
+    for (size_t i = 0; i < problem.molecule->vertices.size(); ++i) {
+        const glm::dvec3 arm = instance.rotation * (instance.scale * problem.molecule->vertices[i].position);
+        state.position.push_back(instance.position + arm);
+        state.velocity.push_back(problem.pinned(i) ? glm::dvec3(0) : velocity + glm::cross(spin, arm));
+    }
+    return state;
+}
+
+Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
+                           double time) {
+    Vectors out;
+    Equations(problem).springs(position, freeVelocities(problem, velocity), time, out);
+    return out;
+}
+
+Vectors acceleration(const Problem& problem, const State& state) {
+    Vectors out;
+    Equations(problem).everything(state.position, freeVelocities(problem, state.velocity), state.time, out);
+    return out;
+}
+
+glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration) {
+    for (const Force& force : forces) {
+        const auto* kind = std::get_if<ThrustForce>(&*force.shape);
+        if (!kind || force.mouse) continue;
+        const ThrustForce thrust = kind->times(momentOf(force.path, time).factor);
+        const double speed = glm::length(velocity), grown = speed * std::exp(thrust.rate * duration);
+        if (speed == 0) continue;
+        if (thrust.rate < 0)
+            velocity *= grown / speed;
+        else if (speed < thrust.limit)
+            velocity *= std::min(grown, thrust.limit) / speed;
+    }
+    return velocity;
+}
 
 void push(const Problem& problem, State& state, double h) {
     const glm::dvec3 mean = meanVelocity(problem, state.velocity);
@@ -103,7 +151,8 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
     Vectors springs;
     if (kind == SolverKind::leapfrog)
         springs = springAcceleration(problem, state.position, state.velocity, state.time);
-    Problem smooth = problem;  // without thrust
+    Problem smooth = problem;  // without thrust and contact
+    smooth.colliders.clear();
     std::erase_if(smooth.forces,
                   [](const Force& force) { return std::holds_alternative<ThrustForce>(*force.shape); });
     History history;
@@ -120,7 +169,7 @@ void frame(const Problem& problem, State& state, SolverKind kind, double duratio
             break;
         case SolverKind::rk4:
             push(problem, state, h / 2);
-            rungeKuttaStep(smooth, state, h);
+            state = integrate(smooth, state, h, 1);
             push(problem, state, h / 2);
             break;
         case SolverKind::xpbd:

@@ -12,6 +12,20 @@
 
 namespace shoal::reference {
 
+// The rest shape, scaled, turned and moved to the instance, with velocity + spin x (x - placed origin) where
+// free.
+State restState(const Problem& problem, const Instance& instance = {}, const glm::dvec3& velocity = {},
+                const glm::dvec3& spin = {});
+
+// Spring forces divided by the mass, 0 at pinned vertices.
+Vectors springAcceleration(const Problem& problem, const Vectors& position, const Vectors& velocity,
+                           double time);
+// Everything: springs, gravity, drag.
+Vectors acceleration(const Problem& problem, const State& state);
+
+// A mean velocity after `duration` (s) of thrust, exactly, with the factors of `time`.
+glm::dvec3 thrusted(const std::vector<Force>& forces, glm::dvec3 velocity, double time, double duration);
+
 // The thrust over h: what the mean velocity gains goes to all that is not pinned.
 void push(const Problem& problem, State& state, double h);
 
