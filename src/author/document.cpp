@@ -130,8 +130,7 @@ void Document::restart(Molecule molecule) {
 
 void Document::save() {
     std::string there = readFile(file_);
-    if (there != text_)
-        throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
+    if (there != text_) throw Error(Location{file_}, "was changed by another program since it was opened");
     const std::string edited = withEdits(text_, now_);
     if (edited != text_) writeFile(file_, edited);
     // one state of the draft is the file's now; those before and after it keep their origins where the

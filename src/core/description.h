@@ -19,7 +19,6 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "core/contract.h"
-#include "core/json_values.h"
 #include "core/where.h"
 
 namespace shoal {

@@ -8,6 +8,14 @@
 
 namespace shoal {
 
+Location locate(std::string_view text, size_t position, const std::string& file) {
+    const std::string_view before = text.substr(0, position);
+    const size_t lineEnd = before.rfind('\n');
+    const size_t start = lineEnd == std::string_view::npos ? 0 : lineEnd + 1;
+    const auto lines = std::count(before.begin(), before.end(), '\n');
+    return {file, int(lines) + 1, int(before.size() - start) + 1};
+}
+
 std::string prefix(const Location& location) {
     if (location.file.empty()) return {};
     std::string out = printable(location.file) + ":";

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace shoal {
@@ -19,10 +20,13 @@ struct Location {
     std::string file;
     int line = 0;
     int column = 0;
-    std::string path;  // JSON path such as $.springs[3].a, empty outside JSON
+    std::string path = {};  // JSON path such as $.springs[3].a, empty outside JSON
 
     bool empty() const { return file.empty(); }
 };
+
+// The line and column of a byte of a text.
+Location locate(std::string_view text, size_t position, const std::string& file);
 
 // "file:line:column: " with the parts that are known; empty for an empty location.
 std::string prefix(const Location& location);

@@ -22,7 +22,7 @@ std::string kindOf(mode_t mode) {
 
 // Looked at before it is opened, because a FIFO would wait for its writer and a device may do anything; and
 // afterwards, because it may have become another one in between.
-FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
+FileReader::FileReader(const fs::path& path) : location_{path.string()} {
     refuseOutside(path);
     struct stat status {};
     const auto needRegular = [&] {
@@ -88,7 +88,7 @@ static bool takesBytes(const fs::path& path) {
 // A FIFO that nobody reads would be waited for.
 static FilePointer openForBytes(const fs::path& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    const Location location{path.string(), 0, 0, {}};
+    const Location location{path.string()};
     if (file < 0 && errno == ENXIO) throw Error(location, "cannot be written: nobody reads there");
     if (file < 0) throw Error(location, concat("cannot be written: ", std::strerror(errno)));
     ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
@@ -99,7 +99,7 @@ void checkWritable(const fs::path& path) {
     if (!takesBytes(path))
         PartFile{path};  // made, and taken away again
     else if (::access(path.c_str(), W_OK) != 0)
-        throw Error(Location{path.string(), 0, 0, {}}, concat("cannot be written: ", std::strerror(errno)));
+        throw Error(Location{path.string()}, concat("cannot be written: ", std::strerror(errno)));
 }
 
 FileWriter::FileWriter(const fs::path& path) : path_(path) {
@@ -113,7 +113,7 @@ FileWriter::FileWriter(const fs::path& path) : path_(path) {
 }
 
 void FileWriter::fail(int cause) const {
-    throw Error(Location{path_.string(), 0, 0, {}},
+    throw Error(Location{path_.string()},
                 concat("cannot be written: ", std::strerror(cause), " (nothing was kept)"));
 }
 

@@ -39,7 +39,7 @@ struct Decoder {
     png_structp png = nullptr;
     png_infop info = nullptr;
 
-    Decoder(const std::string& source, const std::string& file) : bytes(source), location{file, 0, 0, {}} {
+    Decoder(const std::string& source, const std::string& file) : bytes(source), location{file} {
         constexpr size_t signature = 8;
         const auto* head = reinterpret_cast<png_const_bytep>(bytes.data());
         if (bytes.size() < signature || png_sig_cmp(head, 0, signature) != 0)

@@ -50,19 +50,14 @@ std::string scalar(const JsonValue& value) {
     }
 }
 
-bool isContainer(const JsonValue& value) {
-    return value.kind == JsonValue::Kind::array || value.kind == JsonValue::Kind::object;
-}
-
 bool isPlainNumbers(const JsonValue& value) {
-    if (value.kind != JsonValue::Kind::array) return false;
-    for (const JsonValue& item : value.items)
-        if (item.kind != JsonValue::Kind::number) return false;
-    return true;
+    return value.kind == JsonValue::Kind::array &&
+           std::all_of(value.items.begin(), value.items.end(),
+                       [](const JsonValue& item) { return item.kind == JsonValue::Kind::number; });
 }
 
 void writeLine(const JsonValue& value, std::string& out) {
-    if (!isContainer(value)) {
+    if (!value.isContainer()) {
         out += scalar(value);
         return;
     }
@@ -85,7 +80,7 @@ void writeLine(const JsonValue& value, std::string& out) {
 // `element`: the value stands in an array, where short things keep to one line.
 void write(const JsonValue& value, size_t indent, bool element, std::string& out) {
     const bool empty = value.items.empty() && value.members.empty();
-    if (!isContainer(value) || empty || isPlainNumbers(value)) return writeLine(value, out);
+    if (!value.isContainer() || empty || isPlainNumbers(value)) return writeLine(value, out);
     if (element) {
         std::string line;
         writeLine(value, line);
@@ -120,36 +115,23 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 }
 
 JsonValue JsonValue::makeNumber(double value) {
-    JsonValue out;
-    out.kind = Kind::number;
-    out.number = value;
-    return out;
+    return {.kind = Kind::number, .number = value};
 }
 
 JsonValue JsonValue::makeString(std::string value) {
-    JsonValue out;
-    out.kind = Kind::string;
-    out.text = std::move(value);
-    return out;
+    return {.kind = Kind::string, .text = std::move(value)};
 }
 
 JsonValue JsonValue::makeBoolean(bool value) {
-    JsonValue out;
-    out.kind = Kind::boolean;
-    out.boolean = value;
-    return out;
+    return {.kind = Kind::boolean, .boolean = value};
 }
 
 JsonValue JsonValue::makeArray() {
-    JsonValue out;
-    out.kind = Kind::array;
-    return out;
+    return {.kind = Kind::array};
 }
 
 JsonValue JsonValue::makeObject() {
-    JsonValue out;
-    out.kind = Kind::object;
-    return out;
+    return {.kind = Kind::object};
 }
 
 JsonValue& JsonValue::add(std::string key, JsonValue value) {

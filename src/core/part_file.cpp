@@ -115,11 +115,11 @@ int takeSlot(const std::string& path) {
 }  // namespace
 
 PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks(target)) {
-    const Location location{given_.string(), 0, 0, {}};
+    const Location location{given_.string()};
     std::error_code code;
     const fs::path folder = target_.parent_path();
     if (!folder.empty()) fs::create_directories(folder, code);
-    if (code) throw Error(Location{folder.string(), 0, 0, {}}, "cannot make this folder: " + code.message());
+    if (code) throw Error(Location{folder.string()}, "cannot make this folder: " + code.message());
     struct stat status {
     }, output{};
     if (::stat(target_.c_str(), &status) == 0) {
@@ -151,7 +151,7 @@ PartFile::~PartFile() {
 void PartFile::replaceTarget() {
     std::error_code code;
     fs::rename(path_, target_, code);
-    if (code) throw Error(Location{given_.string(), 0, 0, {}}, concat("cannot be written: ", code.message()));
+    if (code) throw Error(Location{given_.string()}, concat("cannot be written: ", code.message()));
     path_.clear();
 }
 
@@ -159,9 +159,8 @@ SoleWriter::SoleWriter(const fs::path& target) : part_(concat(target.string(), "
     const std::optional<PartName> own = partName(part_.path().filename().string());
     forEachPart(part_.path().parent_path(), [&](const fs::path& path, const PartName& part) {
         if (part.name == own->name && part.process != own->process && isWritten(path, part.process))
-            throw Error(Location{target.string(), 0, 0, {}},
-                        concat("is being written by another run, process ", part.process,
-                               ": give this one another name"));
+            throw Error(Location{target.string()}, concat("is being written by another run, process ",
+                                                          part.process, ": give this one another name"));
     });
 }
 

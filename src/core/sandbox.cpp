@@ -43,7 +43,7 @@ bool mayOpen(const fs::path& path) {
 }
 
 void refuseOutside(const fs::path& path) {
-    if (!mayOpen(path)) throw Error(Location{path.string(), 0, 0, {}}, outsideSandbox);
+    if (!mayOpen(path)) throw Error(Location{path.string()}, outsideSandbox);
 }
 
 }  // namespace shoal

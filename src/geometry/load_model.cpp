@@ -79,7 +79,7 @@ class Collector {
     bool anyColors = false, anyUvs = false;
 
   private:
-    Error fail(const std::string& message) const { return Error(Location{file_, 0, 0, {}}, message); }
+    Error fail(const std::string& message) const { return Error(Location{file_}, message); }
 
     std::string materialName(const aiMesh& part) const {
         aiString name;
@@ -196,7 +196,7 @@ bool tellsOfMemory(const std::string& message) {
 }
 
 Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
-    const Location location{file, 0, 0, {}};
+    const Location location{file};
     Assimp::Importer importer;
     importer.SetIOHandler(new ModelFiles(std::move(opened)));  // which the importer deletes
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
@@ -274,7 +274,7 @@ void checkWhole(const Mesh& mesh, const Location& location) {
 }
 
 Mesh readConfined(const std::string& file) {
-    const Location location{file, 0, 0, {}};
+    const Location location{file};
     Confined child(location, ConfinedLimits{}, [&](ToParent& parent) {
         put(parent, readModel(file, [&](uint64_t bytes) { parent.opened(bytes); }));
     });

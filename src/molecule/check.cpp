@@ -59,7 +59,7 @@ class Checker {
 
     // Returns the location of an element that came from a file, else that of the file.
     Location place(const Places& places, size_t index) const {
-        return index < places.size() ? places[index] : Location{m_.file, 0, 0, {}};
+        return index < places.size() ? places[index] : Location{m_.file};
     }
     Finding& find(Finding::Kind kind, Location location, std::string message) {
         Finding& out = findings_.emplace_back();
@@ -238,7 +238,7 @@ class Checker {
         const Analysis free = analyse(m_, false);
         if (!free.modesKnown || free.zeroModes == 0) return;
         const size_t count = size_t(free.zeroModes);
-        find(Kind::soft, {m_.file, 0, 0, {}},
+        find(Kind::soft, {m_.file},
              concat("the springs leave ", many(int64_t(count), "motion", "motions"),
                     " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
                     "what is flat (by about 0.12 of its size)"));

@@ -216,7 +216,7 @@ std::string withEdits(const std::string& text, const Draft& draft) {
         const std::vector<int>& origins = originsOf(draft, key);
         const int most = origins.empty() ? -1 : *std::max_element(origins.begin(), origins.end());
         if (most >= int(old ? old->items.size() : 0))
-            throw Error(Location{file, 0, 0, {}},
+            throw Error(Location{file},
                         concat("has fewer ", key, " than when it was opened: nothing was saved"));
     }
     liftDefault("vertices", "mass", root, draft.origins.vertices, before, after);
@@ -235,7 +235,7 @@ std::string withEdits(const std::string& text, const Draft& draft) {
     std::string out = withChanges(text, std::move(changes));
     // no file is left that says something else, or that nobody can open
     if (!sameJson(toJson(parseMolecule(out, file), true), toJson(draft.molecule, true)))
-        throw Error(Location{file, 0, 0, {}}, "could not be changed in place: nothing was saved");
+        throw Error(Location{file}, "could not be changed in place: nothing was saved");
     return out;
 }
 

@@ -380,7 +380,7 @@ Image readTexture(const Molecule& molecule) {
     try {
         return readPng(file);
     } catch (const Error& error) {
-        throw Error(Location{molecule.file, 0, 0, "$.material.texture"},
+        throw Error(Location{.file = molecule.file, .path = "$.material.texture"},
                     concat("the texture \"", file.string(), "\": ", error.message()));
     }
 }

@@ -40,7 +40,7 @@ AxisMap axisMap(FieldAxes axes) {
 Box boundsOf(const FileGrid& grid, const AxisMap& map, const GridSource& source, const std::string& file) {
     if (source.bounds) return *source.bounds;
     if (grid.low == grid.high)
-        throw Error(Location{file, 0, 0, {}},
+        throw Error(Location{file},
                     "this format does not say where the field lies: the scene needs \"bounds\"");
     const glm::dvec3 a = map(grid.low * source.scale) + source.origin;
     const glm::dvec3 b = map(grid.high * source.scale) + source.origin;
@@ -48,9 +48,8 @@ Box boundsOf(const FileGrid& grid, const AxisMap& map, const GridSource& source,
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(box.low[i]) < largest && std::abs(box.high[i]) < largest) ||
             !(box.low[i] < box.high[i]))
-            throw Error(Location{file, 0, 0, {}},
-                        concat("bounds of ", box.low[i], " to ", box.high[i], " m along ", axisNames[i],
-                               " after scaling are beyond single precision"));
+            throw Error(Location{file}, concat("bounds of ", box.low[i], " to ", box.high[i], " m along ",
+                                               axisNames[i], " after scaling are beyond single precision"));
     return box;
 }
 
@@ -59,22 +58,21 @@ void checkSame(const GridField& field, const glm::ivec3& resolution, const Box& 
                const std::string& file) {
     const auto triple = [](const auto& v) { return concat(v.x, " x ", v.y, " x ", v.z); };
     if (resolution != field.resolution)
-        throw Error(Location{file, 0, 0, {}}, concat("has ", triple(resolution), " cells, ", field.file,
-                                                     " of the same sequence has ", triple(field.resolution)));
+        throw Error(Location{file}, concat("has ", triple(resolution), " cells, ", field.file,
+                                           " of the same sequence has ", triple(field.resolution)));
     const glm::dvec3 slack = 1e-6 * (field.high - field.low);  // what was written as text
     for (int i = 0; i < 3; ++i)
         if (std::abs(box.low[i] - field.low[i]) > slack[i] ||
             std::abs(box.high[i] - field.high[i]) > slack[i])
-            throw Error(
-                Location{file, 0, 0, {}},
-                concat("reaches from ", box.low[i], " to ", box.high[i], " m along ", axisNames[i], ", ",
-                       field.file, " of the same sequence from ", field.low[i], " to ", field.high[i]));
+            throw Error(Location{file}, concat("reaches from ", box.low[i], " to ", box.high[i], " m along ",
+                                               axisNames[i], ", ", field.file, " of the same sequence from ",
+                                               field.low[i], " to ", field.high[i]));
 }
 
 [[noreturn]] void refuseValue(const glm::vec3& value, const glm::ivec3& cell, const std::string& file) {
     const bool finite = std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
     throw Error(
-        Location{file, 0, 0, {}},
+        Location{file},
         concat("cell (", cell.x, ", ", cell.y, ", ", cell.z, ") holds (", value.x, ", ", value.y, ", ",
                value.z, "), ", finite ? "after scaling beyond single precision" : "expected finite numbers"));
 }

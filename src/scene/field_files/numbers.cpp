@@ -98,13 +98,4 @@ void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndi
     }
 }
 
-Location locate(const std::string& text, size_t position, const std::string& file) {
-    position = std::min(position, text.size());
-    const auto begin = text.begin(), here = begin + std::ptrdiff_t(position);
-    const size_t line = size_t(std::count(begin, here, '\n')) + 1;
-    const size_t lineEnd = position == 0 ? std::string::npos : text.rfind('\n', position - 1);
-    const size_t start = lineEnd == std::string::npos ? 0 : lineEnd + 1;
-    return {file, int(line), int(position - start) + 1, {}};
-}
-
 }  // namespace shoal

@@ -38,9 +38,6 @@ class NumberScanner {
     int beginLine_ = 1;
 };
 
-// The line and column, from 1, of a byte of a text.
-Location locate(const std::string& text, size_t position, const std::string& file);
-
 // Numbers as bytes.
 enum class NumberType { float16, float32, float64 };
 inline size_t bytesOf(NumberType type) {

@@ -40,7 +40,7 @@ RawLayout parseRawLayout(const std::string& text, const std::string& file) {
 }
 
 FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::string& file) {
-    const Location where{file, 0, 0, {}};
+    const Location where{file};
     const Box bounds = layout.bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
     FileGrid grid{layout.resolution, bounds.low, bounds.high, {}};
     const glm::ivec3 size = layout.resolution;

@@ -3,7 +3,7 @@
 namespace shoal {
 
 FileGrid parseVf(const std::string& bytes, const std::string& file) {
-    const Location where{file, 0, 0, {}};
+    const Location where{file};
     constexpr size_t headerBytes = 4 + 3 * 2;
     if (bytes.rfind("VF_F", 0) == 0)
         throw Error(where, "holds single numbers (VF_F), expected vectors (VF_V)");

@@ -24,8 +24,8 @@ HeightFieldCollider heightsOfImage(const HeightSource& source, const Where& wher
     checkRectangle(source.low, source.high, where);
     const HeightImage image = readHeightPng(file);
     if (image.width < 2 || image.height < 2)
-        throw Error(Location{file, 0, 0, {}}, concat("expected an image of at least 2 by 2 pixels, found ",
-                                                     image.width, " by ", image.height));
+        throw Error(Location{file}, concat("expected an image of at least 2 by 2 pixels, found ", image.width,
+                                           " by ", image.height));
     return heightFieldFromImage(image, source.low, source.high, source.heights);
 }
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "core/description.h"
-#include "core/json_values.h"
 #include "core/where.h"
 #include "geometry/distance_field.h"
 #include "scene/scene.h"
