@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace shoal {
 
@@ -31,23 +32,19 @@ JsonValue reference(const char* name) {
     return object({{"$ref", text(concat("#/$defs/", name))}});
 }
 
-void addRange(JsonValue& out, const Range& range) {
+JsonValue number(const char* type, const Range& range) {
+    JsonValue out = object({{"type", text(type)}});
     if (std::isfinite(range.least))
         out.add(range.aboveLeast ? "exclusiveMinimum" : "minimum", JsonValue::makeNumber(range.least));
     if (std::isfinite(range.most)) out.add("maximum", JsonValue::makeNumber(range.most));
-}
-
-JsonValue number(const char* type, const Range& range) {
-    JsonValue out = object({{"type", text(type)}});
-    addRange(out, range);
     return out;
 }
 
-JsonValue numbers(int count, const Range& range) {
+JsonValue numbers(int count, const Range& range, const char* type = "number") {
     return object({{"type", text("array")},
                    {"minItems", JsonValue::makeNumber(count)},
                    {"maxItems", JsonValue::makeNumber(count)},
-                   {"items", number("number", range)}});
+                   {"items", number(type, range)}});
 }
 
 bool limited(const Range& range) {
@@ -62,10 +59,7 @@ JsonValue valueSchema(const Key& key) {
     case Kind::whole:
         return number("integer", range);
     case Kind::whole3:
-        return object({{"type", text("array")},
-                       {"minItems", JsonValue::makeNumber(3)},
-                       {"maxItems", JsonValue::makeNumber(3)},
-                       {"items", number("integer", range)}});
+        return numbers(3, range, "integer");
     case Kind::seed:
         return number("integer", Range::between(0, 4294967295.0));
     case Kind::longSeed:
@@ -164,12 +158,10 @@ bool same(const std::vector<Condition>& a, const std::vector<Condition>& b) {
 
 // Which keys may be there only beside which others, and which must be then.
 void addConditions(const Description& of, std::vector<std::string>& rules) {
-    std::vector<const std::vector<Condition>*> done;
     for (const Key& key : of.keys()) {
-        if (key.only.empty()) continue;
-        if (std::any_of(done.begin(), done.end(), [&](const auto* one) { return same(*one, key.only); }))
-            continue;
-        done.push_back(&key.only);
+        const auto first = std::find_if(of.keys().begin(), of.keys().end(),
+                                        [&](const Key& other) { return same(other.only, key.only); });
+        if (key.only.empty() || &*first != &key) continue;
         JsonValue there = JsonValue::makeArray();
         std::vector<std::string> needed;
         for (const Key& other : of.keys()) {
@@ -216,6 +208,36 @@ JsonValue closed(const std::string& sentence, JsonValue properties, const std::v
     if (!all.items.empty()) out.add("allOf", std::move(all));
     return out;
 }
+
+// What tables call the kinds of keys, in the order of Key::Kind; those that are limited also say how.
+struct TypeWords {
+    const char* words;
+    bool limited = false;
+};
+constexpr TypeWords typeWords[] = {
+    {"number", true},
+    {"whole number", true},
+    {"three whole numbers", true},
+    {"whole number from 0 to 4294967295"},
+    {"whole number of 64 bits"},
+    {"true or false"},
+    {""},  // a word
+    {"string"},
+    {"list of strings"},
+    {"two numbers", true},
+    {"[x, y, z]", true},
+    {"direction"},
+    {"colour"},
+    {"number or [least, most]", true},
+    {"number or [first, last]", true},
+    {"box, m"},
+    {"rotation"},
+    {"object"},
+    {"list of objects"},
+    {""},  // a variant
+    {"see the text"},
+};
+static_assert(std::size(typeWords) == size_t(Kind::byHand) + 1);
 
 JsonValue schemaOfAlternative(const Description& of, const Key& variant, const Description& one) {
     JsonValue properties = object(
@@ -308,54 +330,16 @@ std::string typeText(const Key& key) {
                          : concat(" of at least ", range.least);
         return key.says.unit.empty() ? words : words + ", " + key.says.unit;
     };
-    switch (key.kind) {
-    case Kind::number:
-        return withUnit("number");
-    case Kind::whole:
-        return withUnit("whole number");
-    case Kind::whole3:
-        return withUnit("three whole numbers");
-    case Kind::seed:
-        return "whole number from 0 to 4294967295";
-    case Kind::longSeed:
-        return "whole number of 64 bits";
-    case Kind::flag:
-        return "true or false";
-    case Kind::text:
-        return key.says.unit.empty() ? "string" : key.says.unit;
-    case Kind::texts:
-        return "list of strings";
-    case Kind::vector2:
-        return withUnit("two numbers");
-    case Kind::vector3:
-        return withUnit("[x, y, z]");
-    case Kind::direction:
-        return "direction";
-    case Kind::color:
-        return "colour";
-    case Kind::span:
-        return withUnit("number or [least, most]");
-    case Kind::ends:
-        return withUnit("number or [first, last]");
-    case Kind::box:
-        return "box, m";
-    case Kind::rotation:
-        return "rotation";
-    case Kind::word:
-    case Kind::variant: {
+    if (key.kind == Kind::word || key.kind == Kind::variant) {
         std::string out;
         for (const std::string& word : key.words)
             out += concat(out.empty() ? "" : ", ", "`\"", word, "\"`");
         return out;
     }
-    case Kind::object:
-        return "object";
-    case Kind::list:
-        return "list of objects";
-    case Kind::byHand:
-        return key.says.unit.empty() ? "see the text" : key.says.unit;
-    }
-    return {};
+    const bool own = key.kind == Kind::text || key.kind == Kind::byHand;  // the unit says what it is
+    if (own && !key.says.unit.empty()) return key.says.unit;
+    const TypeWords& type = typeWords[size_t(key.kind)];
+    return type.limited ? withUnit(type.words) : type.words;
 }
 
 std::string meaningOf(const Key& key) {
