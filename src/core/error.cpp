@@ -1,9 +1,13 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
+#include "core/contract.h"
 #include "core/printable.h"
 
 namespace shoal {
@@ -78,6 +82,15 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     for (const std::string& candidate : candidates)
         out += (out.empty() ? "" : ", ") + candidate;
     return out.empty() ? out : " (expected one of " + out + ")";
+}
+
+void contractBroken(const char* file, int line, const char* condition) {
+    const std::string_view whole(file);
+    const size_t source = whole.rfind("src/");  // the folder of the tree says nothing to a reader
+    const std::string_view shown = source == std::string_view::npos ? whole : whole.substr(source);
+    std::fprintf(stderr, "%.*s:%d: broken contract: %s\n", int(shown.size()), shown.data(), line, condition);
+    std::fflush(stderr);
+    std::abort();
 }
 
 }  // namespace shoal

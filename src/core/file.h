@@ -1,5 +1,5 @@
 // Reads and writes whole files, with errors that say what to do. Sources: file.cpp; part_file.cpp for files
-// that are not whole yet; sandbox.cpp for which files may be opened.
+// that are not whole yet.
 #pragma once
 
 #include <sys/types.h>

@@ -8,7 +8,6 @@ namespace shoal {
 
 namespace {
 
-constexpr const char* axisNames[] = {"x", "y", "z"};
 constexpr double largest = 1e30;  // squares of larger ones overflow in single precision
 
 // Which of the file's axes each scene axis takes, and whether z runs the other way.

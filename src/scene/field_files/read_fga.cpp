@@ -1,12 +1,8 @@
 #include "scene/field_files/field_file.h"
 
-#include <cmath>
-
 namespace shoal {
 
 namespace {
-
-constexpr const char* axisNames[] = {"x", "y", "z"};
 
 double need(NumberScanner& numbers, const std::string& what) {
     double value = 0;
@@ -47,20 +43,11 @@ FileGrid parseFga(const std::string& text, const std::string& file) {
             ++found;
         throw Error(numbers.here(), concat("expected ", expected, " values, found ", found));
     }
-    grid.values.resize(expected / 3);
-    size_t found = 0;
-    for (float& out : asFloats(grid.values)) {
-        double value = 0;
-        if (!numbers.next(value))
-            throw Error(numbers.here(), concat("expected ", expected, " values, found ", found));
-        if (!(std::abs(value) < 1e30))
-            throw Error(numbers.here(), concat("a velocity of ", value, " is beyond single precision"));
-        out = float(value);
-        ++found;
-    }
+    grid.values = takeVelocities(numbers, expected / 3);
     if (double extra = 0; numbers.next(extra)) {
         const Location where = numbers.here();
-        for (++found; numbers.next(extra);)
+        size_t found = expected + 1;
+        while (numbers.next(extra))
             ++found;
         throw Error(where, concat("expected ", expected, " values, found ", found));
     }

@@ -70,4 +70,26 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
     return grid;
 }
 
+FileGrid parseVf(const std::string& bytes, const std::string& file) {
+    const Location where{file};
+    constexpr size_t headerBytes = 4 + 3 * 2;
+    if (bytes.rfind("VF_F", 0) == 0)
+        throw Error(where, "holds single numbers (VF_F), expected vectors (VF_V)");
+    if (bytes.rfind("VF_V", 0) != 0) throw Error(where, "expected a file that begins with \"VF_V\"");
+    if (bytes.size() < headerBytes)
+        throw Error(where, concat("expected a header of ", headerBytes, " bytes, found ", bytes.size()));
+    RawLayout layout;
+    for (int i = 0; i < 3; ++i) {
+        const auto byte = [&](int k) { return int(uint8_t(bytes[size_t(4 + 2 * i + k)])); };
+        layout.resolution[i] = byte(0) | byte(1) << 8;
+    }
+    const glm::ivec3 size = layout.resolution;
+    const size_t expected = headerBytes + 12 * countCells(glm::dvec3(size), where);
+    if (bytes.size() != expected)
+        throw Error(where, concat(size.x, " x ", size.y, " x ", size.z, " cells take ", expected,
+                                  " bytes, found ", bytes.size()));
+    layout.skip = headerBytes;
+    return parseRaw(bytes, layout, file);
+}
+
 }  // namespace shoal

@@ -262,17 +262,7 @@ class Reader {
         if ((end - begin) / 2 + 1 < 3 * cells)
             throw at(array, concat("expected ", 3 * cells, " values, found fewer"));
         NumberScanner scanner(text_, begin, end, file_);
-        std::vector<glm::vec3> out(cells);
-        size_t found = 0;
-        for (float& value : asFloats(out)) {
-            double number = 0;
-            if (!scanner.next(number))
-                throw Error(scanner.here(), concat("expected ", 3 * cells, " values, found ", found));
-            if (!(std::abs(number) < 1e30))
-                throw Error(scanner.here(), concat("a velocity of ", number, " is beyond single precision"));
-            value = float(number);
-            ++found;
-        }
+        std::vector<glm::vec3> out = takeVelocities(scanner, cells);
         if (double extra = 0; scanner.next(extra))
             throw Error(scanner.here(), concat("expected ", 3 * cells, " values, found more"));
         return out;
