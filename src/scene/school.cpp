@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/describe.h"
-#include "scene/scene.h"
+#include "scene/json/reader.h"
 
 namespace shoal {
 
@@ -122,9 +122,7 @@ static bool targets(const std::vector<SchoolTarget>& list, const std::string& na
 }
 
 void checkSchools(const std::vector<Group>& groups) {
-    std::vector<std::string> names;
-    for (const Group& group : groups)
-        names.push_back(group.name);
+    const std::vector<std::string> names = namesOf(groups);
     for (const Group& group : groups) {
         if (!group.school) continue;
         const School& school = *group.school;
@@ -134,9 +132,7 @@ void checkSchools(const std::vector<Group>& groups) {
                                school.flees.size() + school.hunts.size()));
         for (const auto* list : {&school.flees, &school.hunts}) {
             for (const SchoolTarget& target : *list) {
-                if (std::find(names.begin(), names.end(), target.group) == names.end())
-                    throw Error(target.location, concat("there is no group \"", target.group, "\"",
-                                                        suggestion(target.group, names)));
+                needNamed(target.group, names, target.location, "there is no group");
                 if (target.group == group.name)
                     throw Error(target.location, concat("\"", group.name, "\" cannot ",
                                                         list == &school.flees ? "flee" : "hunt",

@@ -8,8 +8,6 @@ namespace shoal {
 
 namespace {
 
-constexpr double largest = 1e30;  // squares of larger ones overflow in single precision
-
 // Which of the file's axes each scene axis takes, and whether z runs the other way.
 struct AxisMap {
     glm::ivec3 source{0, 1, 2};
@@ -45,7 +43,7 @@ Box boundsOf(const FileGrid& grid, const AxisMap& map, const GridSource& source,
     const glm::dvec3 b = map(grid.high * source.scale) + source.origin;
     const Box box{glm::min(a, b), glm::max(a, b)};
     for (int i = 0; i < 3; ++i)
-        if (!(std::abs(box.low[i]) < largest && std::abs(box.high[i]) < largest) ||
+        if (!(std::abs(box.low[i]) < largestInFiles && std::abs(box.high[i]) < largestInFiles) ||
             !(box.low[i] < box.high[i]))
             throw Error(Location{file}, concat("bounds of ", box.low[i], " to ", box.high[i], " m along ",
                                                axisNames[i], " after scaling are beyond single precision"));
@@ -117,8 +115,8 @@ void addFrame(GridField& field, FileGrid&& grid, const std::string& file) {
         for (c.y = 0; c.y < grid.resolution.y; ++c.y)
             for (c.x = 0; c.x < grid.resolution.x; ++c.x, ++in) {
                 const glm::dvec3 scaled = glm::dvec3(*in) * scale;
-                if (!(std::abs(scaled.x) < largest && std::abs(scaled.y) < largest &&
-                      std::abs(scaled.z) < largest))
+                if (!(std::abs(scaled.x) < largestInFiles && std::abs(scaled.y) < largestInFiles &&
+                      std::abs(scaled.z) < largestInFiles))
                     refuseValue(*in, c, file);
                 glm::ivec3 cell(c[map.source.x], c[map.source.y], c[map.source.z]);
                 if (map.flipZ) cell.z = size.z - 1 - cell.z;

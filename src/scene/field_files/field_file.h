@@ -20,7 +20,7 @@ class Description;
 class Where;
 
 constexpr const char* axisNames[] = {"x", "y", "z"};
-constexpr double largestVelocity = 1e30;  // squares of larger ones overflow in single precision
+constexpr double largestInFiles = 1e30;  // squares of larger numbers overflow in single precision
 
 // A field holds at most this many cells, those of all frames together.
 inline constexpr long long maxFieldCells = 1ll << 24;

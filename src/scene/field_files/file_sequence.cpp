@@ -63,15 +63,6 @@ std::vector<int> numbersIn(const Pattern& pattern) {
     return out;
 }
 
-}  // namespace
-
-void checkTimes(double before, double time, const Location& where) {
-    if (!(time - before >= leastPositive))
-        throw Error(where, concat("expected rising times, found ", before, " and then ", time));
-}
-
-namespace {
-
 std::vector<double> timesOf(const FileSequence& sequence, size_t count, const Where& where) {
     std::vector<double> times = sequence.times;
     if (where.given("times") && times.size() != count)
@@ -95,6 +86,11 @@ std::vector<std::string> oneFile(const GridSource& source, const Where& where) {
 }
 
 }  // namespace
+
+void checkTimes(double before, double time, const Location& where) {
+    if (!(time - before >= leastPositive))
+        throw Error(where, concat("expected rising times, found ", before, " and then ", time));
+}
 
 TimedFiles filesOf(const GridSource& source, const Where& where) {
     if (!source.sequence) return {oneFile(source, where), {}};

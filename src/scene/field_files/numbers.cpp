@@ -89,7 +89,7 @@ std::vector<glm::vec3> takeVelocities(NumberScanner& numbers, size_t cells) {
         double value = 0;
         if (!numbers.next(value))
             throw Error(numbers.here(), concat("expected ", 3 * cells, " values, found ", found));
-        if (!(std::abs(value) < largestVelocity))
+        if (!(std::abs(value) < largestInFiles))
             throw Error(numbers.here(), concat("a velocity of ", value, " is beyond single precision"));
         velocity = float(value);
         ++found;

@@ -168,14 +168,6 @@ const Description& describe(const DistanceFieldCollider*) {
 
 namespace {
 
-// A name of "between", which some collider or group must have.
-void needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    throw Error(r.at("between"),
-                "no collider and no group has the surface \"" + name + "\"" +
-                    (known.empty() ? " (none names a \"surface\")" : suggestion(name, known)));
-}
-
 std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
                                       const std::vector<Group>& groups) {
     std::vector<std::string> names;
@@ -204,8 +196,9 @@ void checkSurfaces(const Scene& scene, const Where& whole) {
     for (size_t i = 0; i < scene.surfacePairs.size(); ++i) {
         const SurfaceRule& rule = scene.surfacePairs[i];
         const Where where = whole.in("surfacePairs", i);
-        needSurface(where, rule.a, known);
-        needSurface(where, rule.b, known);
+        for (const std::string& name : {rule.a, rule.b})
+            needNamed(name, known, where.at("between"), "no collider and no group has the surface",
+                      " (none names a \"surface\")");
         checkNew(rule, std::span(scene.surfacePairs).first(i), where);
     }
 }

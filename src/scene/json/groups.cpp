@@ -260,12 +260,8 @@ void checkModelIndex(int model, const std::vector<Model>& models, const Location
 
 void checkObject(const Selection& select, const Model& model, const Where& where) {
     if (select.object.empty()) return;
-    std::vector<std::string> names;
-    for (const Mesh::Object& object : model.mesh.objects)
-        names.push_back(object.name);
-    if (std::find(names.begin(), names.end(), select.object) == names.end())
-        throw Error(where.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
-                                            "\"" + suggestion(select.object, names));
+    needNamed(select.object, namesOf(model.mesh.objects), where.at("object"),
+              "model \"" + model.name + "\" has no object");
 }
 
 void checkSurface(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
@@ -291,22 +287,13 @@ void checkModelsOf(const Group& group, const std::vector<Model>& models, const W
 }
 
 void checkDeaths(const std::vector<Group>& groups) {
-    std::vector<std::string> names;
-    for (const Group& group : groups)
-        names.push_back(group.name);
-    const auto find = [&](const Emitter& emitter) {
-        const auto found = std::find(names.begin(), names.end(), emitter.group);
-        if (found == names.end())
-            throw Error(emitter.location,
-                        "no group is named \"" + emitter.group + "\"" + suggestion(emitter.group, names));
-        return size_t(found - names.begin());
-    };
+    const std::vector<std::string> names = namesOf(groups);
     // Every way along the deaths must end: longer than there are groups, and it is a circle.
     const auto follow = [&](const auto& self, size_t g, size_t depth) -> void {
         if (!groups[g].life) return;
         for (const Emitter& emitter : groups[g].life->emitters) {
             if (emitter.from != Emitter::From::death) continue;
-            const size_t source = find(emitter);
+            const size_t source = needNamed(emitter.group, names, emitter.location, "no group is named");
             if (!groups[source].life)
                 throw Error(emitter.location,
                             "none of \"" + emitter.group + "\" ever dies: it has no \"life\"");
@@ -330,11 +317,9 @@ void deriveLife(Group& group, const Where& where) {
 
 void checkGroups(const Scene& scene, const Where& where) {
     if (scene.groups.empty()) throw Error(where.at("groups"), "expected at least one group, found none");
-    std::vector<std::string> names;
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         const Where here = where.in("groups", i);
-        if (here.given("name")) refuseRepeated(here, names, scene.groups[i].name);
-        names.push_back(scene.groups[i].name);
+        if (here.given("name")) refuseRepeated(here, scene.groups, i);
         checkModelsOf(scene.groups[i], scene.models, here);
     }
     checkDeaths(scene.groups);

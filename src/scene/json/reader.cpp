@@ -39,28 +39,24 @@ std::string needFile(JsonReader& reader, const std::string& key) {
     return needFile(Where(reader), key, written);
 }
 
+size_t needNamed(const std::string& name, const std::vector<std::string>& names, const Location& where,
+                 const std::string& what, const char* none) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw Error(where, what + " \"" + name + "\"" + (names.empty() ? none : suggestion(name, names)));
+    return size_t(found - names.begin());
+}
+
 int needModel(const Where& where, const std::string& key, const std::string& name,
               const std::vector<Model>& models) {
-    std::vector<std::string> names;
-    for (const Model& model : models)
-        names.push_back(model.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-        const std::string hint = names.empty() ? " (the scene has no models)" : suggestion(name, names);
-        throw Error(where.at(key), "no model is named \"" + name + "\"" + hint);
-    }
-    return static_cast<int>(found - names.begin());
+    return int(
+        needNamed(name, namesOf(models), where.at(key), "no model is named", " (the scene has no models)"));
 }
 
 int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models) {
     std::string name;
     reader.need(key, name);
     return needModel(Where(reader), key, name, models);
-}
-
-void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name) {
-    if (!name.empty() && std::find(earlier.begin(), earlier.end(), name) != earlier.end())
-        throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
 }
 
 }  // namespace shoal

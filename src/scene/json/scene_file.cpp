@@ -18,26 +18,19 @@ namespace {
 
 template <typename T>
 void checkNames(const char* key, const std::vector<T>& list, const Where& whole) {
-    std::vector<std::string> names;
-    for (size_t i = 0; i < list.size(); ++i) {
-        refuseRepeated(whole.in(key, i), names, list[i].name);
-        names.push_back(list[i].name);
-    }
+    for (size_t i = 0; i < list.size(); ++i)
+        refuseRepeated(whole.in(key, i), list, i);
 }
 
 void checkForceGroups(const Scene& scene, const Where& whole) {
-    std::vector<std::string> known;
-    for (const Group& group : scene.groups)
-        if (!group.name.empty()) known.push_back(group.name);
+    std::vector<std::string> known = namesOf(scene.groups);
+    std::erase(known, "");
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Where where = whole.in("forces", i);
         if (where.given("groups") && scene.forces[i].groups.empty())
             throw Error(where.at("groups"), "expected the name of at least one group; all without it");
         for (const std::string& name : scene.forces[i].groups)
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                throw Error(where.at("groups"),
-                            "no group is named \"" + name + "\"" +
-                                (known.empty() ? " (none has a \"name\")" : suggestion(name, known)));
+            needNamed(name, known, where.at("groups"), "no group is named", " (none has a \"name\")");
     }
 }
 
