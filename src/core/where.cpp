@@ -7,7 +7,7 @@ namespace shoal {
 
 std::string Where::path() const {
     if (parent_ == nullptr) return reader_ ? reader_->path() : "$";
-    return concat(parent_->path(), ".", key_, index_ == none ? "" : concat("[", index_, "]"));
+    return concat(parent_->path(), *key_ ? "." : "", key_, index_ == none ? "" : concat("[", index_, "]"));
 }
 
 const JsonReader* Where::root() const {
@@ -17,7 +17,7 @@ const JsonReader* Where::root() const {
 const JsonValue* Where::value() const {
     if (parent_ == nullptr) return reader_ ? &reader_->value() : nullptr;
     const JsonValue* outer = parent_->value();
-    const JsonValue* inner = outer ? outer->find(key_) : nullptr;
+    const JsonValue* inner = outer && *key_ ? outer->find(key_) : outer;
     if (inner && index_ != none) return index_ < inner->items.size() ? &inner->items[index_] : nullptr;
     return inner;
 }

@@ -20,6 +20,7 @@ class Where {
     Where() = default;  // made in code: the whole
     Where in(const char* key) const { return {this, key, none}; }
     Where in(const char* key, size_t index) const { return {this, key, index}; }
+    Where element(size_t index) const { return {this, "", index}; }  // of an array
 
     Location at(const std::string& key) const;
     Location here() const;

@@ -85,29 +85,19 @@ JsonValue writeDefaults(const Molecule&, const void* context) {
 
 // ---- Triangles
 
-bool isVertex(int index, const Molecule& molecule) {
-    return index >= 0 && size_t(index) < molecule.vertices.size();
-}
-
 void readTriangles(JsonReader& root, Molecule& molecule, Defaults*) {
     std::vector<glm::ivec3> triples;
     if (!root.get("triangles", triples)) return;
     needAtMost(root, "triangles", triples.size(), maxMoleculeTriangles);
-    const JsonValue& array = *root.raw("triangles");
+    const Where whole(root);
     for (size_t t = 0; t < triples.size(); ++t) {
         const glm::ivec3 triple = triples[t];
-        const JsonValue& item = array.items[t];
-        const std::string path = concat(root.path(), ".triangles[", t, "]");
-        for (int i = 0; i < 3; ++i) {
-            const JsonValue& corner = item.items[size_t(i)];
-            checkIndex(triple[i], molecule,
-                       {root.file(), corner.line, corner.column, concat(path, "[", i, "]")});
-        }
-        const Location here{root.file(), item.line, item.column, path};
-        const Triangle triangle{triple.x, triple.y, triple.z};
-        checkCorners(triangle, here);
-        molecule.triangles.push_back(triangle);
-        molecule.places.triangles.push_back(here);
+        const Where here = whole.in("triangles", t);
+        for (int i = 0; i < 3; ++i)
+            checkIndex(triple[i], molecule, here.element(size_t(i)));
+        molecule.triangles.push_back({triple.x, triple.y, triple.z});
+        checkCorners(molecule.triangles.back(), here);
+        molecule.places.triangles.push_back(here.here());
     }
 }
 
@@ -121,8 +111,8 @@ JsonValue writeTriangles(const Molecule& molecule, const void*) {
 // ---- Rules
 
 void checkEnds(const Spring& spring, const Molecule& molecule, const Where& where) {
-    if (!isVertex(spring.a, molecule)) checkIndex(spring.a, molecule, where.at("a"));
-    if (!isVertex(spring.b, molecule)) checkIndex(spring.b, molecule, where.at("b"));
+    checkIndex(spring.a, molecule, where.in("a"));
+    checkIndex(spring.b, molecule, where.in("b"));
     if (spring.a == spring.b)
         throw Error(where.at("b"),
                     concat("a spring needs two different vertices, found ", spring.a, " twice"));
@@ -157,8 +147,8 @@ void checkParts(const Molecule& molecule, const Where& where) {
     for (size_t i = 0; i < molecule.triangles.size(); ++i) {
         const Triangle& t = molecule.triangles[i];
         for (const int corner : {t.a, t.b, t.c})
-            if (!isVertex(corner, molecule)) checkIndex(corner, molecule, where.in("triangles", i).here());
-        if (t.a == t.b || t.b == t.c || t.c == t.a) checkCorners(t, where.in("triangles", i).here());
+            checkIndex(corner, molecule, where.in("triangles", i));
+        checkCorners(t, where.in("triangles", i));
     }
     checkSkin(molecule, where.in("skin"));
     if (molecule.material.texture.find('\0') != std::string::npos)
@@ -345,16 +335,16 @@ const Description& describeDefaults() {
 
 // ---- What others check by the same rules
 
-void checkIndex(int index, const Molecule& molecule, const Location& where) {
+void checkIndex(int index, const Molecule& molecule, const Where& where) {
     const size_t count = molecule.vertices.size();
-    if (!isVertex(index, molecule))
-        throw Error(where, concat("vertex index ", index, " is out of range: the molecule has ", count,
-                                  count == 1 ? " vertex" : " vertices"));
+    if (index < 0 || size_t(index) >= count)
+        throw Error(where.here(), concat("vertex index ", index, " is out of range: the molecule has ", count,
+                                         count == 1 ? " vertex" : " vertices"));
 }
 
-void checkCorners(const Triangle& t, const Location& where) {
+void checkCorners(const Triangle& t, const Where& where) {
     if (t.a == t.b || t.b == t.c || t.c == t.a)
-        throw Error(where,
+        throw Error(where.here(),
                     concat("a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ", t.c));
 }
 
