@@ -1,6 +1,5 @@
 #include "author/edit.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "core/cache_folder.h"
@@ -64,12 +63,9 @@ std::filesystem::path targetOf(const std::string& file) {
 
 // $XDG_STATE_HOME/shoal/unsaved, ~/.local/state/shoal/unsaved; else empty.
 std::string unsavedFolder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::string(value ? value : "");
-    };
-    if (const std::string state = variable("XDG_STATE_HOME"); !state.empty()) return state + "/shoal/unsaved";
-    const std::string home = variable("HOME");
+    if (const std::string state = environment("XDG_STATE_HOME"); !state.empty())
+        return state + "/shoal/unsaved";
+    const std::string home = environment("HOME");
     return home.empty() ? home : home + "/.local/state/shoal/unsaved";
 }
 

@@ -1,7 +1,6 @@
 #include "author/coarse.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 

@@ -1,7 +1,6 @@
 #include "author/springs.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -19,11 +18,6 @@ constexpr double inBody = 0.85;  // share of a brace that must lie inside
 glm::dvec3 areaVector(const CoarseMesh& mesh, const glm::ivec3& t) {
     const glm::dvec3& a = mesh.positions[size_t(t.x)];
     return glm::cross(mesh.positions[size_t(t.y)] - a, mesh.positions[size_t(t.z)] - a);
-}
-
-glm::dvec3 unit(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 ? v / length : glm::dvec3(0);
 }
 
 void addAcross(const CoarseMesh& mesh, SpringPairs& out) {

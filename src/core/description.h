@@ -9,14 +9,8 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <typeinfo>
-#include <utility>
-#include <variant>
 #include <vector>
-
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
 
 #include "core/contract.h"
 #include "core/where.h"

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -84,8 +83,6 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
     bool aboveLeast = false;  // strictly above `least`
 
-    static Range any() { return {}; }
-    static Range positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
     static Range atLeast(double value) { return {value, std::numeric_limits<double>::infinity(), false}; }
     static Range between(double least, double most) { return {least, most, false}; }
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/json.h"
 #include "core/printable.h"
@@ -56,54 +57,33 @@ bool isPlainNumbers(const JsonValue& value) {
                        [](const JsonValue& item) { return item.kind == JsonValue::Kind::number; });
 }
 
-void writeLine(const JsonValue& value, std::string& out) {
+// `indent`: nothing for all in one line. `element`: the value stands in an array, where short things keep to
+// one line.
+void write(const JsonValue& value, std::optional<size_t> indent, bool element, std::string& out) {
     if (!value.isContainer()) {
         out += scalar(value);
         return;
     }
-    const bool array = value.kind == JsonValue::Kind::array;
-    out += array ? "[" : "{";
-    const char* separator = "";
-    for (const JsonValue& item : value.items) {
-        out += separator;
-        writeLine(item, out);
-        separator = ", ";
-    }
-    for (const auto& [key, member] : value.members) {
-        out += separator + inQuotes(key) + ": ";
-        writeLine(member, out);
-        separator = ", ";
-    }
-    out += array ? "]" : "}";
-}
-
-// `element`: the value stands in an array, where short things keep to one line.
-void write(const JsonValue& value, size_t indent, bool element, std::string& out) {
     const bool empty = value.items.empty() && value.members.empty();
-    if (!value.isContainer() || empty || isPlainNumbers(value)) return writeLine(value, out);
-    if (element) {
-        std::string line;
-        writeLine(value, line);
-        if (indent + line.size() < lineWidth) {
-            out += line;
-            return;
-        }
-    }
+    if (empty || isPlainNumbers(value)) indent.reset();
+    if (indent && element && *indent + writeJsonLine(value).size() < lineWidth) indent.reset();
     const bool array = value.kind == JsonValue::Kind::array;
-    const std::string start = "\n" + std::string(indent + 2, ' ');
+    const std::string start = indent ? "\n" + std::string(*indent + 2, ' ') : "";
+    const std::optional<size_t> inner = indent ? std::optional(*indent + 2) : std::nullopt;
     out += array ? "[" : "{";
     const char* separator = "";
     for (const JsonValue& item : value.items) {
         out += separator + start;
-        write(item, indent + 2, true, out);
-        separator = ",";
+        write(item, inner, true, out);
+        separator = indent ? "," : ", ";
     }
     for (const auto& [key, member] : value.members) {
         out += separator + start + inQuotes(key) + ": ";
-        write(member, indent + 2, false, out);
-        separator = ",";
+        write(member, inner, false, out);
+        separator = indent ? "," : ", ";
     }
-    out += "\n" + std::string(indent, ' ') + (array ? "]" : "}");
+    if (indent) out += "\n" + std::string(*indent, ' ');
+    out += array ? "]" : "}";
 }
 
 }  // namespace
@@ -147,7 +127,7 @@ std::string writeJson(const JsonValue& value) {
 
 std::string writeJsonLine(const JsonValue& value) {
     std::string out;
-    writeLine(value, out);
+    write(value, std::nullopt, false, out);
     return out;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <new>
@@ -13,6 +12,7 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "core/cache_folder.h"
 #include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -296,16 +296,12 @@ Mesh readConfined(const std::string& file) {
     return mesh;
 }
 
-bool trusted() {
-    const char* value = std::getenv("SHOAL_TRUST_MODELS");
-    return value != nullptr && *value != '\0';
-}
-
 }  // namespace
 
 Mesh loadMesh(const std::string& file) {
     FileReader{file};  // says what is no file, or cannot be opened
-    Mesh mesh = trusted() ? readModel(file, [](uint64_t) {}) : readConfined(file);
+    const bool trusted = !environment("SHOAL_TRUST_MODELS").empty();
+    Mesh mesh = trusted ? readModel(file, [](uint64_t) {}) : readConfined(file);
     completeMesh(mesh);
     return mesh;
 }

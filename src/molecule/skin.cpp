@@ -21,11 +21,6 @@ constexpr double exact = 1e-7;    // of the molecule's size
 constexpr double leastNormal = 0.1;
 constexpr double mostLift = 0.1;  // of the size: further off, a normal that turns swings the skin about
 
-glm::dvec3 unit(const glm::dvec3& v) {
-    const double length = glm::length(v);
-    return length > 0 ? v / length : glm::dvec3(0);
-}
-
 // Holds the vertices that a skin vertex can be bound to, and the kernel at each.
 struct Neighbours {
     std::vector<int> vertices;

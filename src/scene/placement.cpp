@@ -8,9 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
-
-#include <glm/gtc/constants.hpp>
 
 #include "core/describe.h"
 #include "core/random.h"

@@ -1,6 +1,5 @@
 #include "scene/json/scene_file.h"
 
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <set>
