@@ -42,19 +42,11 @@ size_t verticesOf(const Triangles& triangles) {
 
 // By edge collapse, down to `most` vertices or as far as the topology lets it.
 Triangles collapse(Triangles triangles, const std::vector<glm::vec3>& positions, size_t most) {
-    const auto reduce = [&](const Triangles& from, size_t count) {
-        Triangles out(from.size());
-        constexpr float anyError = 1e10f;
-        out.resize(meshopt_simplify(out.data(), from.data(), from.size(), &positions[0].x, positions.size(),
-                                    sizeof(glm::vec3), std::min(3 * count, from.size()), anyError, 0,
-                                    nullptr));
-        return out;
-    };
     // large meshes once, so that the search below is quick
-    if (triangles.size() / 3 > 100 * most) triangles = reduce(triangles, 50 * most);
+    if (triangles.size() / 3 > 100 * most) triangles = collapseEdges(triangles, positions, 50 * most);
     Triangles best = triangles;
     for (size_t count = 2 * most; count >= 2 && verticesOf(best) > most; --count)
-        best = reduce(triangles, count);
+        best = collapseEdges(triangles, positions, count);
     return best;
 }
 
@@ -128,6 +120,16 @@ void faceAlike(std::vector<glm::ivec3>& triangles) {
 }
 
 }  // namespace
+
+std::vector<unsigned> collapseEdges(const std::vector<unsigned>& corners,
+                                    const std::vector<glm::vec3>& positions, size_t triangles) {
+    std::vector<unsigned> out(corners.size());
+    constexpr float anyError = 1e10f;
+    out.resize(meshopt_simplify(out.data(), corners.data(), corners.size(), &positions[0].x, positions.size(),
+                                sizeof(glm::vec3), std::min(3 * triangles, corners.size()), anyError, 0,
+                                nullptr));
+    return out;
+}
 
 double flatness(const std::vector<glm::dvec3>& points) {
     glm::dvec3 middle(0);

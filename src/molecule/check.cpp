@@ -91,12 +91,9 @@ class Checker {
         const bool still = m_.springs.empty() && std::all_of(m_.vertices.begin(), m_.vertices.end(),
                                                              [](const Vertex& v) { return v.pinned; });
         for (size_t i = 0; i < m_.vertices.size(); ++i) {
-            if (!sprung[i] && m_.vertices[i].pinned && !still)
-                findVertex(Kind::loose, i,
-                           concat("vertex ", i, " is pinned but holds nothing: no spring ends at it"))
-                    .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
-            else if (!sprung[i] && !still)
-                findVertex(Kind::loose, i, concat("vertex ", i, " is loose: no spring ends at it"))
+            const char* what = m_.vertices[i].pinned ? "pinned but holds nothing" : "loose";
+            if (!sprung[i] && !still)
+                findVertex(Kind::loose, i, concat("vertex ", i, " is ", what, ": no spring ends at it"))
                     .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
             // a skin is drawn instead of the triangles
             if (!drawn[i] && !m_.triangles.empty() && m_.skin.empty())

@@ -260,7 +260,7 @@ std::vector<glm::dvec3> skinNormals(const Skin& skin) {
             const glm::dvec3 next = skin.vertices[size_t(corners[(i + 1) % 3])].position - at;
             const glm::dvec3 last = skin.vertices[size_t(corners[(i + 2) % 3])].position - at;
             const glm::dvec3 across = glm::cross(next, last);
-            // by its angle, as for models (geometry/weld.cpp)
+            // by its angle, as for models (geometry/mesh.cpp)
             own[size_t(corners[i])] += unit(across) * std::atan2(glm::length(across), glm::dot(next, last));
         }
     }

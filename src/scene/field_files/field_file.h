@@ -158,7 +158,6 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
 // Any of the formats by the name's ending (.fga, .vf, .vti, .raw); `layout`: of .raw, the file that describes
 // it. Error, located: no such file, an ending that is none of these, and what each format refuses.
 FileGrid readFieldFile(const std::string& file, const GridSource& source, const std::string& layout = {});
-const std::vector<std::string>& fieldFileEndings();
 
 // Numbered files: "wind-####.vti" with first, last and step stands for wind-0000.vti, wind-0001.vti, ...
 // The files of a source, with their times (s; none of a single file). Error, located: no such file, a number
