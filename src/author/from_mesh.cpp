@@ -8,7 +8,6 @@
 #include <Eigen/Dense>
 
 #include "author/coarse.h"
-#include "author/inside.h"
 #include "author/springs.h"
 #include "compile/path.h"
 #include "molecule/skin.h"

@@ -4,7 +4,6 @@
 #include <map>
 #include <numeric>
 
-#include "author/inside.h"
 #include "core/error.h"
 
 namespace shoal {

@@ -1,12 +1,20 @@
 #include "core/file.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -141,8 +149,6 @@ void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
 
 // ---- Which files may be opened
 
-namespace fs = std::filesystem;
-
 namespace {
 
 std::vector<fs::path>& folders() {
@@ -181,6 +187,158 @@ bool mayOpen(const fs::path& path) {
 
 void refuseOutside(const fs::path& path) {
     if (!mayOpen(path)) throw Error(Location{path.string()}, outsideSandbox);
+}
+
+// ---- Files that are not whole yet
+
+namespace {
+
+constexpr std::string_view mark = ".shoal-";
+
+// Holds what a part file's name says.
+struct PartName {
+    pid_t process = 0;
+    std::string name;
+};
+
+std::optional<PartName> partName(const std::string& file) {
+    if (file.rfind(mark, 0) != 0) return std::nullopt;
+    PartName out;
+    const char* end = file.data() + file.size();
+    const auto [rest, code] = std::from_chars(file.data() + mark.size(), end, out.process);
+    if (code != std::errc() || out.process < 1 || rest == end || *rest != '-') return std::nullopt;
+    out.name.assign(rest + 1, end);
+    return out;
+}
+
+// Names may be 255 bytes long; the end says what kind of file it is.
+fs::path partPath(const fs::path& target, const fs::path& given) {
+    constexpr size_t longest = 230;
+    std::string name = given.filename().string();
+    if (name.size() > longest) name = name.substr(name.size() - longest);
+    return target.parent_path() / concat(mark, ::getpid(), "-", name);
+}
+
+// Whether a process still writes it. The lock tells it in other containers, too, where numbers of processes
+// say nothing; the process where the file system has no locks.
+bool isWritten(const fs::path& path, pid_t process) {
+    if (process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH)) return true;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return errno != ENOENT;
+    const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(file);
+    return locked;
+}
+
+template <typename Visit>
+void forEachPart(const fs::path& folder, const Visit& visit) {
+    std::error_code code;
+    const fs::path where = folder.empty() ? fs::path(".") : folder;
+    for (fs::directory_iterator entry(where, code), end; !code && entry != end; entry.increment(code)) {
+        const std::optional<PartName> part = partName(entry->path().filename().string());
+        std::error_code gone;
+        if (part && entry->symlink_status(gone).type() == fs::file_type::regular) visit(entry->path(), *part);
+    }
+}
+
+// Once a folder: others write their own.
+void sweep(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> swept;
+    const std::lock_guard lock(mutex);
+    if (!swept.insert(folder).second) return;
+    forEachPart(folder, [](const fs::path& path, const PartName& part) {
+        std::error_code gone;
+        if (!isWritten(path, part.process)) fs::remove(path, gone);
+    });
+}
+
+fs::path behindLinks(fs::path path) {
+    constexpr int most = 40;  // as the system follows
+    std::error_code code;
+    for (int i = 0; i < most && fs::is_symlink(path, code); ++i)
+        path = path.parent_path() / fs::read_symlink(path, code);
+    return path;
+}
+
+// Holds a part file's path where a signal's handler can read it: no memory elsewhere, nothing that moves.
+struct Slot {
+    enum State { free, filling, taken };
+    std::atomic<int> state = free;
+    pid_t owner = 0;  // a child that was forked has its parent's slots, and none of its own
+    char path[PATH_MAX] = {};
+};
+Slot slots[16];
+
+// -1: all are taken, or the name is too long; the next run sweeps it then.
+int takeSlot(const std::string& path) {
+    if (path.size() >= sizeof slots[0].path) return -1;
+    for (int i = 0; i < int(std::size(slots)); ++i) {
+        int state = Slot::free;
+        if (!slots[i].state.compare_exchange_strong(state, Slot::filling)) continue;
+        slots[i].owner = ::getpid();
+        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+        slots[i].state = Slot::taken;
+        return i;
+    }
+    return -1;
+}
+
+}  // namespace
+
+PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks(target)) {
+    const Location location{given_.string()};
+    std::error_code code;
+    const fs::path folder = target_.parent_path();
+    if (!folder.empty()) fs::create_directories(folder, code);
+    if (code) throw Error(Location{folder.string()}, "cannot make this folder: " + code.message());
+    struct stat status {
+    }, output{};
+    if (::stat(target_.c_str(), &status) == 0) {
+        if (!S_ISREG(status.st_mode))
+            throw Error(location, concat("is ", kindOf(status.st_mode), ", expected a file to write"));
+        if (::fstat(STDOUT_FILENO, &output) == 0 && status.st_ino == output.st_ino &&
+            status.st_dev == output.st_dev)
+            throw Error(location, "is standard output, which would be lost");
+    } else if (errno != ENOENT) {
+        throw Error(location, concat("cannot be written: ", std::strerror(errno)));
+    }
+    sweep(folder);
+    path_ = partPath(target_, given_);
+    file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0)
+        throw Error(location, errno == EEXIST ? "cannot be written: it is being written already"
+                                              : concat("cannot be written: ", std::strerror(errno)));
+    slot_ = takeSlot(path_.string());
+    ::flock(file_, LOCK_EX | LOCK_NB);  // where there are no locks, the process's number has to do
+}
+
+PartFile::~PartFile() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove(path_, ignored);
+    if (slot_ >= 0) slots[slot_].state = Slot::free;
+    ::close(file_);
+}
+
+void PartFile::replaceTarget() {
+    std::error_code code;
+    fs::rename(path_, target_, code);
+    if (code) throw Error(Location{given_.string()}, concat("cannot be written: ", code.message()));
+    path_.clear();
+}
+
+SoleWriter::SoleWriter(const fs::path& target) : part_(concat(target.string(), ".run")) {
+    const std::optional<PartName> own = partName(part_.path().filename().string());
+    forEachPart(part_.path().parent_path(), [&](const fs::path& path, const PartName& part) {
+        if (part.name == own->name && part.process != own->process && isWritten(path, part.process))
+            throw Error(Location{target.string()}, concat("is being written by another run, process ",
+                                                          part.process, ": give this one another name"));
+    });
+}
+
+void removePartFiles() noexcept {
+    for (Slot& slot : slots)
+        if (slot.state == Slot::taken && slot.owner == ::getpid()) ::unlink(slot.path);
 }
 
 }  // namespace shoal
