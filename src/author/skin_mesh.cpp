@@ -80,9 +80,9 @@ SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles) {
     if (triangles) simplify(out, 0.5 * (mesh.low + mesh.high), size_t(*triangles));
     out = packed(out);
     if (out.positions.size() > size_t(maxSkinVertices) || out.triangles.size() > size_t(maxSkinTriangles))
-        throw Error(concat("a skin of ", out.positions.size(), " vertices and ", out.triangles.size(),
-                           " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
-                           maxSkinTriangles, ": ask for fewer triangles of the skin, or leave it out"));
+        throw Error("a skin of ", out.positions.size(), " vertices and ", out.triangles.size(),
+                    " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
+                    maxSkinTriangles, ": ask for fewer triangles of the skin, or leave it out");
     return out;
 }
 

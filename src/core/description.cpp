@@ -16,7 +16,7 @@ const T& held(const void* value) {
 
 void checkNumber(const std::string& path, double value, Range range, const Where& where, double largest) {
     if (std::isfinite(value) && std::abs(value) > largest)
-        throw Error(where.at(path), concat("expected a number within ", largest, " of 0, found ", value));
+        throw Error(where.at(path), "expected a number within ", largest, " of 0, found ", value);
     if (!contains(range, value)) needWithin(where.at(path), value, range);
 }
 
@@ -108,7 +108,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     for (const Key& key : keys_) {
         if (const Condition* condition = unmet(key, out)) {
             if (reader.has(key.name))
-                throw Error(reader.at(key.name), concat("\"", key.name, "\" ", condition->because));
+                throw Error(reader.at(key.name), "\"", key.name, "\" ", condition->because);
             continue;
         }
         if (key.needed) reader.require(key.name);
@@ -154,7 +154,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
             std::vector<int> numbers;
             if (!r.get(name, numbers, range)) return false;
             if (numbers.size() != 3)
-                throw Error(r.at(name), concat("expected three whole numbers, found ", numbers.size()));
+                throw Error(r.at(name), "expected three whole numbers, found ", numbers.size());
             value = {numbers[0], numbers[1], numbers[2]};
             return true;
         });
@@ -162,7 +162,7 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         return fill(std::string(), [&](std::string& value) {
             if (!r.get(name, value)) return false;
             if (key.notEmpty && value.empty())
-                throw Error(r.at(name), concat("expected ", key.says.unit, ", found an empty string"));
+                throw Error(r.at(name), "expected ", key.says.unit, ", found an empty string");
             return true;
         });
     case Kind::direction:

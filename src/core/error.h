@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace shoal {
@@ -31,11 +32,25 @@ Location locate(std::string_view text, size_t position, const std::string& file)
 // "file:line:column: " with the parts that are known; empty for an empty location.
 std::string prefix(const Location& location);
 
+// Puts its arguments behind one another: concat("expected ", 3, " values").
+template <typename... Parts>
+std::string concat(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+}
+
 // what() is "file:line:column: message (at $.json.path)".
 class Error : public std::runtime_error {
   public:
     explicit Error(std::string message) : Error(Location{}, std::move(message)) {}
     Error(Location location, std::string message);
+    // The parts of a message, as concat() puts them together.
+    template <typename A, typename B, typename... More>
+    Error(Location location, const A& a, const B& b, const More&... more)
+        : Error(std::move(location), concat(a, b, more...)) {}
+    template <typename B, typename... More>
+    Error(const char* a, const B& b, const More&... more) : Error(Location{}, concat(a, b, more...)) {}
 
     const Location& location() const { return location_; }
     const std::string& message() const { return message_; }
@@ -51,14 +66,6 @@ struct Warning {
     std::string message;
 };
 std::string text(const Warning& warning);
-
-// Puts its arguments behind one another: concat("expected ", 3, " values").
-template <typename... Parts>
-std::string concat(const Parts&... parts) {
-    std::ostringstream out;
-    (out << ... << parts);
-    return out.str();
-}
 
 // Counts in messages: "1 spring", "2 springs".
 inline std::string many(int64_t count, const char* one, const char* several) {

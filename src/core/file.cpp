@@ -36,7 +36,7 @@ FileReader::FileReader(const fs::path& path) : location_{path.string()} {
     struct stat status {};
     const auto needRegular = [&] {
         if (!S_ISREG(status.st_mode))
-            throw Error(location_, concat("is ", kindOf(status.st_mode), ", expected a file"));
+            throw Error(location_, "is ", kindOf(status.st_mode), ", expected a file");
     };
     if (::stat(path.c_str(), &status) == 0) {
         needRegular();
@@ -46,14 +46,14 @@ FileReader::FileReader(const fs::path& path) : location_{path.string()} {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file >= 0) file_.reset(::fdopen(file, "rb"));
     if (!file_ || ::fstat(file, &status) != 0)
-        throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+        throw Error(location_, "cannot be read: ", std::strerror(errno));
     needRegular();
 }
 
 size_t FileReader::read(void* data, size_t bytes) {
     if (bytes == 0) return 0;
     const size_t count = std::fread(data, 1, bytes, file_.get());
-    if (std::ferror(file_.get())) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    if (std::ferror(file_.get())) throw Error(location_, "cannot be read: ", std::strerror(errno));
     return count;
 }
 
@@ -64,8 +64,7 @@ std::string readFile(const fs::path& path, size_t maxBytes) {
     while (const size_t count = file.read(chunk, sizeof chunk)) {
         bytes.append(chunk, count);
         if (bytes.size() > maxBytes)
-            throw Error(file.location(),
-                        concat("is larger than ", maxBytes, " bytes, the most that is read"));
+            throw Error(file.location(), "is larger than ", maxBytes, " bytes, the most that is read");
     }
     return bytes;
 }
@@ -99,7 +98,7 @@ static FilePointer openForBytes(const fs::path& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     const Location location{path.string()};
     if (file < 0 && errno == ENXIO) throw Error(location, "cannot be written: nobody reads there");
-    if (file < 0) throw Error(location, concat("cannot be written: ", std::strerror(errno)));
+    if (file < 0) throw Error(location, "cannot be written: ", std::strerror(errno));
     ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
     return FilePointer(::fdopen(file, "wb"));
 }
@@ -108,7 +107,7 @@ void checkWritable(const fs::path& path) {
     if (!takesBytes(path))
         PartFile{path};  // made, and taken away again
     else if (::access(path.c_str(), W_OK) != 0)
-        throw Error(Location{path.string()}, concat("cannot be written: ", std::strerror(errno)));
+        throw Error(Location{path.string()}, "cannot be written: ", std::strerror(errno));
 }
 
 FileWriter::FileWriter(const fs::path& path) : path_(path) {
@@ -122,8 +121,7 @@ FileWriter::FileWriter(const fs::path& path) : path_(path) {
 }
 
 void FileWriter::fail(int cause) const {
-    throw Error(Location{path_.string()},
-                concat("cannot be written: ", std::strerror(cause), " (nothing was kept)"));
+    throw Error(Location{path_.string()}, "cannot be written: ", std::strerror(cause), " (nothing was kept)");
 }
 
 void FileWriter::write(const void* data, size_t bytes) {
@@ -296,12 +294,12 @@ PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks
     }, output{};
     if (::stat(target_.c_str(), &status) == 0) {
         if (!S_ISREG(status.st_mode))
-            throw Error(location, concat("is ", kindOf(status.st_mode), ", expected a file to write"));
+            throw Error(location, "is ", kindOf(status.st_mode), ", expected a file to write");
         if (::fstat(STDOUT_FILENO, &output) == 0 && status.st_ino == output.st_ino &&
             status.st_dev == output.st_dev)
             throw Error(location, "is standard output, which would be lost");
     } else if (errno != ENOENT) {
-        throw Error(location, concat("cannot be written: ", std::strerror(errno)));
+        throw Error(location, "cannot be written: ", std::strerror(errno));
     }
     sweep(folder);
     path_ = partPath(target_, given_);
@@ -323,7 +321,7 @@ PartFile::~PartFile() {
 void PartFile::replaceTarget() {
     std::error_code code;
     fs::rename(path_, target_, code);
-    if (code) throw Error(Location{given_.string()}, concat("cannot be written: ", code.message()));
+    if (code) throw Error(Location{given_.string()}, "cannot be written: ", code.message());
     path_.clear();
 }
 
@@ -331,8 +329,8 @@ SoleWriter::SoleWriter(const fs::path& target) : part_(concat(target.string(), "
     const std::optional<PartName> own = partName(part_.path().filename().string());
     forEachPart(part_.path().parent_path(), [&](const fs::path& path, const PartName& part) {
         if (part.name == own->name && part.process != own->process && isWritten(path, part.process))
-            throw Error(Location{target.string()}, concat("is being written by another run, process ",
-                                                          part.process, ": give this one another name"));
+            throw Error(Location{target.string()}, "is being written by another run, process ", part.process,
+                        ": give this one another name");
     });
 }
 

@@ -70,7 +70,7 @@ struct Decoder : Png {
 
     template <typename Work>
     void need(const Work& work) {
-        if (!calls(work)) throw Error(location, concat("is a damaged PNG picture: ", complaint));
+        if (!calls(work)) throw Error(location, "is a damaged PNG picture: ", complaint);
     }
 
     void readInfo() {
@@ -80,11 +80,11 @@ struct Decoder : Png {
             png_read_info(png, info);
         });
         if (width() > maxImageSide || height() > maxImageSide)
-            throw Error(location, concat("expected a picture of at most ", maxImageSide, " x ", maxImageSide,
-                                         ", found ", width(), " x ", height()));
+            throw Error(location, "expected a picture of at most ", maxImageSide, " x ", maxImageSide,
+                        ", found ", width(), " x ", height());
         if (width() * height() > maxImageTexels)
-            throw Error(location, concat("expected a picture of at most ", maxImageTexels,
-                                         " texels (8192 x 8192), found ", width(), " x ", height()));
+            throw Error(location, "expected a picture of at most ", maxImageTexels,
+                        " texels (8192 x 8192), found ", width(), " x ", height());
         // Deflate packs at most 1032 to 1: a short file that claims more is cut off, and need not be
         // allocated.
         if (png_get_rowbytes(png, info) * height() / 1032 > bytes.size())
@@ -214,8 +214,8 @@ std::vector<std::byte> encodePng(const Image& image) {
     });
     if (!written) {
         if (encoder.exception) std::rethrow_exception(encoder.exception);
-        throw Error(concat("a picture of ", image.width, " x ", image.height,
-                           " cannot be made a PNG: ", encoder.complaint));
+        throw Error("a picture of ", image.width, " x ", image.height,
+                    " cannot be made a PNG: ", encoder.complaint);
     }
     return std::move(encoder.bytes);
 }

@@ -227,8 +227,7 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
             std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
             while (offset > 0 && std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
                 --offset;  // back to the start of a word such as "nan" or "tru"
-        throw Error(locate(text, offset, file),
-                    concat(expectation(result.Code()), ", found ", found(text, offset)));
+        throw Error(locate(text, offset, file), expectation(result.Code()), ", found ", found(text, offset));
     }
     return builder.takeRoot();
 }

@@ -55,14 +55,14 @@ Location JsonReader::at(const std::string& key) const {
 
 void JsonReader::checkKind(const JsonValue& value, const std::string& path, Kind kind) const {
     if (value.kind != kind)
-        throw Error(locate(value, path), concat("expected ", name(kind), ", found ", name(value.kind)));
+        throw Error(locate(value, path), "expected ", name(kind), ", found ", name(value.kind));
 }
 
 void JsonReader::checkCount(const JsonValue& array, const std::string& path, size_t count) const {
     checkKind(array, path, Kind::array);
     if (array.items.size() != count)
-        throw Error(locate(array, path),
-                    concat("expected an array of ", count, " numbers, found ", array.items.size()));
+        throw Error(locate(array, path), "expected an array of ", count, " numbers, found ",
+                    array.items.size());
 }
 
 bool contains(Range range, double number) {

@@ -48,8 +48,7 @@ void Where::require(const std::string& key) const {
 }
 
 void needAtMost(const Where& where, const std::string& key, size_t count, size_t most) {
-    if (count > most)
-        throw Error(where.at(key), concat("expected at most ", most, " ", key, ", found ", count));
+    if (count > most) throw Error(where.at(key), "expected at most ", most, " ", key, ", found ", count);
 }
 
 void needFormat(JsonReader& root, const std::string& expected) {
@@ -59,8 +58,8 @@ void needFormat(JsonReader& root, const std::string& expected) {
     const size_t number = expected.rfind('-') + 1;
     const bool kin = format.compare(0, number, expected, 0, number) == 0 && format.size() > number &&
                      format.find_first_not_of("0123456789", number) == std::string::npos;
-    throw Error(root.at("format"), concat("expected the format \"", expected, "\", found \"", format, "\"",
-                                          kin ? ": the file is of a newer version of Shoal" : ""));
+    throw Error(root.at("format"), "expected the format \"", expected, "\", found \"", format, "\"",
+                kin ? ": the file is of a newer version of Shoal" : "");
 }
 
 // ---- Values of several numbers
@@ -87,8 +86,7 @@ bool getRotation(JsonReader& reader, const std::string& key, glm::dquat& out) {
     std::vector<double> q;
     reader.get(key, q);
     if (q.size() != 4)
-        throw Error(reader.at(key),
-                    concat("expected a quaternion [x, y, z, w], found ", q.size(), " numbers"));
+        throw Error(reader.at(key), "expected a quaternion [x, y, z, w], found ", q.size(), " numbers");
     const double largest = std::max({std::abs(q[0]), std::abs(q[1]), std::abs(q[2]), std::abs(q[3])});
     checkRotation(glm::dquat(q[3], q[0], q[1], q[2]), reader.at(key));
     for (double& part : q)
@@ -111,15 +109,14 @@ void checkDirection(const glm::dvec3& v, const Location& where) {
 }
 
 void checkSpan(const glm::dvec2& span, const Location& where) {
-    if (span.x > span.y)
-        throw Error(where, concat("expected [least, most], found ", span.x, " above ", span.y));
+    if (span.x > span.y) throw Error(where, "expected [least, most], found ", span.x, " above ", span.y);
 }
 
 void checkBox(const Box& box, bool flat, const Location& where) {
     for (int i = 0; i < 3; ++i)
         if (flat ? box.low[i] > box.high[i] : box.low[i] >= box.high[i])
-            throw Error(where, concat("expected high above low along every axis, found ", box.high[i],
-                                      " against ", box.low[i], " along ", "xyz"[i]));
+            throw Error(where, "expected high above low along every axis, found ", box.high[i], " against ",
+                        box.low[i], " along ", "xyz"[i]);
 }
 
 bool getBox(JsonReader& reader, const std::string& key, Box& out, bool flat) {

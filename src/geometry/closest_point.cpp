@@ -59,9 +59,7 @@ struct Hierarchy {
         rtcCommitScene(scene);
         if (rtcGetDeviceError(device) != RTC_ERROR_NONE) throw noMemory();
     }
-    Error noMemory() const {
-        return Error(concat("no memory for the hierarchy of ", triangleCount, " triangles"));
-    }
+    Error noMemory() const { return Error("no memory for the hierarchy of ", triangleCount, " triangles"); }
 
     glm::dvec3 toUnits(const glm::dvec3& x) const { return (x - middle) / size; }
 

@@ -237,8 +237,8 @@ DistanceField refine(const Mesh& mesh, const FieldRequest& request, const Surfac
         const double ratio = field.error.most / *request.error;
         if (ratio <= 1) return field;
         if (resolution >= finest)
-            throw Error(concat("the finest grid that fits, of resolution ", finest, ", is still off by ",
-                               field.error.most, " m, more than ", *request.error));
+            throw Error("the finest grid that fits, of resolution ", finest, ", is still off by ",
+                        field.error.most, " m, more than ", *request.error);
         resolution = std::min(finest, int(std::ceil(resolution * std::clamp(1.1 * ratio, 1.2, 4.0))));
     }
 }
@@ -265,14 +265,14 @@ DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request, c
     if (!(surface.area > 0)) throw Error("has no surface: none of its triangles has an area");
     const int finest = finestResolution(mesh, request, surface.closed());
     if (finest == 0)
-        throw Error(concat("a thickness of ", request.thickness, " m", request.shell ? " and its shell" : "",
-                           " around a model of ", longestSide(mesh), " m take too large a grid"));
+        throw Error("a thickness of ", request.thickness, " m", request.shell ? " and its shell" : "",
+                    " around a model of ", longestSide(mesh), " m take too large a grid");
     const int resolution = request.resolution.value_or(std::min(defaultResolution, finest));
     if (!request.error && resolution > finest) {
         const SampleGrid grid = gridAround(mesh, request, resolution, surface.closed());
-        throw Error(concat("a grid of ", grid.size.x, " x ", grid.size.y, " x ", grid.size.z,
-                           " samples is more than the ", mostSamples, " that a field may have (",
-                           mostSamples >> 16, " MiB on the device): at most resolution ", finest, " fits"));
+        throw Error("a grid of ", grid.size.x, " x ", grid.size.y, " x ", grid.size.z,
+                    " samples is more than the ", mostSamples, " that a field may have (", mostSamples >> 16,
+                    " MiB on the device): at most resolution ", finest, " fits");
     }
     if (threads < 1) threads = allThreads();
     const ClosestPoints closest(mesh);

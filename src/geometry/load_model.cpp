@@ -202,7 +202,7 @@ Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene && tellsOfMemory(importer.GetErrorString())) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)
-        throw Error(location, concat("cannot be read as a model: ", oneLine(importer.GetErrorString())));
+        throw Error(location, "cannot be read as a model: ", oneLine(importer.GetErrorString()));
 
     Collector collector(*scene, file);
     collector.visit(*scene->mRootNode, glm::dmat4(1));

@@ -57,8 +57,7 @@ const Description& describe(const Defaults*) {
 void ownOrDefault(JsonReader& r, const char* key, Range range, const std::optional<double>& fallback,
                   double& out) {
     if (r.get(key, out, range)) return;
-    if (!fallback)
-        throw Error(r.here(), concat("missing key \"", key, "\" (give it here or in \"defaults\")"));
+    if (!fallback) throw Error(r.here(), "missing key \"", key, "\" (give it here or in \"defaults\")");
     out = *fallback;
 }
 
@@ -114,21 +113,20 @@ void checkEnds(const Spring& spring, const Molecule& molecule, const Where& wher
     checkIndex(spring.a, molecule, where.in("a"));
     checkIndex(spring.b, molecule, where.in("b"));
     if (spring.a == spring.b)
-        throw Error(where.at("b"),
-                    concat("a spring needs two different vertices, found ", spring.a, " twice"));
+        throw Error(where.at("b"), "a spring needs two different vertices, found ", spring.a, " twice");
 }
 
 void checkLength(const Spring& spring, const Molecule& molecule, const Where& where) {
     if (molecule.restLength(spring) < leastLength)
-        throw Error(where.here(), concat("this spring has no length: vertices ", spring.a, " and ", spring.b,
-                                         " stand in the same place (move one, or give a restLength)"));
+        throw Error(where.here(), "this spring has no length: vertices ", spring.a, " and ", spring.b,
+                    " stand in the same place (move one, or give a restLength)");
 }
 
 // `seen`: the ends of the springs before.
 void checkNew(const Spring& spring, std::set<std::pair<int, int>>& seen, const Where& where) {
     if (!seen.insert(std::minmax(spring.a, spring.b)).second)
-        throw Error(where.here(), concat("a spring between vertices ", spring.a, " and ", spring.b,
-                                         " exists already: add up their stiffness instead"));
+        throw Error(where.here(), "a spring between vertices ", spring.a, " and ", spring.b,
+                    " exists already: add up their stiffness instead");
 }
 
 void checkParts(const Molecule& molecule, const Where& where) {
@@ -338,14 +336,14 @@ const Description& describeDefaults() {
 void checkIndex(int index, const Molecule& molecule, const Where& where) {
     const size_t count = molecule.vertices.size();
     if (index < 0 || size_t(index) >= count)
-        throw Error(where.here(), concat("vertex index ", index, " is out of range: the molecule has ", count,
-                                         count == 1 ? " vertex" : " vertices"));
+        throw Error(where.here(), "vertex index ", index, " is out of range: the molecule has ", count,
+                    count == 1 ? " vertex" : " vertices");
 }
 
 void checkCorners(const Triangle& t, const Where& where) {
     if (t.a == t.b || t.b == t.c || t.c == t.a)
-        throw Error(where.here(),
-                    concat("a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ", t.c));
+        throw Error(where.here(), "a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ",
+                    t.c);
 }
 
 void checkMolecule(const Molecule& molecule, const Where& where) {
@@ -370,8 +368,8 @@ Image readTexture(const Molecule& molecule) {
     try {
         return readPng(file);
     } catch (const Error& error) {
-        throw Error(Location{.file = molecule.file, .path = "$.material.texture"},
-                    concat("the texture \"", file.string(), "\": ", error.message()));
+        throw Error(Location{.file = molecule.file, .path = "$.material.texture"}, "the texture \"",
+                    file.string(), "\": ", error.message());
     }
 }
 

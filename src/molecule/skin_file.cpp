@@ -30,15 +30,15 @@ using Kind = JsonValue::Kind;
 
 void checkIndex(double number, size_t count, const char* of, const Where& where) {
     if (!(number >= 0 && number < double(count) && number == std::floor(number)))
-        throw Error(where.here(), concat("expected the index of a vertex of ", of, ", 0 to ",
-                                         int64_t(count) - 1, ", found ", number));
+        throw Error(where.here(), "expected the index of a vertex of ", of, ", 0 to ", int64_t(count) - 1,
+                    ", found ", number);
 }
 
 // Checks the count of a file's numbers for a skin vertex: pairs of a vertex and its weight.
 void checkWeightCount(size_t numbers, const Where& where) {
     if (numbers == 0 || numbers % 2 != 0 || numbers > 2 * Skin::mostWeights)
-        throw Error(where.here(), concat("expected 1 to ", Skin::mostWeights,
-                                         " pairs of a vertex and its weight, found ", numbers, " numbers"));
+        throw Error(where.here(), "expected 1 to ", Skin::mostWeights,
+                    " pairs of a vertex and its weight, found ", numbers, " numbers");
 }
 
 void checkWeights(const SkinVertex& vertex, const Where& where) {
@@ -46,12 +46,12 @@ void checkWeights(const SkinVertex& vertex, const Where& where) {
     for (size_t k = 0; k < vertex.weights.size(); ++k) {
         for (size_t other = 0; other < k; ++other)
             if (vertex.weights[other].vertex == vertex.weights[k].vertex)
-                throw Error(where.here(),
-                            concat("vertex ", vertex.weights[k].vertex, " has two weights: add them up"));
+                throw Error(where.here(), "vertex ", vertex.weights[k].vertex,
+                            " has two weights: add them up");
         sum += vertex.weights[k].weight;
     }
     if (!(std::abs(sum - 1) <= mostSumError))
-        throw Error(where.here(), concat("expected weights that add up to 1, found ", sum));
+        throw Error(where.here(), "expected weights that add up to 1, found ", sum);
 }
 
 bool isLarge(double number) {
@@ -59,7 +59,7 @@ bool isLarge(double number) {
 }
 
 Error tooLarge(double number, const Location& where) {
-    return Error(where, concat("expected a number from ", -mostValue, " to ", mostValue, ", found ", number));
+    return Error(where, "expected a number from ", -mostValue, " to ", mostValue, ", found ", number);
 }
 
 void checkNumber(double number, const Where& where) {
@@ -76,8 +76,7 @@ void checkOffset(const SkinVertex& vertex, const Molecule& molecule, const Where
 using Elements = std::vector<JsonValue>;
 
 void needKind(const JsonValue& value, Kind kind, const char* what, const Where& where) {
-    if (value.kind != kind)
-        throw Error(where.here(), concat("expected ", what, ", found ", name(value.kind)));
+    if (value.kind != kind) throw Error(where.here(), "expected ", what, ", found ", name(value.kind));
 }
 
 // The elements of a key's array; null where the key is absent.
@@ -115,8 +114,8 @@ void readWeights(const Elements& weights, const Molecule& molecule, Skin& skin, 
 
 void checkCount(const Elements& elements, size_t count, const Location& where) {
     if (elements.size() != count)
-        throw Error(where, concat("expected one for each of the skin's ", count, " weights, found ",
-                                  elements.size()));
+        throw Error(where, "expected one for each of the skin's ", count, " weights, found ",
+                    elements.size());
 }
 
 void readUvs(const Elements& uvs, Skin& skin, const Where& where) {
@@ -124,8 +123,7 @@ void readUvs(const Elements& uvs, Skin& skin, const Where& where) {
     for (size_t i = 0; i < uvs.size(); ++i) {
         const Where here = where.in("uvs", i);
         const Elements& pair = numbersOf(uvs[i], here);
-        if (pair.size() != 2)
-            throw Error(here.here(), concat("expected an array of 2 numbers, found ", pair.size()));
+        if (pair.size() != 2) throw Error(here.here(), "expected an array of 2 numbers, found ", pair.size());
         for (size_t k = 0; k < 2; ++k) {
             const double number = skin.vertices[i].uv[int(k)] = pair[k].number;
             if (!isLarge(number)) continue;
@@ -152,7 +150,7 @@ void readSkinTriangles(const Elements& triangles, Skin& skin, const Where& where
         const Where here = where.in("triangles", i);
         const Elements& corners = numbersOf(triangles[i], here);
         if (corners.size() != 3)
-            throw Error(here.here(), concat("expected an array of 3 numbers, found ", corners.size()));
+            throw Error(here.here(), "expected an array of 3 numbers, found ", corners.size());
         int index[3];
         for (size_t k = 0; k < 3; ++k) {
             checkIndex(corners[k].number, skin.vertices.size(), "the skin", here.element(k));

@@ -159,7 +159,7 @@ const Description& describe(const ColorScale*) {
         const JsonValue* list = r.raw("colors");
         if (!list) return;
         if (list->kind != JsonValue::Kind::array)
-            throw Error(r.at("colors"), concat("expected an array of colours, found ", name(list->kind)));
+            throw Error(r.at("colors"), "expected an array of colours, found ", name(list->kind));
         scale.colors.clear();
         for (const JsonValue& item : list->items) {
             glm::dvec3 color(-1);
@@ -172,11 +172,11 @@ const Description& describe(const ColorScale*) {
     };
     static const auto rule = [](const C& scale, const Where& where) {
         if (scale.to - scale.from < leastPositive)
-            throw Error(where.at("to"),
-                        concat("expected \"to\" above \"from\" (", scale.from, "), found ", scale.to));
+            throw Error(where.at("to"), "expected \"to\" above \"from\" (", scale.from, "), found ",
+                        scale.to);
         if (scale.colors.size() < leastScaleColors || scale.colors.size() > mostScaleColors)
-            throw Error(where.at("colors"), concat("expected ", leastScaleColors, " to ", mostScaleColors,
-                                                   " colours, found ", scale.colors.size()));
+            throw Error(where.at("colors"), "expected ", leastScaleColors, " to ", mostScaleColors,
+                        " colours, found ", scale.colors.size());
         for (size_t i = 0; i < scale.colors.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 if (!contains(Range::between(0, 1), scale.colors[i][c]))

@@ -49,8 +49,8 @@ Box boundsOf(const FileGrid& grid, const AxisMap& map, const GridSource& source,
     for (int i = 0; i < 3; ++i)
         if (!(std::abs(box.low[i]) < largestInFiles && std::abs(box.high[i]) < largestInFiles) ||
             !(box.low[i] < box.high[i]))
-            throw Error(Location{file}, concat("bounds of ", box.low[i], " to ", box.high[i], " m along ",
-                                               axisNames[i], " after scaling are beyond single precision"));
+            throw Error(Location{file}, "bounds of ", box.low[i], " to ", box.high[i], " m along ",
+                        axisNames[i], " after scaling are beyond single precision");
     return box;
 }
 
@@ -59,23 +59,22 @@ void checkSame(const GridField& field, const glm::ivec3& resolution, const Box& 
                const std::string& file) {
     const auto triple = [](const auto& v) { return concat(v.x, " x ", v.y, " x ", v.z); };
     if (resolution != field.resolution)
-        throw Error(Location{file}, concat("has ", triple(resolution), " cells, ", field.file,
-                                           " of the same sequence has ", triple(field.resolution)));
+        throw Error(Location{file}, "has ", triple(resolution), " cells, ", field.file,
+                    " of the same sequence has ", triple(field.resolution));
     const glm::dvec3 slack = 1e-6 * (field.high - field.low);  // what was written as text
     for (int i = 0; i < 3; ++i)
         if (std::abs(box.low[i] - field.low[i]) > slack[i] ||
             std::abs(box.high[i] - field.high[i]) > slack[i])
-            throw Error(Location{file}, concat("reaches from ", box.low[i], " to ", box.high[i], " m along ",
-                                               axisNames[i], ", ", field.file, " of the same sequence from ",
-                                               field.low[i], " to ", field.high[i]));
+            throw Error(Location{file}, "reaches from ", box.low[i], " to ", box.high[i], " m along ",
+                        axisNames[i], ", ", field.file, " of the same sequence from ", field.low[i], " to ",
+                        field.high[i]);
 }
 
 [[noreturn]] void refuseValue(const glm::vec3& value, const glm::ivec3& cell, const std::string& file) {
     const bool finite = std::isfinite(value.x) && std::isfinite(value.y) && std::isfinite(value.z);
-    throw Error(
-        Location{file},
-        concat("cell (", cell.x, ", ", cell.y, ", ", cell.z, ") holds (", value.x, ", ", value.y, ", ",
-               value.z, "), ", finite ? "after scaling beyond single precision" : "expected finite numbers"));
+    throw Error(Location{file}, "cell (", cell.x, ", ", cell.y, ", ", cell.z, ") holds (", value.x, ", ",
+                value.y, ", ", value.z, "), ",
+                finite ? "after scaling beyond single precision" : "expected finite numbers");
 }
 
 }  // namespace
@@ -84,13 +83,13 @@ size_t countCells(const glm::dvec3& resolution, const Location& where) {
     double cells = 1;
     for (int i = 0; i < 3; ++i) {
         if (!(resolution[i] >= 1) || resolution[i] != std::floor(resolution[i]))
-            throw Error(where, concat("expected the resolution along ", axisNames[i],
-                                      " as a whole number of at least 1, found ", resolution[i]));
+            throw Error(where, "expected the resolution along ", axisNames[i],
+                        " as a whole number of at least 1, found ", resolution[i]);
         cells *= resolution[i];
     }
     if (cells > double(maxFieldCells))
-        throw Error(where, concat("the resolution makes more than ", maxFieldCells,
-                                  " cells (2^24), the most that a field may have"));
+        throw Error(where, "the resolution makes more than ", maxFieldCells,
+                    " cells (2^24), the most that a field may have");
     return size_t(cells);
 }
 
@@ -168,9 +167,8 @@ void load(GridField& field, const Where& where) {
     for (const std::string& file : found.files) {
         addFrame(field, readFieldFile(file, source, layout), file);
         if (field.cells() * found.files.size() > size_t(maxFieldCells))
-            throw Error(where.at("sequence"),
-                        concat(found.files.size(), " frames of ", field.cells(), " cells are more than the ",
-                               maxFieldCells, " cells (2^24) that a field may have"));
+            throw Error(where.at("sequence"), found.files.size(), " frames of ", field.cells(),
+                        " cells are more than the ", maxFieldCells, " cells (2^24) that a field may have");
     }
 }
 
@@ -178,9 +176,8 @@ void checkGrid(const GridField& grid, const Where& where) {
     countCells(grid.resolution, where.at("resolution"));
     const size_t frames = std::max<size_t>(1, grid.times.size());
     if (grid.values.size() != grid.cells() * frames)
-        throw Error(where.at("values"),
-                    concat("expected ", grid.cells() * frames, " values, one a cell",
-                           frames > 1 ? " and frame" : "", ", found ", grid.values.size()));
+        throw Error(where.at("values"), "expected ", grid.cells() * frames, " values, one a cell",
+                    frames > 1 ? " and frame" : "", ", found ", grid.values.size());
     checkBox({grid.low, grid.high}, false, where.at("high"));
     for (const glm::vec3& value : grid.values)
         for (int c = 0; c < 3; ++c)

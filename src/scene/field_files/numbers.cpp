@@ -66,11 +66,10 @@ double NumberScanner::convert(size_t begin, size_t end) const {
     double value = 0;
     const auto [stop, code] = std::from_chars(first, last, value);
     if (code == std::errc::result_out_of_range && stop == last)
-        throw Error(here(), concat("expected a number in the range of doubles, found ", quoted(begin, end)));
+        throw Error(here(), "expected a number in the range of doubles, found ", quoted(begin, end));
     if (code != std::errc() || stop != last)
-        throw Error(here(), concat("expected a number, found ", quoted(begin, end)));
-    if (!std::isfinite(value))
-        throw Error(here(), concat("expected a finite number, found ", quoted(begin, end)));
+        throw Error(here(), "expected a number, found ", quoted(begin, end));
+    if (!std::isfinite(value)) throw Error(here(), "expected a finite number, found ", quoted(begin, end));
     return value;
 }
 
@@ -88,9 +87,9 @@ std::vector<glm::vec3> takeVelocities(NumberScanner& numbers, size_t cells) {
     for (float& velocity : asFloats(out)) {
         double value = 0;
         if (!numbers.next(value))
-            throw Error(numbers.here(), concat("expected ", 3 * cells, " values, found ", found));
+            throw Error(numbers.here(), "expected ", 3 * cells, " values, found ", found);
         if (!(std::abs(value) < largestInFiles))
-            throw Error(numbers.here(), concat("a velocity of ", value, " is beyond single precision"));
+            throw Error(numbers.here(), "a velocity of ", value, " is beyond single precision");
         velocity = float(value);
         ++found;
     }
@@ -165,8 +164,7 @@ class ByteSource {
 
   private:
     [[noreturn]] void refuseShort(size_t count, size_t found) const {
-        throw Error(*where_,
-                    concat("the data end too early: expected ", count, " bytes more, found ", found));
+        throw Error(*where_, "the data end too early: expected ", count, " bytes more, found ", found);
     }
 
     // Four digits: one to three bytes. A padded group may be followed by another stream.
@@ -219,7 +217,7 @@ uint64_t takeLength(ByteSource& source, const VtkEncoding& encoding) {
 }
 
 [[noreturn]] void refuseCount(uint64_t found, size_t expected, const Location& where) {
-    throw Error(where, concat("holds ", found, " bytes, the extent takes ", expected));
+    throw Error(where, "holds ", found, " bytes, the extent takes ", expected);
 }
 
 // Each block is a stream of zlib's.
@@ -229,9 +227,8 @@ std::vector<std::byte> inflateBlocks(ByteSource& source, const VtkEncoding& enco
                    lastBytes = takeLength(source, encoding);
     // Each is checked before they are multiplied, so that the product cannot overflow.
     if (blocks == 0 || blocks > expected || (blocks > 1 && blockBytes > expected) || lastBytes > blockBytes)
-        throw Error(where,
-                    concat("the header of the compressed data tells of ", blocks, " blocks of ", blockBytes,
-                           " bytes and a last of ", lastBytes, ", the extent takes ", expected));
+        throw Error(where, "the header of the compressed data tells of ", blocks, " blocks of ", blockBytes,
+                    " bytes and a last of ", lastBytes, ", the extent takes ", expected);
     const uint64_t total = (blocks - 1) * blockBytes + (lastBytes ? lastBytes : blockBytes);
     if (total != expected) refuseCount(total, expected, where);
     std::vector<uint64_t> sizes;
@@ -242,15 +239,15 @@ std::vector<std::byte> inflateBlocks(ByteSource& source, const VtkEncoding& enco
     for (uint64_t i = 0; i < blocks; ++i) {
         const uint64_t bytes = i + 1 == blocks && lastBytes ? lastBytes : blockBytes;
         if (sizes[i] > source.left())
-            throw Error(where, concat("the data end too early: block ", i, " has ", sizes[i],
-                                      " bytes, at most ", source.left(), " are left"));
+            throw Error(where, "the data end too early: block ", i, " has ", sizes[i], " bytes, at most ",
+                        source.left(), " are left");
         packed.resize(sizes[i]);
         source.take(packed.data(), packed.size());
         uLongf got = uLongf(bytes);
         const int code = uncompress(reinterpret_cast<Bytef*>(out.data() + i * blockBytes), &got,
                                     reinterpret_cast<const Bytef*>(packed.data()), uLong(packed.size()));
         if (code != Z_OK || got != bytes)
-            throw Error(where, concat("block ", i, " of the compressed data is damaged"));
+            throw Error(where, "block ", i, " of the compressed data is damaged");
     }
     return out;
 }
@@ -265,8 +262,8 @@ std::vector<std::byte> vtkBytes(const std::string& text, size_t begin, size_t en
     if (bytes != expected) refuseCount(bytes, expected, where);
     // before as much is reserved
     if (bytes > source.left())
-        throw Error(where, concat("the data end too early: expected ", bytes, " bytes, at most ",
-                                  source.left(), " are left"));
+        throw Error(where, "the data end too early: expected ", bytes, " bytes, at most ", source.left(),
+                    " are left");
     std::vector<std::byte> out(expected);
     source.take(out.data(), out.size());
     return out;

@@ -23,9 +23,8 @@ FileGrid readHeader(NumberScanner& numbers) {
     for (int i = 0; i < 3; ++i) {
         grid.high[i] = need(numbers, concat("the high bound along ", axisNames[i]));
         if (!(grid.low[i] < grid.high[i]))
-            throw Error(numbers.here(),
-                        concat("expected the high bound along ", axisNames[i], " above the low one (",
-                               grid.low[i], "), found ", grid.high[i]));
+            throw Error(numbers.here(), "expected the high bound along ", axisNames[i],
+                        " above the low one (", grid.low[i], "), found ", grid.high[i]);
     }
     return grid;
 }
@@ -41,7 +40,7 @@ FileGrid parseFga(const std::string& text, const std::string& file) {
         size_t found = 0;
         for (double ignored; numbers.next(ignored);)
             ++found;
-        throw Error(numbers.here(), concat("expected ", expected, " values, found ", found));
+        throw Error(numbers.here(), "expected ", expected, " values, found ", found);
     }
     grid.values = takeVelocities(numbers, expected / 3);
     if (double extra = 0; numbers.next(extra)) {
@@ -49,7 +48,7 @@ FileGrid parseFga(const std::string& text, const std::string& file) {
         size_t found = expected + 1;
         while (numbers.next(extra))
             ++found;
-        throw Error(where, concat("expected ", expected, " values, found ", found));
+        throw Error(where, "expected ", expected, " values, found ", found);
     }
     return grid;
 }

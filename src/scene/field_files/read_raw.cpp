@@ -47,8 +47,8 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
     const size_t cells = countCells(glm::dvec3(size), where);
     const size_t expected = size_t(layout.skip) + 3 * cells * bytesOf(layout.encoding);
     if (bytes.size() != expected)
-        throw Error(where, concat("the layout of ", size.x, " x ", size.y, " x ", size.z, " cells takes ",
-                                  expected, " bytes, found ", bytes.size()));
+        throw Error(where, "the layout of ", size.x, " x ", size.y, " x ", size.z, " cells takes ", expected,
+                    " bytes, found ", bytes.size());
     grid.values.resize(cells);
     const auto numbers = std::as_bytes(std::span(bytes).subspan(size_t(layout.skip)));
     if (!layout.planar && !layout.zFastest) {
@@ -77,7 +77,7 @@ FileGrid parseVf(const std::string& bytes, const std::string& file) {
         throw Error(where, "holds single numbers (VF_F), expected vectors (VF_V)");
     if (bytes.rfind("VF_V", 0) != 0) throw Error(where, "expected a file that begins with \"VF_V\"");
     if (bytes.size() < headerBytes)
-        throw Error(where, concat("expected a header of ", headerBytes, " bytes, found ", bytes.size()));
+        throw Error(where, "expected a header of ", headerBytes, " bytes, found ", bytes.size());
     RawLayout layout;
     for (int i = 0; i < 3; ++i) {
         const auto byte = [&](int k) { return int(uint8_t(bytes[size_t(4 + 2 * i + k)])); };
@@ -86,8 +86,8 @@ FileGrid parseVf(const std::string& bytes, const std::string& file) {
     const glm::ivec3 size = layout.resolution;
     const size_t expected = headerBytes + 12 * countCells(glm::dvec3(size), where);
     if (bytes.size() != expected)
-        throw Error(where, concat(size.x, " x ", size.y, " x ", size.z, " cells take ", expected,
-                                  " bytes, found ", bytes.size()));
+        throw Error(where, size.x, " x ", size.y, " x ", size.z, " cells take ", expected, " bytes, found ",
+                    bytes.size());
     layout.skip = headerBytes;
     return parseRaw(bytes, layout, file);
 }

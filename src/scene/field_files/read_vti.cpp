@@ -38,7 +38,7 @@ class Reader {
                                                                pugi::parse_default, pugi::encoding_utf8);
         if (!result)
             throw Error(locate(text, size_t(std::max<std::ptrdiff_t>(result.offset, 0)), file),
-                        concat("is not XML: ", result.description()));
+                        "is not XML: ", result.description());
         root_ = xml_.child("VTKFile");
         if (!root_) throw Error(Location{file, 1, 1, {}}, "expected a file of VTK's, with the tag VTKFile");
         const std::string type = root_.attribute("type").value();
@@ -263,7 +263,7 @@ class Reader {
         NumberScanner scanner(text_, begin, end, file_);
         std::vector<glm::vec3> out = takeVelocities(scanner, cells);
         if (double extra = 0; scanner.next(extra))
-            throw Error(scanner.here(), concat("expected ", 3 * cells, " values, found more"));
+            throw Error(scanner.here(), "expected ", 3 * cells, " values, found more");
         return out;
     }
 

@@ -28,8 +28,8 @@ void checkItems(const Placement& place, const Where& where) {
 void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
     if (places > 0 && count > places)
-        throw Error(where.at("count"),
-                    concat("expected a count of at most ", places, ", the number of places, found ", count));
+        throw Error(where.at("count"), "expected a count of at most ", places,
+                    ", the number of places, found ", count);
 }
 
 void deriveCount(Group& group, const Where& where) {
@@ -45,8 +45,8 @@ void deriveCount(Group& group, const Where& where) {
     const double places = placesOf(group.place);
     if (places == 0) where.require("count");
     if (places > maxGroupCount)
-        throw Error(where.in("place").at("cells"),
-                    concat("expected at most ", maxGroupCount, " places, found ", places));
+        throw Error(where.in("place").at("cells"), "expected at most ", maxGroupCount, " places, found ",
+                    places);
     group.count = int(places);
 }
 
@@ -114,12 +114,11 @@ void deriveCapacity(const Group& group, Lifecycle& life, const Where& where) {
         return;
     }
     const bool tooMany = life.life.y < longestLife;
-    throw Error(where.here(),
-                concat("expected a \"capacity\" in \"life\": ",
-                       emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
-                       : tooMany             ? concat("rate times span is ", mostAlive(group.count, life),
-                                                      ", more than the ", maxGroupCount, " that a group may have")
-                                             : "without a \"span\" nothing says how many may be alive"));
+    throw Error(where.here(), "expected a \"capacity\" in \"life\": ",
+                emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
+                : tooMany ? concat("rate times span is ", mostAlive(group.count, life), ", more than the ",
+                                   maxGroupCount, " that a group may have")
+                          : "without a \"span\" nothing says how many may be alive");
 }
 
 void checkLife(const Group& group, const Where& where) {
@@ -127,19 +126,18 @@ void checkLife(const Group& group, const Where& where) {
     const Where own = where.in("life");
     for (const char* key : newbornKeys)
         if (group.particle && own.given(key))
-            throw Error(own.at(key),
-                        concat("\"", key, "\" is of newborn molecules, and this group has a particle"));
+            throw Error(own.at(key), "\"", key, "\" is of newborn molecules, and this group has a particle");
     if (own.given("allocator") && life.emitters.empty())
         throw Error(own.at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
     if (life.capacity < group.count)
-        throw Error(own.at("capacity"), concat("expected a capacity of at least the count at the start, ",
-                                               group.count, ", found ", life.capacity));
+        throw Error(own.at("capacity"), "expected a capacity of at least the count at the start, ",
+                    group.count, ", found ", life.capacity);
     for (size_t i = 0; i < life.emitters.size(); ++i)
         if (life.emitters[i].from == Emitter::From::death && life.allocator != Allocator::gpu)
             throw Error(where.in("emitters", i).here(),
-                        concat("only the allocator \"gpu\" can emit from deaths: how many there are is known "
-                               "there, and \"",
-                               name(life.allocator), "\" is asked for"));
+                        "only the allocator \"gpu\" can emit from deaths: how many there are is known "
+                        "there, and \"",
+                        name(life.allocator), "\" is asked for");
 }
 
 // ---- The whole
@@ -150,8 +148,7 @@ void derive(Group& group, const Where& where) {
     if (group.particle)
         for (const char* key : {"molecule", "color", "secondColor"})
             if (where.given(key))
-                throw Error(where.at(key),
-                            concat("\"", key, "\" is of molecules, and this group has a particle"));
+                throw Error(where.at(key), "\"", key, "\" is of molecules, and this group has a particle");
     if (group.particle) group.molecule = moleculeOf(*group.particle);
     if (!where.given("name")) group.name = group.molecule.name;
     deriveCount(group, where);
@@ -173,7 +170,7 @@ void checkGroup(const Group& group, const Where& where) {
     if (group.colorBy)
         for (const char* key : {"color", "secondColor"})
             if (where.given(key))
-                throw Error(where.at(key), concat("\"", key, "\" has no effect beside \"colorBy\""));
+                throw Error(where.at(key), "\"", key, "\" has no effect beside \"colorBy\"");
 }
 
 }  // namespace
@@ -254,8 +251,7 @@ namespace {
 void checkModelIndex(int model, const std::vector<Model>& models, const Location& where) {
     if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
     if (model < 0 || size_t(model) >= models.size())
-        throw Error(where,
-                    concat("expected the number of a model, 0 to ", models.size() - 1, ", found ", model));
+        throw Error(where, "expected the number of a model, 0 to ", models.size() - 1, ", found ", model);
 }
 
 void checkObject(const Selection& select, const Model& model, const Where& where) {
@@ -269,9 +265,8 @@ void checkSurface(const Emitter& emitter, const std::vector<Model>& models, cons
     const Model& model = models[size_t(emitter.model)];
     checkObject(emitter.select, model, where.in("select"));
     if (!(selectedArea(model.mesh, emitter.select) > 0))
-        throw Error(where.here(),
-                    concat("nothing of model \"", model.name,
-                           "\" matches the selection, expected triangles with an area to emit from"));
+        throw Error(where.here(), "nothing of model \"", model.name,
+                    "\" matches the selection, expected triangles with an area to emit from");
 }
 
 void checkModelsOf(const Group& group, const std::vector<Model>& models, const Where& where) {

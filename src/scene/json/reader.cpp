@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path) {
     if (value.kind == JsonValue::Kind::number && !(std::abs(value.number) <= largestNumber))
-        throw Error(Location{file, value.line, value.column, path},
-                    concat("expected a number within ", largestNumber, " of 0, found ", value.text));
+        throw Error(Location{file, value.line, value.column, path}, "expected a number within ",
+                    largestNumber, " of 0, found ", value.text);
     for (size_t i = 0; i < value.items.size(); ++i)
         refuseHugeNumbers(value.items[i], file, concat(path, "[", i, "]"));
     for (const auto& [key, member] : value.members)
@@ -27,7 +27,7 @@ std::string needFile(const Where& where, const std::string& key, const std::stri
         throw Error(at, "expected the name of a file, found a null character in it");
     const fs::path path = (fs::path(at.file).parent_path() / written).lexically_normal();
     std::error_code code;
-    if (!mayOpen(path)) throw Error(at, concat("\"", written, "\" ", outsideSandbox));
+    if (!mayOpen(path)) throw Error(at, "\"", written, "\" ", outsideSandbox);
     if (!fs::exists(path, code)) throw Error(at, "no such file: " + path.string());
     if (fs::is_directory(path, code)) throw Error(at, "expected a file, found a folder: " + path.string());
     return path.string();
