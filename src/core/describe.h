@@ -139,6 +139,12 @@ class Describe {
         return *this;
     }
 
+    // The struct that the word "keys" stands for in the JSON Schema of the key before, which is read by hand.
+    Describe& of(const Description& keys) {
+        last().objects = {&keys};
+        return *this;
+    }
+
     // The keys of a whole file, such as one of "shoal-scene-1".
     Describe& format(const std::string& name) {
         it_.format_ = name;

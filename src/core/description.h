@@ -97,7 +97,7 @@ struct Key {
     std::vector<std::string> words;
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives
-    std::string schema;                       // byHand: the JSON Schema of its value
+    std::string schema;  // byHand: the JSON Schema of its value, in which "keys" stands for that of `objects`
     std::function<void(JsonReader&, void* object, void* context)> read;  // byHand, and instead of a member
     // byHand, and where what is written is not the member itself; null: the key is left out
     std::function<JsonValue(const void* object, const void* context)> write;

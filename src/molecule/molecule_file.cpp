@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/describe.h"
-#include "core/description_schema.h"
 #include "core/file.h"
 #include "core/where.h"
 #include "molecule/molecule_file.h"
@@ -305,9 +304,10 @@ const Description& describe(const Molecule*) {
         Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
             .format("shoal-molecule-1")
             .key("name", &M::name, {"", "Its name, and that of groups that have none."})
-            .byHand<Defaults>(
-                "defaults", writeJson(schemaOf(describe(static_cast<const Defaults*>(nullptr)))),
-                {"object", "Values of elements that do not give their own."}, readDefaults, writeDefaults)
+            .byHand<Defaults>("defaults", R"("keys")",
+                              {"object", "Values of elements that do not give their own."}, readDefaults,
+                              writeDefaults)
+            .of(describeDefaults())
             .key("vertices", &M::vertices, {"", "Its vertices, 1 to 65,536."})
             .needed()
             .key("springs", &M::springs, {"", "Its springs, at most 1,048,576."})

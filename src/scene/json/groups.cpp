@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "core/describe.h"
-#include "core/description_schema.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 #include "scene/json/reader.h"
@@ -62,11 +61,6 @@ void readDrag(JsonReader& r, Group& group, void*) {
     }
     r.get("drag", group.drag.normal, Range::atLeast(0));
     group.drag.tangent = group.drag.normal;
-}
-
-std::string dragSchema() {
-    return concat(R"({"anyOf": [{"type": "number", "minimum": 0}, )",
-                  writeJson(schemaOf(describe(static_cast<const Drag*>(nullptr)))), R"(], "default": 0})");
 }
 
 // ---- Life
@@ -201,10 +195,11 @@ const Description& describe(const Group*) {
                                               "What molecules or particles of the group are born from.")
             .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
-            .byHand("drag", dragSchema(),
+            .byHand("drag", R"({"anyOf": [{"type": "number", "minimum": 0}, "keys"], "default": 0})",
                     {"number of at least 0, 1/s; or an object",
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)
+            .of(describe(static_cast<const Drag*>(nullptr)))
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
             .only("held", {"true"}, "means nothing: \"held\" is false, so pins are free from the start")
