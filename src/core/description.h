@@ -113,8 +113,7 @@ class Description {
     const std::string& name() const { return name_; }
     const std::string& sentence() const { return sentence_; }
     const std::vector<Key>& keys() const { return keys_; }
-    const void* usual() const { return usual_; }  // a struct as it is without any key
-    JsonValue usualValue(const Key& key) const;   // of a key that is left out; null: there is none
+    JsonValue usualValue(const Key& key) const;  // of a key that is left out; null: there is none
     const std::string& schema() const {
         return schema_;
     }  // of rules between keys, as JSON Schema; may be empty

@@ -73,9 +73,6 @@ JsonValue readJson(const std::string& file);
 // not finite, which JSON cannot say, becomes null.
 std::string writeJson(const JsonValue& value);
 std::string writeJsonLine(const JsonValue& value);  // on one line, without a newline
-// `fresh` with its keys in the order of `original` and with the comments that only `original` has, so that
-// saving a file again changes what changed and no more. Elements of arrays are matched by index.
-JsonValue inOrderOf(const JsonValue& original, JsonValue fresh);
 
 // Limits of a number, inclusive unless `above`.
 struct Range {

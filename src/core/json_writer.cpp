@@ -131,26 +131,4 @@ std::string writeJsonLine(const JsonValue& value) {
     return out;
 }
 
-JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
-    if (original.kind != fresh.kind) return fresh;
-    for (size_t i = 0; i < fresh.items.size() && i < original.items.size(); ++i)
-        fresh.items[i] = inOrderOf(original.items[i], std::move(fresh.items[i]));
-
-    std::vector<JsonMember> ordered;
-    for (const auto& [key, old] : original.members) {
-        const auto same = [&key = key](const auto& member) { return member.first == key; };
-        const auto member = std::find_if(fresh.members.begin(), fresh.members.end(), same);
-        if (member != fresh.members.end()) {
-            ordered.push_back({key, inOrderOf(old, std::move(member->second))});
-            fresh.members.erase(member);
-        } else if (key == "comment" || key == "$schema") {
-            ordered.push_back({key, old});
-        }
-    }
-    for (auto& member : fresh.members)
-        ordered.push_back(std::move(member));
-    fresh.members = std::move(ordered);
-    return fresh;
-}
-
 }  // namespace shoal

@@ -390,10 +390,8 @@ JsonValue toJson(const Molecule& molecule, bool spelled) {
     return out;
 }
 
-std::string writeMolecule(const Molecule& molecule, const std::string& originalText) {
-    JsonValue root = toJson(molecule, false);
-    if (originalText.empty()) return writeJson(root);
-    return writeJson(inOrderOf(parseJson(originalText, molecule.file), std::move(root)));
+std::string writeMolecule(const Molecule& molecule) {
+    return writeJson(toJson(molecule, false));
 }
 
 }  // namespace shoal
