@@ -8,7 +8,7 @@ find_package(glfw3 3.3 REQUIRED)
 find_package(assimp REQUIRED)
 find_package(Eigen3 REQUIRED NO_MODULE)
 
-# Closest points on models. The headers of 4 go before those of 3 (geometry/embree.h).
+# Closest points on models. The headers of 4 go before those of 3 (geometry/closest_point.cpp).
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)

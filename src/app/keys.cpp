@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "app/commands.h"
-#include "core/description_schema.h"
+#include "core/description_text.h"
 #include "molecule/molecule_json.h"
 #include "scene/field_files/field_file.h"
 #include "scene/scene.h"

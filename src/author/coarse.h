@@ -3,13 +3,12 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
-#include "geometry/mesh.h"
+#include "geometry/sample_grid.h"
 
 namespace shoal {
-
-class Inside;
 
 struct CoarseMesh {
     std::vector<glm::dvec3> positions;
@@ -25,9 +24,32 @@ struct CoarseMesh {
 // meshes, of which every collapse costs nothing, vertices are gathered about seeds far from one another.
 CoarseMesh simplify(const Mesh& mesh, int vertices);
 
+// Collapses edges by that metric, to about so many triangles; `corners`: three a triangle.
+std::vector<unsigned> collapseEdges(const std::vector<unsigned>& corners,
+                                    const std::vector<glm::vec3>& positions, size_t triangles);
+
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its
 // positive end to its negative one, closed at the ends. Error: the mesh is flat along an axis.
 CoarseMesh ringsOf(const Mesh& mesh, int rings);
+
+// The volume of a closed mesh as samples of a grid: is a point inside, how much is near what.
+class Inside {
+  public:
+    // Samples a closed mesh. Parts thinner than a cell, a 250th of the longest side at the finest, may be
+    // missed.
+    explicit Inside(const Mesh& mesh);
+
+    bool at(const glm::dvec3& point) const;
+    // The share of points of the segment that lie inside.
+    double share(const glm::dvec3& a, const glm::dvec3& b) const;
+    double volume() const { return double(samples_.size()) * grid_.cell * grid_.cell * grid_.cell; }
+    const std::vector<glm::dvec3>& samples() const { return samples_; }  // the middle of every cell inside
+
+  private:
+    SampleGrid grid_;
+    std::vector<int16_t> winding_;
+    std::vector<glm::dvec3> samples_;
+};
 
 // Tetrahedra of a body-centred cubic lattice that fill a volume ([Molino 2003]: the lattice, not its
 // refinement).

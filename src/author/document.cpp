@@ -1,6 +1,5 @@
 #include "author/edit.h"
 
-#include <cstdlib>
 #include <utility>
 
 #include "core/cache_folder.h"
@@ -64,12 +63,9 @@ std::filesystem::path targetOf(const std::string& file) {
 
 // $XDG_STATE_HOME/shoal/unsaved, ~/.local/state/shoal/unsaved; else empty.
 std::string unsavedFolder() {
-    const auto variable = [](const char* name) {
-        const char* value = std::getenv(name);
-        return std::string(value ? value : "");
-    };
-    if (const std::string state = variable("XDG_STATE_HOME"); !state.empty()) return state + "/shoal/unsaved";
-    const std::string home = variable("HOME");
+    if (const std::string state = environment("XDG_STATE_HOME"); !state.empty())
+        return state + "/shoal/unsaved";
+    const std::string home = environment("HOME");
     return home.empty() ? home : home + "/.local/state/shoal/unsaved";
 }
 
@@ -130,8 +126,7 @@ void Document::restart(Molecule molecule) {
 
 void Document::save() {
     std::string there = readFile(file_);
-    if (there != text_)
-        throw Error(Location{file_, 0, 0, {}}, "was changed by another program since it was opened");
+    if (there != text_) throw Error(Location{file_}, "was changed by another program since it was opened");
     const std::string edited = withEdits(text_, now_);
     if (edited != text_) writeFile(file_, edited);
     // one state of the draft is the file's now; those before and after it keep their origins where the

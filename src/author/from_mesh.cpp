@@ -8,7 +8,6 @@
 #include <Eigen/Dense>
 
 #include "author/coarse.h"
-#include "author/inside.h"
 #include "author/springs.h"
 #include "compile/path.h"
 #include "molecule/skin.h"
@@ -209,8 +208,7 @@ class Maker {
         made_.volume = made_.solid ? std::abs(report.volume) : 0;
         made_.extent = mesh_.high - mesh_.low;
         if (options_.springs == FromMesh::Springs::lattice && !made_.solid)
-            throw Error(
-                concat("a lattice of tetrahedra fills a volume, and this mesh has none: ", whyOpen(report)));
+            throw Error("a lattice of tetrahedra fills a volume, and this mesh has none: ", whyOpen(report));
         if (made_.solid) inside_ = std::make_unique<Inside>(mesh_);
         constexpr size_t leastSamples = 100;  // fewer tell nothing of how a mass is spread
         if (inside_ && inside_->samples().size() < leastSamples) {
@@ -376,11 +374,10 @@ class Maker {
         constexpr double mostError = 1e-3, mostLever = 10;
         const double off = made_.skinError / molecule().size();
         if (off > mostError || lever > mostLever)
-            throw Error(concat("the skin would tear: with ", molecule().vertices.size(),
-                               " simulated vertices it ",
-                               off > mostError ? concat("would hang ", off, " of the size off the mesh")
-                                               : concat("would move ", lever, " times as far as one of them"),
-                               ". Ask for more vertices, for rings, or for no skin"));
+            throw Error("the skin would tear: with ", molecule().vertices.size(), " simulated vertices it ",
+                        off > mostError ? concat("would hang ", off, " of the size off the mesh")
+                                        : concat("would move ", lever, " times as far as one of them"),
+                        ". Ask for more vertices, for rings, or for no skin");
     }
 
     const FromMesh& options_;
@@ -403,28 +400,28 @@ void checkOptions(const FromMesh& o) {
     const auto above = [](const char* what, const std::optional<double>& value, double most,
                           const char* unit) {
         if (value && !(*value > 0 && *value <= most))
-            throw Error(concat("expected a ", what, " above 0, at most ", most, unit, ", found ", *value));
+            throw Error("expected a ", what, " above 0, at most ", most, unit, ", found ", *value);
     };
     above("size", o.size, 1e5, " m");
     above("mass", o.mass, 1e9, " kg");
     above("density", o.density, 1e5, " kg/m^3");
     above("frequency", o.frequency, 1e5, " Hz");
     if (o.damping && !(*o.damping >= 0 && *o.damping <= 2))
-        throw Error(concat("expected a damping ratio from 0 to 2, found ", *o.damping));
+        throw Error("expected a damping ratio from 0 to 2, found ", *o.damping);
     if (!o.material.empty()) scaledMaterial(o.material);
     if (o.mass && o.density) throw Error("expected either a mass or a density, found both");
     const int asked = o.rings ? 4 * *o.rings : o.vertices;
     if (o.skinTriangles && *o.skinTriangles < 4)
-        throw Error(concat("expected at least 4 triangles of the skin, found ", *o.skinTriangles));
+        throw Error("expected at least 4 triangles of the skin, found ", *o.skinTriangles);
     if (o.skinTriangles && !o.skin)
         throw Error("expected either triangles of the skin or no skin, found both");
-    if (o.rings && *o.rings < 2) throw Error(concat("expected at least 2 rings, found ", *o.rings));
+    if (o.rings && *o.rings < 2) throw Error("expected at least 2 rings, found ", *o.rings);
     if (!o.rings && asked < leastMadeVertices)
-        throw Error(concat("expected at least ", leastMadeVertices, " vertices, found ", asked));
+        throw Error("expected at least ", leastMadeVertices, " vertices, found ", asked);
     if (asked > mostMadeVertices())
-        throw Error(concat("a molecule of ", asked, " vertices is larger than the fused path holds: at most ",
-                           mostMadeVertices(),
-                           o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : ""));
+        throw Error("a molecule of ", asked, " vertices is larger than the fused path holds: at most ",
+                    mostMadeVertices(),
+                    o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : "");
     if (o.rings && o.springs == FromMesh::Springs::lattice)
         throw Error("expected either rings or a lattice, found both");
 }

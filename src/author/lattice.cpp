@@ -1,11 +1,9 @@
 #include "author/coarse.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <numeric>
 
-#include "author/inside.h"
 #include "core/error.h"
 
 namespace shoal {
@@ -195,10 +193,9 @@ Lattice latticeIn(const Mesh& mesh, const Inside& inside, int vertices) {
         if (best.cells.empty()) worse = 0;  // too coarse still
     }
     if (best.cells.empty())
-        throw Error(
-            concat("no lattice of at most ", vertices,
-                   " vertices lies in this mesh, which is too thin: take more vertices, or springs of "
-                   "the surface"));
+        throw Error("no lattice of at most ", vertices,
+                    " vertices lies in this mesh, which is too thin: take more vertices, or springs of "
+                    "the surface");
     return best;
 }
 

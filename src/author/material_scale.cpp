@@ -25,7 +25,7 @@ const ScaledMaterial& scaledMaterial(const std::string& name) {
         if (name == material.name) return material;
         names.emplace_back(material.name);
     }
-    throw Error(concat("unknown material \"", name, "\"", suggestion(name, names)));
+    throw Error("unknown material \"", name, "\"", suggestion(name, names));
 }
 
 double lowestFrequency(double modulus, double density, double length, double gyration) {

@@ -78,16 +78,15 @@ std::string namesIn(const Mesh& mesh) {
 Marks marksOf(const Mesh& mesh, const PinChoice& choice) {
     Marks marks(mesh.weldedPositions.size());
     for (const PinRule& rule : choice.rules)
-        if (!mark(marks, mesh, rule)) throw Error(concat("no vertex of the mesh meets ", rule.text));
+        if (!mark(marks, mesh, rule)) throw Error("no vertex of the mesh meets ", rule.text);
     for (const std::string& name : choice.names)
         if (!markName(marks, mesh, name))
-            throw Error(
-                concat("the mesh has no object, mesh or material \"", name, "\"; it has ", namesIn(mesh)));
+            throw Error("the mesh has no object, mesh or material \"", name, "\"; it has ", namesIn(mesh));
     if (!choice.paints.empty() && mesh.colors.empty())
         throw Error("the mesh has no vertex colours to find pins by");
     for (const std::string& paint : choice.paints)
         if (!markPaint(marks, mesh, parsePaint(paint)))
-            throw Error(concat("no vertex of the mesh is painted ", paint));
+            throw Error("no vertex of the mesh is painted ", paint);
     return marks;
 }
 
@@ -107,9 +106,8 @@ PinRule parsePinRule(const std::string& text) {
         rule.metres = rest == "m";
     }
     if (!sound)
-        throw Error(
-            concat("expected a rule such as y<0.1, in shares of the box, or y<0.02m, in metres; found \"",
-                   text, "\""));
+        throw Error("expected a rule such as y<0.1, in shares of the box, or y<0.02m, in metres; found \"",
+                    text, "\"");
     return rule;
 }
 
@@ -128,9 +126,8 @@ glm::dvec3 parsePaint(const std::string& text) {
         if (!readNumber(rest, out[i]) || out[i] < 0 || out[i] > 1) break;
         if (i == 2 && rest.empty()) return out;
     }
-    throw Error(
-        concat("expected a colour such as red, or three numbers from 0 to 1 such as 1,0.5,0; found \"", text,
-               "\"", suggestion(text, names)));
+    throw Error("expected a colour such as red, or three numbers from 0 to 1 such as 1,0.5,0; found \"", text,
+                "\"", suggestion(text, names));
 }
 
 std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const PinChoice& choice) {

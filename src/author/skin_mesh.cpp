@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include <meshoptimizer.h>
-
+#include "author/coarse.h"
 #include "molecule/molecule_file.h"
 #include "molecule/skin.h"
 
@@ -45,14 +44,11 @@ void simplify(SkinMesh& mesh, const glm::dvec3& middle, size_t triangles) {
     std::vector<glm::vec3> positions;  // about the middle, whatever the distance from the origin
     for (const glm::dvec3& p : mesh.positions)
         positions.emplace_back(p - middle);
-    std::vector<unsigned> corners, few(3 * mesh.triangles.size());
+    std::vector<unsigned> corners;
     for (const SkinTriangle& t : mesh.triangles)
         for (const int corner : {t.a, t.b, t.c})
             corners.push_back(unsigned(corner));
-    constexpr float anyError = 1e10f;
-    few.resize(meshopt_simplify(few.data(), corners.data(), corners.size(), &positions[0].x, positions.size(),
-                                sizeof(glm::vec3), std::min(3 * triangles, corners.size()), anyError, 0,
-                                nullptr));
+    const std::vector<unsigned> few = collapseEdges(corners, positions, triangles);
     mesh.triangles.clear();
     for (size_t t = 0; t < few.size(); t += 3)
         mesh.triangles.push_back({int(few[t]), int(few[t + 1]), int(few[t + 2])});
@@ -84,9 +80,9 @@ SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles) {
     if (triangles) simplify(out, 0.5 * (mesh.low + mesh.high), size_t(*triangles));
     out = packed(out);
     if (out.positions.size() > size_t(maxSkinVertices) || out.triangles.size() > size_t(maxSkinTriangles))
-        throw Error(concat("a skin of ", out.positions.size(), " vertices and ", out.triangles.size(),
-                           " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
-                           maxSkinTriangles, ": ask for fewer triangles of the skin, or leave it out"));
+        throw Error("a skin of ", out.positions.size(), " vertices and ", out.triangles.size(),
+                    " triangles is larger than a molecule file holds, ", maxSkinVertices, " and ",
+                    maxSkinTriangles, ": ask for fewer triangles of the skin, or leave it out");
     return out;
 }
 

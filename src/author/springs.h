@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "author/coarse.h"
-#include "author/inside.h"
 #include "molecule/molecule.h"
 
 namespace shoal {

@@ -10,7 +10,7 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
-static std::string environment(const char* name) {
+std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value != nullptr ? value : "";
 }

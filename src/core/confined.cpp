@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <cstdio>
 #include <cstring>
 #include <fstream>
 #include <new>
@@ -92,18 +91,6 @@ void keepOnly(int pipe) {
 }
 
 }  // namespace
-
-double ConfinedLimits::memoryFor(double fileBytes) const {
-    return std::min(memory + memoryPerByte * fileBytes, mostMemory);
-}
-
-double ConfinedLimits::secondsFor(double fileBytes) const {
-    return std::round(std::min(seconds + secondsPerByte * fileBytes, mostSeconds));
-}
-
-double ConfinedLimits::clockFor(double fileBytes) const {
-    return waiting + waitingBySeconds * secondsFor(fileBytes);
-}
 
 void ToParent::limit() const {
     setLimit(RLIMIT_CPU, limits_.secondsFor(fileBytes_), limits_.mostSeconds);

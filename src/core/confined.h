@@ -6,6 +6,8 @@
 // _exit().
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -25,9 +27,13 @@ struct ConfinedLimits {
     double seconds = 2, secondsPerByte = 3e-6, mostSeconds = 900;   // of processor time
     double waiting = 60, waitingBySeconds = 20;                     // s on the clock, by those of work
 
-    double memoryFor(double fileBytes) const;
-    double secondsFor(double fileBytes) const;
-    double clockFor(double fileBytes) const;
+    double memoryFor(double fileBytes) const {
+        return std::min(memory + memoryPerByte * fileBytes, mostMemory);
+    }
+    double secondsFor(double fileBytes) const {
+        return std::round(std::min(seconds + secondsPerByte * fileBytes, mostSeconds));
+    }
+    double clockFor(double fileBytes) const { return waiting + waitingBySeconds * secondsFor(fileBytes); }
 };
 
 // In the child: what it hands to its parent.

@@ -19,17 +19,6 @@
 
 namespace shoal {
 
-// The struct of a key whose object may be absent.
-template <typename S>
-std::optional<S> readDescribed(JsonReader& reader, const std::string& key) {
-    std::optional<JsonReader> inner = reader.object(key);
-    if (!inner) return {};
-    S out;
-    describe(&out).read(*inner, out);
-    inner->finish();
-    return out;
-}
-
 // Builds a description key by key.
 template <typename S>
 class Describe {
@@ -105,11 +94,7 @@ class Describe {
     // An object whose keys are of this struct as well.
     Describe& part(const char* name, const Description& keys, std::string sentence) {
         EXPECTS(keys.isOf(typeid(S)));
-        Key& key = it_.keys_.emplace_back();
-        key.name = name;
-        key.kind = Key::Kind::object;
-        key.says.sentence = std::move(sentence);
-        key.objects = {&keys};
+        addKey(name, Key::Kind::object, {"", std::move(sentence)}).objects = {&keys};
         return *this;
     }
     // A list of objects that is not a member itself. `make` gives it, made where there is none; `look` gives
@@ -117,12 +102,8 @@ class Describe {
     template <auto make, auto look>
     Describe& list(const char* name, std::string sentence) {
         using Element = typename std::remove_reference_t<decltype(make(std::declval<S&>()))>::value_type;
-        using List = std::vector<Element>;
-        Key& key = it_.keys_.emplace_back();
-        key.name = name;
-        key.kind = Key::Kind::list;
-        key.says.sentence = std::move(sentence);
-        reach<List>(key);
+        Key& key = addKey(name, Key::Kind::list, {"", std::move(sentence)});
+        reach<std::vector<Element>>(key);
         key.member.make = [](void* at) -> void* { return &make(*static_cast<S*>(at)); };
         key.member.look = [](const void* at) -> const void* { return look(*static_cast<const S*>(at)); };
         return *this;
@@ -130,12 +111,9 @@ class Describe {
     // The keys of a struct within this one, beside this one's own.
     template <typename M>
     Describe& keysOf(M S::*member) {
-        const S& sample = usual();
-        const ptrdiff_t offset =
-            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
         for (Key key : describe(static_cast<const M*>(nullptr)).keys()) {
             EXPECTS(key.kind != Key::Kind::byHand);
-            key.member.offset += offset;
+            key.member.offset += offsetOf(member);
             it_.keys_.push_back(std::move(key));
         }
         return *this;
@@ -152,15 +130,18 @@ class Describe {
     Describe& byHand(const char* name, std::string schema, Says says,
                      std::type_identity_t<std::function<void(JsonReader&, S&, Context*)>> read,
                      std::function<JsonValue(const S&, const void*)> write = {}) {
-        Key& key = it_.keys_.emplace_back();
-        key.name = name;
-        key.kind = Key::Kind::byHand;
-        key.says = std::move(says);
+        Key& key = addKey(name, Key::Kind::byHand, std::move(says));
         key.schema = std::move(schema);
         key.read = [read](JsonReader& reader, void* object, void* context) {
             read(reader, *static_cast<S*>(object), static_cast<Context*>(context));
         };
         if (write) writes(std::move(write));
+        return *this;
+    }
+
+    // The struct that the word "keys" stands for in the JSON Schema of the key before, which is read by hand.
+    Describe& of(const Description& keys) {
+        last().objects = {&keys};
         return *this;
     }
 
@@ -216,9 +197,7 @@ class Describe {
     }
     // Where the object stands.
     Describe& location(Location S::*member) {
-        const S& sample = usual();
-        it_.location_ =
-            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        it_.location_ = offsetOf(member);
         return *this;
     }
     // Sets what follows from the keys that a file gives, such as a default that depends on another key; it
@@ -256,14 +235,21 @@ class Describe {
     Key& last() { return it_.keys_.back(); }
 
     template <typename M>
-    Describe& add(const char* name, Key::Kind kind, M S::*member, Says says) {
+    static ptrdiff_t offsetOf(M S::*member) {
+        const S& sample = usual();
+        return reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+    }
+    Key& addKey(const char* name, Key::Kind kind, Says says) {
         Key& key = it_.keys_.emplace_back();
         key.name = name;
         key.kind = kind;
         key.says = std::move(says);
-        const S& sample = usual();
-        key.member.offset =
-            reinterpret_cast<const char*>(&(sample.*member)) - reinterpret_cast<const char*>(&sample);
+        return key;
+    }
+    template <typename M>
+    Describe& add(const char* name, Key::Kind kind, M S::*member, Says says) {
+        Key& key = addKey(name, kind, std::move(says));
+        key.member.offset = offsetOf(member);
         reach<M>(key);
         return *this;
     }

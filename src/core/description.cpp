@@ -14,20 +14,9 @@ const T& held(const void* value) {
     return *static_cast<const T*>(value);
 }
 
-template <typename T>
-T& made(const Key& key, void* object) {
-    return *static_cast<T*>(key.member.make(key.place(object)));
-}
-
-// A value is read on its own before an optional member is made, which a file that says nothing leaves empty.
-template <typename T, typename Get>
-void readValue(const Key& key, void* object, T value, Get get) {
-    if (get(value)) made<T>(key, object) = std::move(value);
-}
-
 void checkNumber(const std::string& path, double value, Range range, const Where& where, double largest) {
     if (std::isfinite(value) && std::abs(value) > largest)
-        throw Error(where.at(path), concat("expected a number within ", largest, " of 0, found ", value));
+        throw Error(where.at(path), "expected a number within ", largest, " of 0, found ", value);
     if (!contains(range, value)) needWithin(where.at(path), value, range);
 }
 
@@ -119,7 +108,7 @@ void Description::readAny(JsonReader& reader, void* out, void* context) const {
     for (const Key& key : keys_) {
         if (const Condition* condition = unmet(key, out)) {
             if (reader.has(key.name))
-                throw Error(reader.at(key.name), concat("\"", key.name, "\" ", condition->because));
+                throw Error(reader.at(key.name), "\"", key.name, "\" ", condition->because);
             continue;
         }
         if (key.needed) reader.require(key.name);
@@ -136,55 +125,54 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
         r.raw(name);  // known even when absent
         return key.read(r, object, context);
     }
+    // A value is read on its own before an optional member is made, which a file that says nothing leaves
+    // empty.
+    const auto fill = [&]<typename T>(T value, auto get) {
+        if (get(value)) *static_cast<T*>(key.member.make(key.place(object))) = std::move(value);
+    };
+    const auto plain = [&](auto value) { fill(value, [&](auto& out) { return r.get(name, out, range); }); };
     switch (key.kind) {
     case Kind::number:
-        return readValue(key, object, 0.0, [&](double& value) { return r.get(name, value, range); });
+        return plain(0.0);
     case Kind::whole:
-        return readValue(key, object, 0, [&](int& value) { return r.get(name, value, range); });
+        return plain(0);
     case Kind::seed:
-        return readValue(key, object, uint32_t(0), [&](uint32_t& value) {
-            uint64_t wide = 0;
-            if (!r.get(name, wide)) return false;
-            if (wide > 0xFFFFFFFFu)
-                throw Error(r.at(name), "expected a seed of at most 4294967295 (32 bits)");
-            value = uint32_t(wide);
-            return true;
-        });
+        return plain(uint32_t(0));
+    case Kind::longSeed:
+        return plain(uint64_t(0));
+    case Kind::flag:
+        return plain(false);
+    case Kind::texts:
+        return plain(std::vector<std::string>());
+    case Kind::vector2:
+        return plain(glm::dvec2(0));
+    case Kind::vector3:
+    case Kind::color:
+        return plain(glm::dvec3(0));
     case Kind::whole3:
-        return readValue(key, object, glm::ivec3(0), [&](glm::ivec3& value) {
+        return fill(glm::ivec3(0), [&](glm::ivec3& value) {
             std::vector<int> numbers;
             if (!r.get(name, numbers, range)) return false;
             if (numbers.size() != 3)
-                throw Error(r.at(name), concat("expected three whole numbers, found ", numbers.size()));
+                throw Error(r.at(name), "expected three whole numbers, found ", numbers.size());
             value = {numbers[0], numbers[1], numbers[2]};
             return true;
         });
-    case Kind::longSeed:
-        return readValue(key, object, uint64_t(0), [&](uint64_t& value) { return r.get(name, value); });
-    case Kind::flag:
-        return readValue(key, object, false, [&](bool& value) { return r.get(name, value); });
     case Kind::text:
-        return readValue(key, object, std::string(), [&](std::string& value) {
+        return fill(std::string(), [&](std::string& value) {
             if (!r.get(name, value)) return false;
             if (key.notEmpty && value.empty())
-                throw Error(r.at(name), concat("expected ", key.says.unit, ", found an empty string"));
+                throw Error(r.at(name), "expected ", key.says.unit, ", found an empty string");
             return true;
         });
-    case Kind::texts:
-        return readValue(key, object, std::vector<std::string>(),
-                         [&](std::vector<std::string>& value) { return r.get(name, value); });
-    case Kind::vector2:
-        return readValue(key, object, glm::dvec2(0),
-                         [&](glm::dvec2& value) { return r.get(name, value, range); });
-    case Kind::vector3:
-        return readValue(key, object, glm::dvec3(0),
-                         [&](glm::dvec3& value) { return r.get(name, value, range); });
     case Kind::direction:
-        return readValue(key, object, glm::dvec3(0),
-                         [&](glm::dvec3& value) { return getDirection(r, name, value); });
-    case Kind::color:
-        return readValue(key, object, glm::dvec3(0),
-                         [&](glm::dvec3& value) { return r.get(name, value, range); });
+        return fill(glm::dvec3(0), [&](glm::dvec3& value) { return getDirection(r, name, value); });
+    case Kind::span:
+        return fill(glm::dvec2(0), [&](glm::dvec2& value) { return getSpan(r, name, value, range); });
+    case Kind::box:
+        return fill(Box(), [&](Box& value) { return getBox(r, name, value, key.flatBox); });
+    case Kind::rotation:
+        return fill(glm::dquat(), [&](glm::dquat& value) { return getRotation(r, name, value); });
     case Kind::ends: {
         const JsonValue* given = r.raw(name);
         glm::dvec2& value = *static_cast<glm::dvec2*>(key.place(object));
@@ -194,14 +182,6 @@ void Description::readKey(const Key& key, JsonReader& r, void* object, void* con
             r.get(name, value, range);
         return;
     }
-    case Kind::span:
-        return readValue(key, object, glm::dvec2(0),
-                         [&](glm::dvec2& value) { return getSpan(r, name, value, range); });
-    case Kind::box:
-        return readValue(key, object, Box(), [&](Box& value) { return getBox(r, name, value, key.flatBox); });
-    case Kind::rotation:
-        return readValue(key, object, glm::dquat(),
-                         [&](glm::dquat& value) { return getRotation(r, name, value); });
     case Kind::word: {
         int index = key.member.index(key.value(object));
         if (r.choose(name, key.words, index)) key.member.choose(key.place(object), index);
@@ -370,12 +350,10 @@ JsonValue Description::writeKey(const Key& key, const void* object, const void* 
     case Kind::text:
         return unlessSame(held<std::string>(value), JsonValue::makeString);
     case Kind::texts: {
-        const auto& texts = held<std::vector<std::string>>(value);
-        if (texts.empty()) return {};
         JsonValue out = JsonValue::makeArray();
-        for (const std::string& text : texts)
+        for (const std::string& text : held<std::vector<std::string>>(value))
             out.items.push_back(JsonValue::makeString(text));
-        return out;
+        return out.items.empty() ? JsonValue() : out;
     }
     case Kind::vector2:
         return unlessSame(held<glm::dvec2>(value), JsonValue::makeVector<2, double>);

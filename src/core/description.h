@@ -9,17 +9,10 @@
 #include <initializer_list>
 #include <optional>
 #include <string>
-#include <type_traits>
 #include <typeinfo>
-#include <utility>
-#include <variant>
 #include <vector>
 
-#include <glm/glm.hpp>
-#include <glm/gtc/quaternion.hpp>
-
 #include "core/contract.h"
-#include "core/json_values.h"
 #include "core/where.h"
 
 namespace shoal {
@@ -104,7 +97,7 @@ struct Key {
     std::vector<std::string> words;
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives
-    std::string schema;                       // byHand: the JSON Schema of its value
+    std::string schema;  // byHand: the JSON Schema of its value, in which "keys" stands for that of `objects`
     std::function<void(JsonReader&, void* object, void* context)> read;  // byHand, and instead of a member
     // byHand, and where what is written is not the member itself; null: the key is left out
     std::function<JsonValue(const void* object, const void* context)> write;
@@ -120,8 +113,7 @@ class Description {
     const std::string& name() const { return name_; }
     const std::string& sentence() const { return sentence_; }
     const std::vector<Key>& keys() const { return keys_; }
-    const void* usual() const { return usual_; }  // a struct as it is without any key
-    JsonValue usualValue(const Key& key) const;   // of a key that is left out; null: there is none
+    JsonValue usualValue(const Key& key) const;  // of a key that is left out; null: there is none
     const std::string& schema() const {
         return schema_;
     }  // of rules between keys, as JSON Schema; may be empty

@@ -1,12 +1,24 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <cstdio>
+#include <cstdlib>
 #include <numeric>
+#include <string_view>
 #include <utility>
 
+#include "core/contract.h"
 #include "core/printable.h"
 
 namespace shoal {
+
+Location locate(std::string_view text, size_t position, const std::string& file) {
+    const std::string_view before = text.substr(0, position);
+    const size_t lineEnd = before.rfind('\n');
+    const size_t start = lineEnd == std::string_view::npos ? 0 : lineEnd + 1;
+    const auto lines = std::count(before.begin(), before.end(), '\n');
+    return {file, int(lines) + 1, int(before.size() - start) + 1};
+}
 
 std::string prefix(const Location& location) {
     if (location.file.empty()) return {};
@@ -70,6 +82,15 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
     for (const std::string& candidate : candidates)
         out += (out.empty() ? "" : ", ") + candidate;
     return out.empty() ? out : " (expected one of " + out + ")";
+}
+
+void contractBroken(const char* file, int line, const char* condition) {
+    const std::string_view whole(file);
+    const size_t source = whole.rfind("src/");  // the folder of the tree says nothing to a reader
+    const std::string_view shown = source == std::string_view::npos ? whole : whole.substr(source);
+    std::fprintf(stderr, "%.*s:%d: broken contract: %s\n", int(shown.size()), shown.data(), line, condition);
+    std::fflush(stderr);
+    std::abort();
 }
 
 }  // namespace shoal

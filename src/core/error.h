@@ -10,6 +10,8 @@
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace shoal {
@@ -19,19 +21,36 @@ struct Location {
     std::string file;
     int line = 0;
     int column = 0;
-    std::string path;  // JSON path such as $.springs[3].a, empty outside JSON
+    std::string path = {};  // JSON path such as $.springs[3].a, empty outside JSON
 
     bool empty() const { return file.empty(); }
 };
 
+// The line and column of a byte of a text.
+Location locate(std::string_view text, size_t position, const std::string& file);
+
 // "file:line:column: " with the parts that are known; empty for an empty location.
 std::string prefix(const Location& location);
+
+// Puts its arguments behind one another: concat("expected ", 3, " values").
+template <typename... Parts>
+std::string concat(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+}
 
 // what() is "file:line:column: message (at $.json.path)".
 class Error : public std::runtime_error {
   public:
     explicit Error(std::string message) : Error(Location{}, std::move(message)) {}
     Error(Location location, std::string message);
+    // The parts of a message, as concat() puts them together.
+    template <typename A, typename B, typename... More>
+    Error(Location location, const A& a, const B& b, const More&... more)
+        : Error(std::move(location), concat(a, b, more...)) {}
+    template <typename B, typename... More>
+    Error(const char* a, const B& b, const More&... more) : Error(Location{}, concat(a, b, more...)) {}
 
     const Location& location() const { return location_; }
     const std::string& message() const { return message_; }
@@ -47,14 +66,6 @@ struct Warning {
     std::string message;
 };
 std::string text(const Warning& warning);
-
-// Puts its arguments behind one another: concat("expected ", 3, " values").
-template <typename... Parts>
-std::string concat(const Parts&... parts) {
-    std::ostringstream out;
-    (out << ... << parts);
-    return out.str();
-}
 
 // Counts in messages: "1 spring", "2 springs".
 inline std::string many(int64_t count, const char* one, const char* several) {

@@ -1,11 +1,20 @@
 #include "core/file.h"
 
+#include <algorithm>
+#include <atomic>
 #include <cerrno>
+#include <charconv>
+#include <climits>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <mutex>
+#include <optional>
+#include <set>
 #include <sstream>
 
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,12 +31,12 @@ std::string kindOf(mode_t mode) {
 
 // Looked at before it is opened, because a FIFO would wait for its writer and a device may do anything; and
 // afterwards, because it may have become another one in between.
-FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}} {
+FileReader::FileReader(const fs::path& path) : location_{path.string()} {
     refuseOutside(path);
     struct stat status {};
     const auto needRegular = [&] {
         if (!S_ISREG(status.st_mode))
-            throw Error(location_, concat("is ", kindOf(status.st_mode), ", expected a file"));
+            throw Error(location_, "is ", kindOf(status.st_mode), ", expected a file");
     };
     if (::stat(path.c_str(), &status) == 0) {
         needRegular();
@@ -37,14 +46,14 @@ FileReader::FileReader(const fs::path& path) : location_{path.string(), 0, 0, {}
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (file >= 0) file_.reset(::fdopen(file, "rb"));
     if (!file_ || ::fstat(file, &status) != 0)
-        throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+        throw Error(location_, "cannot be read: ", std::strerror(errno));
     needRegular();
 }
 
 size_t FileReader::read(void* data, size_t bytes) {
     if (bytes == 0) return 0;
     const size_t count = std::fread(data, 1, bytes, file_.get());
-    if (std::ferror(file_.get())) throw Error(location_, concat("cannot be read: ", std::strerror(errno)));
+    if (std::ferror(file_.get())) throw Error(location_, "cannot be read: ", std::strerror(errno));
     return count;
 }
 
@@ -55,8 +64,7 @@ std::string readFile(const fs::path& path, size_t maxBytes) {
     while (const size_t count = file.read(chunk, sizeof chunk)) {
         bytes.append(chunk, count);
         if (bytes.size() > maxBytes)
-            throw Error(file.location(),
-                        concat("is larger than ", maxBytes, " bytes, the most that is read"));
+            throw Error(file.location(), "is larger than ", maxBytes, " bytes, the most that is read");
     }
     return bytes;
 }
@@ -88,9 +96,9 @@ static bool takesBytes(const fs::path& path) {
 // A FIFO that nobody reads would be waited for.
 static FilePointer openForBytes(const fs::path& path) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    const Location location{path.string(), 0, 0, {}};
+    const Location location{path.string()};
     if (file < 0 && errno == ENXIO) throw Error(location, "cannot be written: nobody reads there");
-    if (file < 0) throw Error(location, concat("cannot be written: ", std::strerror(errno)));
+    if (file < 0) throw Error(location, "cannot be written: ", std::strerror(errno));
     ::fcntl(file, F_SETFL, ::fcntl(file, F_GETFL) & ~O_NONBLOCK);
     return FilePointer(::fdopen(file, "wb"));
 }
@@ -99,7 +107,7 @@ void checkWritable(const fs::path& path) {
     if (!takesBytes(path))
         PartFile{path};  // made, and taken away again
     else if (::access(path.c_str(), W_OK) != 0)
-        throw Error(Location{path.string(), 0, 0, {}}, concat("cannot be written: ", std::strerror(errno)));
+        throw Error(Location{path.string()}, "cannot be written: ", std::strerror(errno));
 }
 
 FileWriter::FileWriter(const fs::path& path) : path_(path) {
@@ -113,8 +121,7 @@ FileWriter::FileWriter(const fs::path& path) : path_(path) {
 }
 
 void FileWriter::fail(int cause) const {
-    throw Error(Location{path_.string(), 0, 0, {}},
-                concat("cannot be written: ", std::strerror(cause), " (nothing was kept)"));
+    throw Error(Location{path_.string()}, "cannot be written: ", std::strerror(cause), " (nothing was kept)");
 }
 
 void FileWriter::write(const void* data, size_t bytes) {
@@ -136,6 +143,200 @@ void writeFile(const fs::path& path, std::string_view bytes) {
 
 void writeFile(const fs::path& path, std::span<const std::byte> bytes) {
     writeFile(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+// ---- Which files may be opened
+
+namespace {
+
+std::vector<fs::path>& folders() {
+    static std::vector<fs::path> within;
+    return within;
+}
+
+// Without links, as far as it exists. Empty where that cannot be found out.
+fs::path real(const fs::path& path) {
+    std::error_code code;
+    const fs::path whole = fs::absolute(path, code);
+    fs::path out = code ? fs::path() : fs::weakly_canonical(whole, code);
+    if (code) return {};
+    return out.has_filename() ? out : out.parent_path();  // "folder/" as "folder"
+}
+
+bool lies(const fs::path& path, const fs::path& within) {
+    return std::mismatch(within.begin(), within.end(), path.begin(), path.end()).first == within.end();
+}
+
+}  // namespace
+
+void openOnlyWithin(const std::vector<fs::path>& given) {
+    folders().clear();
+    for (const fs::path& folder : given)
+        if (!folder.empty()) folders().push_back(real(folder));
+}
+
+bool mayOpen(const fs::path& path) {
+    if (folders().empty()) return true;
+    const fs::path file = real(path);
+    return !file.empty() && std::any_of(folders().begin(), folders().end(), [&](const fs::path& folder) {
+        return !folder.empty() && lies(file, folder);
+    });
+}
+
+void refuseOutside(const fs::path& path) {
+    if (!mayOpen(path)) throw Error(Location{path.string()}, outsideSandbox);
+}
+
+// ---- Files that are not whole yet
+
+namespace {
+
+constexpr std::string_view mark = ".shoal-";
+
+// Holds what a part file's name says.
+struct PartName {
+    pid_t process = 0;
+    std::string name;
+};
+
+std::optional<PartName> partName(const std::string& file) {
+    if (file.rfind(mark, 0) != 0) return std::nullopt;
+    PartName out;
+    const char* end = file.data() + file.size();
+    const auto [rest, code] = std::from_chars(file.data() + mark.size(), end, out.process);
+    if (code != std::errc() || out.process < 1 || rest == end || *rest != '-') return std::nullopt;
+    out.name.assign(rest + 1, end);
+    return out;
+}
+
+// Names may be 255 bytes long; the end says what kind of file it is.
+fs::path partPath(const fs::path& target, const fs::path& given) {
+    constexpr size_t longest = 230;
+    std::string name = given.filename().string();
+    if (name.size() > longest) name = name.substr(name.size() - longest);
+    return target.parent_path() / concat(mark, ::getpid(), "-", name);
+}
+
+// Whether a process still writes it. The lock tells it in other containers, too, where numbers of processes
+// say nothing; the process where the file system has no locks.
+bool isWritten(const fs::path& path, pid_t process) {
+    if (process != ::getpid() && (::kill(process, 0) == 0 || errno != ESRCH)) return true;
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    if (file < 0) return errno != ENOENT;
+    const bool locked = ::flock(file, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+    ::close(file);
+    return locked;
+}
+
+template <typename Visit>
+void forEachPart(const fs::path& folder, const Visit& visit) {
+    std::error_code code;
+    const fs::path where = folder.empty() ? fs::path(".") : folder;
+    for (fs::directory_iterator entry(where, code), end; !code && entry != end; entry.increment(code)) {
+        const std::optional<PartName> part = partName(entry->path().filename().string());
+        std::error_code gone;
+        if (part && entry->symlink_status(gone).type() == fs::file_type::regular) visit(entry->path(), *part);
+    }
+}
+
+// Once a folder: others write their own.
+void sweep(const fs::path& folder) {
+    static std::mutex mutex;
+    static std::set<fs::path> swept;
+    const std::lock_guard lock(mutex);
+    if (!swept.insert(folder).second) return;
+    forEachPart(folder, [](const fs::path& path, const PartName& part) {
+        std::error_code gone;
+        if (!isWritten(path, part.process)) fs::remove(path, gone);
+    });
+}
+
+fs::path behindLinks(fs::path path) {
+    constexpr int most = 40;  // as the system follows
+    std::error_code code;
+    for (int i = 0; i < most && fs::is_symlink(path, code); ++i)
+        path = path.parent_path() / fs::read_symlink(path, code);
+    return path;
+}
+
+// Holds a part file's path where a signal's handler can read it: no memory elsewhere, nothing that moves.
+struct Slot {
+    enum State { free, filling, taken };
+    std::atomic<int> state = free;
+    pid_t owner = 0;  // a child that was forked has its parent's slots, and none of its own
+    char path[PATH_MAX] = {};
+};
+Slot slots[16];
+
+// -1: all are taken, or the name is too long; the next run sweeps it then.
+int takeSlot(const std::string& path) {
+    if (path.size() >= sizeof slots[0].path) return -1;
+    for (int i = 0; i < int(std::size(slots)); ++i) {
+        int state = Slot::free;
+        if (!slots[i].state.compare_exchange_strong(state, Slot::filling)) continue;
+        slots[i].owner = ::getpid();
+        std::memcpy(slots[i].path, path.c_str(), path.size() + 1);
+        slots[i].state = Slot::taken;
+        return i;
+    }
+    return -1;
+}
+
+}  // namespace
+
+PartFile::PartFile(const fs::path& target) : given_(target), target_(behindLinks(target)) {
+    const Location location{given_.string()};
+    std::error_code code;
+    const fs::path folder = target_.parent_path();
+    if (!folder.empty()) fs::create_directories(folder, code);
+    if (code) throw Error(Location{folder.string()}, "cannot make this folder: " + code.message());
+    struct stat status {
+    }, output{};
+    if (::stat(target_.c_str(), &status) == 0) {
+        if (!S_ISREG(status.st_mode))
+            throw Error(location, "is ", kindOf(status.st_mode), ", expected a file to write");
+        if (::fstat(STDOUT_FILENO, &output) == 0 && status.st_ino == output.st_ino &&
+            status.st_dev == output.st_dev)
+            throw Error(location, "is standard output, which would be lost");
+    } else if (errno != ENOENT) {
+        throw Error(location, "cannot be written: ", std::strerror(errno));
+    }
+    sweep(folder);
+    path_ = partPath(target_, given_);
+    file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ < 0)
+        throw Error(location, errno == EEXIST ? "cannot be written: it is being written already"
+                                              : concat("cannot be written: ", std::strerror(errno)));
+    slot_ = takeSlot(path_.string());
+    ::flock(file_, LOCK_EX | LOCK_NB);  // where there are no locks, the process's number has to do
+}
+
+PartFile::~PartFile() {
+    std::error_code ignored;
+    if (!path_.empty()) fs::remove(path_, ignored);
+    if (slot_ >= 0) slots[slot_].state = Slot::free;
+    ::close(file_);
+}
+
+void PartFile::replaceTarget() {
+    std::error_code code;
+    fs::rename(path_, target_, code);
+    if (code) throw Error(Location{given_.string()}, "cannot be written: ", code.message());
+    path_.clear();
+}
+
+SoleWriter::SoleWriter(const fs::path& target) : part_(concat(target.string(), ".run")) {
+    const std::optional<PartName> own = partName(part_.path().filename().string());
+    forEachPart(part_.path().parent_path(), [&](const fs::path& path, const PartName& part) {
+        if (part.name == own->name && part.process != own->process && isWritten(path, part.process))
+            throw Error(Location{target.string()}, "is being written by another run, process ", part.process,
+                        ": give this one another name");
+    });
+}
+
+void removePartFiles() noexcept {
+    for (Slot& slot : slots)
+        if (slot.state == Slot::taken && slot.owner == ::getpid()) ::unlink(slot.path);
 }
 
 }  // namespace shoal

@@ -1,5 +1,4 @@
-// Reads and writes whole files, with errors that say what to do. Sources: file.cpp; part_file.cpp for files
-// that are not whole yet; sandbox.cpp for which files may be opened.
+// Reads and writes whole files, with errors that say what to do.
 #pragma once
 
 #include <sys/types.h>

@@ -5,7 +5,6 @@
 // that is gone counts only after a while, because some editors move the old one away first.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <map>
 #include <string>

@@ -10,7 +10,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <glm/glm.hpp>
@@ -32,9 +31,9 @@ class JsonValue {
     size_t keyBegin = 0;             // of its key
     bool boolean = false;
     double number = 0;
-    std::string text;                 // a string's characters, or a number as it was written
-    std::vector<JsonValue> items;     // array
-    std::vector<JsonMember> members;  // object, in the file's order
+    std::string text = {};                 // a string's characters, or a number as it was written
+    std::vector<JsonValue> items = {};     // array
+    std::vector<JsonMember> members = {};  // object, in the file's order
 
     bool isContainer() const { return kind == Kind::array || kind == Kind::object; }
     const JsonValue* find(std::string_view key) const;
@@ -74,9 +73,6 @@ JsonValue readJson(const std::string& file);
 // not finite, which JSON cannot say, becomes null.
 std::string writeJson(const JsonValue& value);
 std::string writeJsonLine(const JsonValue& value);  // on one line, without a newline
-// `fresh` with its keys in the order of `original` and with the comments that only `original` has, so that
-// saving a file again changes what changed and no more. Elements of arrays are matched by index.
-JsonValue inOrderOf(const JsonValue& original, JsonValue fresh);
 
 // Limits of a number, inclusive unless `above`.
 struct Range {
@@ -84,8 +80,6 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
     bool aboveLeast = false;  // strictly above `least`
 
-    static Range any() { return {}; }
-    static Range positive() { return {0, std::numeric_limits<double>::infinity(), true}; }
     static Range atLeast(double value) { return {value, std::numeric_limits<double>::infinity(), false}; }
     static Range between(double least, double most) { return {least, most, false}; }
 };
@@ -103,27 +97,18 @@ class JsonReader {
     const std::string& path() const { return path_; }
     const JsonValue& value() const { return *object_; }
 
-    bool get(const std::string& key, double& out, Range range = {});
-    bool get(const std::string& key, int& out, Range range = {});
-    bool get(const std::string& key, uint64_t& out);
-    bool get(const std::string& key, bool& out);
-    bool get(const std::string& key, std::string& out);
-    bool get(const std::string& key, glm::dvec2& out, Range range = {});
-    bool get(const std::string& key, glm::dvec3& out, Range range = {});
-    bool get(const std::string& key, std::vector<double>& out, Range range = {});
-    bool get(const std::string& key, std::vector<int>& out, Range range = {});
-    bool get(const std::string& key, std::vector<std::string>& out);
-    bool get(const std::string& key,
-             std::vector<glm::ivec3>& out);  // an array of arrays of three whole numbers
+    // Numbers, whole numbers, flags, strings, vectors of numbers, and lists of these. The range is that of
+    // each number.
+    template <typename T>
+    bool get(const std::string& key, T& out, Range range = {}) {
+        const JsonValue* value = raw(key);
+        if (value) convert(*value, path_ + "." + key, range, out);
+        return value != nullptr;
+    }
     // One of a fixed set of words; `out` becomes its index.
     bool choose(const std::string& key, const std::vector<std::string>& words, int& out);
     template <typename T>
-    void need(const std::string& key, T& out) {
-        require(key);
-        get(key, out);
-    }
-    template <typename T>
-    void need(const std::string& key, T& out, Range range) {
+    void need(const std::string& key, T& out, Range range = {}) {
         require(key);
         get(key, out, range);
     }
@@ -139,8 +124,25 @@ class JsonReader {
 
   private:
     const JsonValue* take(const std::string& key, JsonValue::Kind kind);
-    double checked(const JsonValue& value, const std::string& path, Range range) const;
-    int checkedInt(const JsonValue& value, const std::string& path, Range range) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, double& out) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, int& out) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, uint32_t& out) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, uint64_t& out) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, bool& out) const;
+    void convert(const JsonValue& value, const std::string& path, Range range, std::string& out) const;
+    template <int N, typename T>
+    void convert(const JsonValue& value, const std::string& path, Range range, glm::vec<N, T>& out) const {
+        checkCount(value, path, N);
+        for (int i = 0; i < N; ++i)
+            convert(value.items[size_t(i)], concat(path, "[", i, "]"), range, out[i]);
+    }
+    template <typename T>
+    void convert(const JsonValue& value, const std::string& path, Range range, std::vector<T>& out) const {
+        checkKind(value, path, JsonValue::Kind::array);
+        out.assign(value.items.size(), T());
+        for (size_t i = 0; i < out.size(); ++i)
+            convert(value.items[i], concat(path, "[", i, "]"), range, out[i]);
+    }
     void checkKind(const JsonValue& value, const std::string& path, JsonValue::Kind kind) const;
     void checkCount(const JsonValue& array, const std::string& path, size_t count) const;
     Location locate(const JsonValue& value, const std::string& path) const;

@@ -1,5 +1,5 @@
 // Changes a JSON file where something changed and nowhere else: its layout, comments, key order and the way
-// in which numbers are written stay.
+// in which numbers are written stay. Puts two changes of one value, made apart, together.
 #pragma once
 
 #include <string>
@@ -34,5 +34,13 @@ std::string withChanges(const std::string& text, std::vector<TextChange> changes
 // Whether two values are equal, with members in the same order. Numbers compare by value; positions in the
 // text do not count.
 bool sameJson(const JsonValue& a, const JsonValue& b);
+
+enum class Prefer { mine, theirs };
+
+// `base` with what changed in `mine` and what changed in `theirs`. Objects go member by member, arrays of
+// objects of one length element by element; anything else is one value. Where both changed a value, and not
+// into the same one, its path (from `path`) is put into `conflicts`, and the preferred one is taken.
+JsonValue merged(const JsonValue& base, const JsonValue& mine, const JsonValue& theirs, Prefer prefer,
+                 const std::string& path, std::vector<std::string>& conflicts);
 
 }  // namespace shoal

@@ -46,10 +46,6 @@ class LineCounter {
     int line_ = 1;
 };
 
-Position positionOf(std::string_view text, size_t offset) {
-    return LineCounter(text).at(offset);
-}
-
 class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeBuilder> {
   public:
     // `skipped` bytes of the file come before the text.
@@ -176,40 +172,26 @@ class TreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, TreeB
 };
 
 std::string expectation(rapidjson::ParseErrorCode code) {
-    switch (code) {
-    case rapidjson::kParseErrorDocumentEmpty:
-        return "expected a JSON object";
-    case rapidjson::kParseErrorDocumentRootNotSingular:
-        return "expected the end of the file";
-    case rapidjson::kParseErrorValueInvalid:
-        return "expected a value";
-    case rapidjson::kParseErrorObjectMissName:
-        return "expected a key in double quotes";
-    case rapidjson::kParseErrorObjectMissColon:
-        return "expected ':' after the key";
-    case rapidjson::kParseErrorObjectMissCommaOrCurlyBracket:
-        return "expected ',' or '}'";
-    case rapidjson::kParseErrorArrayMissCommaOrSquareBracket:
-        return "expected ',' or ']'";
-    case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
-        return "expected four hexadecimal digits after \\u";
-    case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
-        return "expected a valid surrogate pair after \\u";
-    case rapidjson::kParseErrorStringEscapeInvalid:
-        return "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u";
-    case rapidjson::kParseErrorStringMissQuotationMark:
-        return "expected a closing quotation mark in this line";
-    case rapidjson::kParseErrorStringInvalidEncoding:
-        return "expected UTF-8 text";
-    case rapidjson::kParseErrorNumberTooBig:
-        return "expected a number that fits a double";
-    case rapidjson::kParseErrorNumberMissFraction:
-        return "expected digits after the decimal point";
-    case rapidjson::kParseErrorNumberMissExponent:
-        return "expected digits in the exponent";
-    default:
-        return "expected JSON";
-    }
+    static constexpr std::pair<rapidjson::ParseErrorCode, const char*> known[] = {
+        {rapidjson::kParseErrorDocumentEmpty, "expected a JSON object"},
+        {rapidjson::kParseErrorDocumentRootNotSingular, "expected the end of the file"},
+        {rapidjson::kParseErrorValueInvalid, "expected a value"},
+        {rapidjson::kParseErrorObjectMissName, "expected a key in double quotes"},
+        {rapidjson::kParseErrorObjectMissColon, "expected ':' after the key"},
+        {rapidjson::kParseErrorObjectMissCommaOrCurlyBracket, "expected ',' or '}'"},
+        {rapidjson::kParseErrorArrayMissCommaOrSquareBracket, "expected ',' or ']'"},
+        {rapidjson::kParseErrorStringUnicodeEscapeInvalidHex, "expected four hexadecimal digits after \\u"},
+        {rapidjson::kParseErrorStringUnicodeSurrogateInvalid, "expected a valid surrogate pair after \\u"},
+        {rapidjson::kParseErrorStringEscapeInvalid, "expected one of \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\u"},
+        {rapidjson::kParseErrorStringMissQuotationMark, "expected a closing quotation mark in this line"},
+        {rapidjson::kParseErrorStringInvalidEncoding, "expected UTF-8 text"},
+        {rapidjson::kParseErrorNumberTooBig, "expected a number that fits a double"},
+        {rapidjson::kParseErrorNumberMissFraction, "expected digits after the decimal point"},
+        {rapidjson::kParseErrorNumberMissExponent, "expected digits in the exponent"},
+    };
+    for (const auto& [of, words] : known)
+        if (of == code) return words;
+    return "expected JSON";
 }
 
 std::string found(std::string_view text, size_t offset) {
@@ -231,10 +213,8 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
     std::string_view text = source;
     if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
     // The reader takes a zero byte for the end, so what stands behind one would be ignored.
-    if (const size_t zero = text.find('\0'); zero != std::string_view::npos) {
-        const Position position = positionOf(text, zero);
-        throw Error({file, position.line, position.column, {}}, "expected JSON, found a zero byte");
-    }
+    if (const size_t zero = text.find('\0'); zero != std::string_view::npos)
+        throw Error(locate(text, zero, file), "expected JSON, found a zero byte");
     rapidjson::StringStream stream(text.data());
     TreeBuilder builder(text, file, source.size() - text.size());
     rapidjson::Reader reader;
@@ -244,12 +224,10 @@ JsonValue parseJson(const std::string& source, const std::string& file) {
     if (result.IsError()) {
         size_t offset = std::min(result.Offset(), text.size());
         if (result.Code() == rapidjson::kParseErrorValueInvalid && offset > 0 && offset < text.size() &&
-            (std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0))
+            std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
             while (offset > 0 && std::isalpha(static_cast<unsigned char>(text[offset - 1])) != 0)
                 --offset;  // back to the start of a word such as "nan" or "tru"
-        const Position position = positionOf(text, offset);
-        throw Error({file, position.line, position.column, {}},
-                    concat(expectation(result.Code()), ", found ", found(text, offset)));
+        throw Error(locate(text, offset, file), expectation(result.Code()), ", found ", found(text, offset));
     }
     return builder.takeRoot();
 }

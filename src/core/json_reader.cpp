@@ -11,45 +11,28 @@ namespace shoal {
 using Kind = JsonValue::Kind;
 
 const char* name(JsonValue::Kind kind) {
-    switch (kind) {
-    case Kind::null:
-        return "null";
-    case Kind::boolean:
-        return "true or false";
-    case Kind::number:
-        return "a number";
-    case Kind::string:
-        return "a string";
-    case Kind::array:
-        return "an array";
-    case Kind::object:
-        return "an object";
-    }
-    return "a value";
+    constexpr const char* names[] = {"null",     "true or false", "a number",
+                                     "a string", "an array",      "an object"};
+    return names[size_t(kind)];
 }
 
-static std::string describe(Range range, const std::string& noun) {
+// What is said of a number outside a range.
+static std::string outside(Range range, const std::string& noun, const std::string& found) {
     const auto digits = [&noun](double number) {  // a whole number in full: 16777216
         return noun == "a whole number" ? writeJsonLine(JsonValue::makeNumber(number)) : concat(number);
     };
     const bool below = std::isfinite(range.most), above = std::isfinite(range.least);
-    std::string out = noun;
+    std::string out = "expected " + noun;
     if (above && range.aboveLeast) out += concat(" above ", digits(range.least));
     if (above && !range.aboveLeast) out += concat(below ? " from " : " of at least ", digits(range.least));
     if (below && above) out += concat(range.aboveLeast ? " and at most " : " to ", digits(range.most));
     if (below && !above) out += concat(" of at most ", digits(range.most));
-    return out;
+    return out + ", found " + found;
 }
 
-// Describes a value that was found: a number as it was written, else its kind.
+// A number as it was written.
 static std::string written(const JsonValue& value) {
-    if (value.kind == Kind::number && !value.text.empty()) return value.text;
-    if (value.kind == Kind::number) return concat(value.number);
-    return name(value.kind);
-}
-
-static std::string indexed(const std::string& path, size_t index) {
-    return concat(path, "[", index, "]");
+    return value.text.empty() ? concat(value.number) : value.text;
 }
 
 JsonReader::JsonReader(const JsonValue& object, std::string file, std::string path)
@@ -72,23 +55,19 @@ Location JsonReader::at(const std::string& key) const {
 
 void JsonReader::checkKind(const JsonValue& value, const std::string& path, Kind kind) const {
     if (value.kind != kind)
-        throw Error(locate(value, path), concat("expected ", name(kind), ", found ", name(value.kind)));
+        throw Error(locate(value, path), "expected ", name(kind), ", found ", name(value.kind));
 }
 
 void JsonReader::checkCount(const JsonValue& array, const std::string& path, size_t count) const {
     checkKind(array, path, Kind::array);
     if (array.items.size() != count)
-        throw Error(locate(array, path),
-                    concat("expected an array of ", count, " numbers, found ", array.items.size()));
+        throw Error(locate(array, path), "expected an array of ", count, " numbers, found ",
+                    array.items.size());
 }
 
 bool contains(Range range, double number) {
     return std::isfinite(number) && number <= range.most &&
            (range.aboveLeast ? number > range.least : number >= range.least);
-}
-
-static std::string outside(Range range, const char* noun, const std::string& found) {
-    return concat("expected ", describe(range, noun), ", found ", found);
 }
 
 void needWithin(const Location& where, double number, Range range) {
@@ -102,21 +81,49 @@ void needWithin(const Location& where, int number, Range range) {
     if (!contains(range, number)) throw Error(where, outside(range, "a whole number", concat(number)));
 }
 
-double JsonReader::checked(const JsonValue& value, const std::string& path, Range range) const {
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range range, double& out) const {
     checkKind(value, path, Kind::number);
     if (!contains(range, value.number))
         throw Error(locate(value, path), outside(range, "a number", written(value)));
-    return value.number;
+    out = value.number;
 }
 
-int JsonReader::checkedInt(const JsonValue& value, const std::string& path, Range range) const {
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range range, int& out) const {
     checkKind(value, path, Kind::number);
     const double number = value.number;
     const bool inside = number >= std::numeric_limits<int>::min() &&
                         number <= std::numeric_limits<int>::max() && contains(range, number);
     if (!inside || number != std::floor(number))
         throw Error(locate(value, path), outside(range, "a whole number", written(value)));
-    return static_cast<int>(number);
+    out = static_cast<int>(number);
+}
+
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range range, uint32_t& out) const {
+    uint64_t wide = 0;
+    convert(value, path, range, wide);
+    if (wide > 0xFFFFFFFFu)
+        throw Error(locate(value, path), "expected a seed of at most 4294967295 (32 bits)");
+    out = uint32_t(wide);
+}
+
+// From the text, since a double holds only 53 of the 64 bits.
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range, uint64_t& out) const {
+    checkKind(value, path, Kind::number);
+    const std::string text = written(value);
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), out);
+    if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
+        throw Error(locate(value, path),
+                    "expected a whole number from 0 to 18446744073709551615, found " + text);
+}
+
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range, bool& out) const {
+    checkKind(value, path, Kind::boolean);
+    out = value.boolean;
+}
+
+void JsonReader::convert(const JsonValue& value, const std::string& path, Range, std::string& out) const {
+    checkKind(value, path, Kind::string);
+    out = value.text;
 }
 
 const JsonValue* JsonReader::raw(const std::string& key) {
@@ -128,105 +135,6 @@ const JsonValue* JsonReader::take(const std::string& key, Kind kind) {
     const JsonValue* value = raw(key);
     if (value) checkKind(*value, path_ + "." + key, kind);
     return value;
-}
-
-bool JsonReader::get(const std::string& key, double& out, Range range) {
-    const JsonValue* value = raw(key);
-    if (value) out = checked(*value, path_ + "." + key, range);
-    return value != nullptr;
-}
-
-bool JsonReader::get(const std::string& key, int& out, Range range) {
-    const JsonValue* value = raw(key);
-    if (value) out = checkedInt(*value, path_ + "." + key, range);
-    return value != nullptr;
-}
-
-// From the text, since a double holds only 53 of the 64 bits.
-bool JsonReader::get(const std::string& key, uint64_t& out) {
-    const JsonValue* value = take(key, Kind::number);
-    if (!value) return false;
-    const std::string text = value->text.empty() ? concat(value->number) : value->text;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), out);
-    if (result.ec != std::errc{} || result.ptr != text.data() + text.size())
-        throw Error(at(key), "expected a whole number from 0 to 18446744073709551615, found " + text);
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, bool& out) {
-    const JsonValue* value = take(key, Kind::boolean);
-    if (value) out = value->boolean;
-    return value != nullptr;
-}
-
-bool JsonReader::get(const std::string& key, std::string& out) {
-    const JsonValue* value = take(key, Kind::string);
-    if (value) out = value->text;
-    return value != nullptr;
-}
-
-bool JsonReader::get(const std::string& key, glm::dvec2& out, Range range) {
-    const JsonValue* value = raw(key);
-    if (!value) return false;
-    const std::string path = path_ + "." + key;
-    checkCount(*value, path, 2);
-    for (int i = 0; i < 2; ++i)
-        out[i] = checked(value->items[size_t(i)], indexed(path, size_t(i)), range);
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, glm::dvec3& out, Range range) {
-    const JsonValue* value = raw(key);
-    if (!value) return false;
-    const std::string path = path_ + "." + key;
-    checkCount(*value, path, 3);
-    for (int i = 0; i < 3; ++i)
-        out[i] = checked(value->items[size_t(i)], indexed(path, size_t(i)), range);
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, std::vector<double>& out, Range range) {
-    const JsonValue* value = take(key, Kind::array);
-    if (!value) return false;
-    out.clear();
-    for (const JsonValue& item : value->items)
-        out.push_back(checked(item, indexed(path_ + "." + key, out.size()), range));
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, std::vector<int>& out, Range range) {
-    const JsonValue* value = take(key, Kind::array);
-    if (!value) return false;
-    out.clear();
-    for (const JsonValue& item : value->items)
-        out.push_back(checkedInt(item, indexed(path_ + "." + key, out.size()), range));
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, std::vector<std::string>& out) {
-    const JsonValue* value = take(key, Kind::array);
-    if (!value) return false;
-    out.clear();
-    for (const JsonValue& item : value->items) {
-        checkKind(item, indexed(path_ + "." + key, out.size()), Kind::string);
-        out.push_back(item.text);
-    }
-    return true;
-}
-
-bool JsonReader::get(const std::string& key, std::vector<glm::ivec3>& out) {
-    const JsonValue* value = take(key, Kind::array);
-    if (!value) return false;
-    out.clear();
-    for (const JsonValue& item : value->items) {
-        const std::string path = indexed(path_ + "." + key, out.size());
-        checkCount(item, path, 3);
-        glm::ivec3 triple;
-        for (int i = 0; i < 3; ++i)
-            triple[i] = checkedInt(item.items[size_t(i)], indexed(path, size_t(i)), Range::any());
-        out.push_back(triple);
-    }
-    return true;
 }
 
 bool JsonReader::choose(const std::string& key, const std::vector<std::string>& words, int& out) {
@@ -263,7 +171,7 @@ std::vector<JsonReader> JsonReader::objects(const std::string& key) {
     if (!value) return out;
     out.reserve(value->items.size());
     for (const JsonValue& item : value->items)
-        out.emplace_back(item, file_, indexed(path_ + "." + key, out.size()));
+        out.emplace_back(item, file_, concat(path_, ".", key, "[", out.size(), "]"));
     return out;
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "core/json.h"
 #include "core/printable.h"
@@ -51,60 +52,38 @@ std::string scalar(const JsonValue& value) {
 }
 
 bool isPlainNumbers(const JsonValue& value) {
-    if (value.kind != JsonValue::Kind::array) return false;
-    for (const JsonValue& item : value.items)
-        if (item.kind != JsonValue::Kind::number) return false;
-    return true;
+    return value.kind == JsonValue::Kind::array &&
+           std::all_of(value.items.begin(), value.items.end(),
+                       [](const JsonValue& item) { return item.kind == JsonValue::Kind::number; });
 }
 
-void writeLine(const JsonValue& value, std::string& out) {
+// `indent`: nothing for all in one line. `element`: the value stands in an array, where short things keep to
+// one line.
+void write(const JsonValue& value, std::optional<size_t> indent, bool element, std::string& out) {
     if (!value.isContainer()) {
         out += scalar(value);
         return;
     }
-    const bool array = value.kind == JsonValue::Kind::array;
-    out += array ? "[" : "{";
-    const char* separator = "";
-    for (const JsonValue& item : value.items) {
-        out += separator;
-        writeLine(item, out);
-        separator = ", ";
-    }
-    for (const auto& [key, member] : value.members) {
-        out += separator + inQuotes(key) + ": ";
-        writeLine(member, out);
-        separator = ", ";
-    }
-    out += array ? "]" : "}";
-}
-
-// `element`: the value stands in an array, where short things keep to one line.
-void write(const JsonValue& value, size_t indent, bool element, std::string& out) {
     const bool empty = value.items.empty() && value.members.empty();
-    if (!value.isContainer() || empty || isPlainNumbers(value)) return writeLine(value, out);
-    if (element) {
-        std::string line;
-        writeLine(value, line);
-        if (indent + line.size() < lineWidth) {
-            out += line;
-            return;
-        }
-    }
+    if (empty || isPlainNumbers(value)) indent.reset();
+    if (indent && element && *indent + writeJsonLine(value).size() < lineWidth) indent.reset();
     const bool array = value.kind == JsonValue::Kind::array;
-    const std::string start = "\n" + std::string(indent + 2, ' ');
+    const std::string start = indent ? "\n" + std::string(*indent + 2, ' ') : "";
+    const std::optional<size_t> inner = indent ? std::optional(*indent + 2) : std::nullopt;
     out += array ? "[" : "{";
     const char* separator = "";
     for (const JsonValue& item : value.items) {
         out += separator + start;
-        write(item, indent + 2, true, out);
-        separator = ",";
+        write(item, inner, true, out);
+        separator = indent ? "," : ", ";
     }
     for (const auto& [key, member] : value.members) {
         out += separator + start + inQuotes(key) + ": ";
-        write(member, indent + 2, false, out);
-        separator = ",";
+        write(member, inner, false, out);
+        separator = indent ? "," : ", ";
     }
-    out += "\n" + std::string(indent, ' ') + (array ? "]" : "}");
+    if (indent) out += "\n" + std::string(*indent, ' ');
+    out += array ? "]" : "}";
 }
 
 }  // namespace
@@ -116,36 +95,23 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 }
 
 JsonValue JsonValue::makeNumber(double value) {
-    JsonValue out;
-    out.kind = Kind::number;
-    out.number = value;
-    return out;
+    return {.kind = Kind::number, .number = value};
 }
 
 JsonValue JsonValue::makeString(std::string value) {
-    JsonValue out;
-    out.kind = Kind::string;
-    out.text = std::move(value);
-    return out;
+    return {.kind = Kind::string, .text = std::move(value)};
 }
 
 JsonValue JsonValue::makeBoolean(bool value) {
-    JsonValue out;
-    out.kind = Kind::boolean;
-    out.boolean = value;
-    return out;
+    return {.kind = Kind::boolean, .boolean = value};
 }
 
 JsonValue JsonValue::makeArray() {
-    JsonValue out;
-    out.kind = Kind::array;
-    return out;
+    return {.kind = Kind::array};
 }
 
 JsonValue JsonValue::makeObject() {
-    JsonValue out;
-    out.kind = Kind::object;
-    return out;
+    return {.kind = Kind::object};
 }
 
 JsonValue& JsonValue::add(std::string key, JsonValue value) {
@@ -161,30 +127,8 @@ std::string writeJson(const JsonValue& value) {
 
 std::string writeJsonLine(const JsonValue& value) {
     std::string out;
-    writeLine(value, out);
+    write(value, std::nullopt, false, out);
     return out;
-}
-
-JsonValue inOrderOf(const JsonValue& original, JsonValue fresh) {
-    if (original.kind != fresh.kind) return fresh;
-    for (size_t i = 0; i < fresh.items.size() && i < original.items.size(); ++i)
-        fresh.items[i] = inOrderOf(original.items[i], std::move(fresh.items[i]));
-
-    std::vector<JsonMember> ordered;
-    for (const auto& [key, old] : original.members) {
-        const auto same = [&key = key](const auto& member) { return member.first == key; };
-        const auto member = std::find_if(fresh.members.begin(), fresh.members.end(), same);
-        if (member != fresh.members.end()) {
-            ordered.push_back({key, inOrderOf(old, std::move(member->second))});
-            fresh.members.erase(member);
-        } else if (key == "comment" || key == "$schema") {
-            ordered.push_back({key, old});
-        }
-    }
-    for (auto& member : fresh.members)
-        ordered.push_back(std::move(member));
-    fresh.members = std::move(ordered);
-    return fresh;
 }
 
 }  // namespace shoal

@@ -1,5 +1,5 @@
-// Signed distances to a model on a grid: baked from its triangles (distance_field.cpp), measured against
-// exact distances (distance_field_error.cpp), kept on disk (distance_field_cache.cpp), read by colliders.
+// Signed distances to a model on a grid: baked from its triangles and measured against exact distances
+// (distance_field.cpp), kept on disk (distance_field_cache.cpp), read by colliders.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,6 @@
 #include "geometry/sample_grid.h"
 
 namespace shoal {
-
-class ClosestPoints;
 
 // Asks for a field. `resolution` and `error` exclude each other; with neither, defaultResolution holds.
 struct FieldRequest {
@@ -62,12 +60,6 @@ using FieldProgress = std::function<void(double)>;
 // that what fits cannot keep.
 DistanceField bakeDistanceField(const Mesh& mesh, const FieldRequest& request,
                                 const FieldProgress& progress = {}, int threads = 0);
-
-// Measures a field in the middles of at most 20,000 cells, evenly chosen among those within a cell of the
-// surface, or of where vertices of that thickness rest. What is inside and nearest to a hidden wall has no
-// exact distance here and is left out.
-FieldError measureError(const DistanceField& field, const Mesh& mesh, const ClosestPoints& closest,
-                        double thickness, int threads);
 
 // Holds the field's value at a point: trilinear between samples inside the grid, a lower bound beyond it; and
 // its gradient (1 where the field is a distance), never 0. distanceSurface of shaders/step/surfaces.glsl has

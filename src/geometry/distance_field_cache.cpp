@@ -119,7 +119,7 @@ bool readCached(const fs::path& path, const std::string& key, DistanceField& fie
     } catch (const Error& error) {
         why = "the cached field " + error.message();
     }
-    warnings.push_back({{path.string(), 0, 0, {}}, why + "; baked anew"});
+    warnings.push_back({{path.string()}, why + "; baked anew"});
     return false;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <new>
@@ -13,6 +12,7 @@
 #include <assimp/scene.h>
 #include <assimp/Importer.hpp>
 
+#include "core/cache_folder.h"
 #include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -79,7 +79,7 @@ class Collector {
     bool anyColors = false, anyUvs = false;
 
   private:
-    Error fail(const std::string& message) const { return Error(Location{file_, 0, 0, {}}, message); }
+    Error fail(const std::string& message) const { return Error(Location{file_}, message); }
 
     std::string materialName(const aiMesh& part) const {
         aiString name;
@@ -196,13 +196,13 @@ bool tellsOfMemory(const std::string& message) {
 }
 
 Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
-    const Location location{file, 0, 0, {}};
+    const Location location{file};
     Assimp::Importer importer;
     importer.SetIOHandler(new ModelFiles(std::move(opened)));  // which the importer deletes
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene && tellsOfMemory(importer.GetErrorString())) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)
-        throw Error(location, concat("cannot be read as a model: ", oneLine(importer.GetErrorString())));
+        throw Error(location, "cannot be read as a model: ", oneLine(importer.GetErrorString()));
 
     Collector collector(*scene, file);
     collector.visit(*scene->mRootNode, glm::dmat4(1));
@@ -274,7 +274,7 @@ void checkWhole(const Mesh& mesh, const Location& location) {
 }
 
 Mesh readConfined(const std::string& file) {
-    const Location location{file, 0, 0, {}};
+    const Location location{file};
     Confined child(location, ConfinedLimits{}, [&](ToParent& parent) {
         put(parent, readModel(file, [&](uint64_t bytes) { parent.opened(bytes); }));
     });
@@ -296,16 +296,12 @@ Mesh readConfined(const std::string& file) {
     return mesh;
 }
 
-bool trusted() {
-    const char* value = std::getenv("SHOAL_TRUST_MODELS");
-    return value != nullptr && *value != '\0';
-}
-
 }  // namespace
 
 Mesh loadMesh(const std::string& file) {
     FileReader{file};  // says what is no file, or cannot be opened
-    Mesh mesh = trusted() ? readModel(file, [](uint64_t) {}) : readConfined(file);
+    const bool trusted = !environment("SHOAL_TRUST_MODELS").empty();
+    Mesh mesh = trusted ? readModel(file, [](uint64_t) {}) : readConfined(file);
     completeMesh(mesh);
     return mesh;
 }

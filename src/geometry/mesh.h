@@ -1,5 +1,5 @@
-// A triangle mesh as loaded from a model file (load_model.cpp): welded by position (weld.cpp), node
-// transforms applied; whether it encloses a volume (closed_surface.cpp), and how thick it is (thickness.cpp).
+// A triangle mesh as loaded from a model file (load_model.cpp): welded by position, node transforms applied;
+// whether it encloses a volume (mesh.cpp), and how thick it is (closest_point.cpp).
 #pragma once
 
 #include <string>

@@ -1,5 +1,5 @@
-// A grid of samples around a mesh, and what is computed on it: winding numbers (winding_numbers.cpp) and
-// distances continued over samples that have none of their own (eikonal.cpp).
+// A grid of samples around a mesh, and what is computed on it: winding numbers, and distances continued over
+// samples that have none of their own.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Analyses a molecule's springs: its frequencies, the motions that nothing resists, the stable steps
-// (analysis.cpp), and its motions one by one (modes.cpp).
+// Analyses a molecule's springs: its frequencies, the motions that nothing resists, the stable steps, and its
+// motions one by one.
 //
 // Linearised about the drawn shape: M x'' + C x' + K x = 0 with K = sum of k n n^T and C = sum of c n n^T
 // over the springs. Prestress (a restLength other than the drawn distance) is left out of K; check() warns of

@@ -59,7 +59,7 @@ class Checker {
 
     // Returns the location of an element that came from a file, else that of the file.
     Location place(const Places& places, size_t index) const {
-        return index < places.size() ? places[index] : Location{m_.file, 0, 0, {}};
+        return index < places.size() ? places[index] : Location{m_.file};
     }
     Finding& find(Finding::Kind kind, Location location, std::string message) {
         Finding& out = findings_.emplace_back();
@@ -91,12 +91,9 @@ class Checker {
         const bool still = m_.springs.empty() && std::all_of(m_.vertices.begin(), m_.vertices.end(),
                                                              [](const Vertex& v) { return v.pinned; });
         for (size_t i = 0; i < m_.vertices.size(); ++i) {
-            if (!sprung[i] && m_.vertices[i].pinned && !still)
-                findVertex(Kind::loose, i,
-                           concat("vertex ", i, " is pinned but holds nothing: no spring ends at it"))
-                    .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
-            else if (!sprung[i] && !still)
-                findVertex(Kind::loose, i, concat("vertex ", i, " is loose: no spring ends at it"))
+            const char* what = m_.vertices[i].pinned ? "pinned but holds nothing" : "loose";
+            if (!sprung[i] && !still)
+                findVertex(Kind::loose, i, concat("vertex ", i, " is ", what, ": no spring ends at it"))
                     .mendBy("Tie it to its neighbours", tie(int(i), allVertices()));
             // a skin is drawn instead of the triangles
             if (!drawn[i] && !m_.triangles.empty() && m_.skin.empty())
@@ -238,7 +235,7 @@ class Checker {
         const Analysis free = analyse(m_, false);
         if (!free.modesKnown || free.zeroModes == 0) return;
         const size_t count = size_t(free.zeroModes);
-        find(Kind::soft, {m_.file, 0, 0, {}},
+        find(Kind::soft, {m_.file},
              concat("the springs leave ", many(int64_t(count), "motion", "motions"),
                     " without any stiffness beyond moving as a whole: brace it with springs across, or fold "
                     "what is flat (by about 0.12 of its size)"));

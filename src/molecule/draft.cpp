@@ -216,8 +216,7 @@ std::string withEdits(const std::string& text, const Draft& draft) {
         const std::vector<int>& origins = originsOf(draft, key);
         const int most = origins.empty() ? -1 : *std::max_element(origins.begin(), origins.end());
         if (most >= int(old ? old->items.size() : 0))
-            throw Error(Location{file, 0, 0, {}},
-                        concat("has fewer ", key, " than when it was opened: nothing was saved"));
+            throw Error(Location{file}, "has fewer ", key, " than when it was opened: nothing was saved");
     }
     liftDefault("vertices", "mass", root, draft.origins.vertices, before, after);
     liftDefault("springs", "stiffness", root, draft.origins.springs, before, after);
@@ -235,7 +234,7 @@ std::string withEdits(const std::string& text, const Draft& draft) {
     std::string out = withChanges(text, std::move(changes));
     // no file is left that says something else, or that nobody can open
     if (!sameJson(toJson(parseMolecule(out, file), true), toJson(draft.molecule, true)))
-        throw Error(Location{file, 0, 0, {}}, "could not be changed in place: nothing was saved");
+        throw Error(Location{file}, "could not be changed in place: nothing was saved");
     return out;
 }
 

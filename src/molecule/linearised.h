@@ -25,6 +25,11 @@ inline Eigen::Vector3d toEigen(const glm::dvec3& v) {
     return {v.x, v.y, v.z};
 }
 
+inline glm::dvec3 unit(const glm::dvec3& v) {
+    const double length = glm::length(v);
+    return length > 0 ? v / length : glm::dvec3(0);
+}
+
 // Unit, from b to a; zero for coincident vertices, where a spring has no direction.
 Eigen::Vector3d direction(const Molecule& molecule, int a, int b);
 double inverseRootMass(const Molecule& molecule, int vertex);

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "core/describe.h"
-#include "core/description_schema.h"
 #include "core/file.h"
 #include "core/where.h"
 #include "molecule/molecule_file.h"
@@ -57,8 +56,7 @@ const Description& describe(const Defaults*) {
 void ownOrDefault(JsonReader& r, const char* key, Range range, const std::optional<double>& fallback,
                   double& out) {
     if (r.get(key, out, range)) return;
-    if (!fallback)
-        throw Error(r.here(), concat("missing key \"", key, "\" (give it here or in \"defaults\")"));
+    if (!fallback) throw Error(r.here(), "missing key \"", key, "\" (give it here or in \"defaults\")");
     out = *fallback;
 }
 
@@ -85,29 +83,19 @@ JsonValue writeDefaults(const Molecule&, const void* context) {
 
 // ---- Triangles
 
-bool isVertex(int index, const Molecule& molecule) {
-    return index >= 0 && size_t(index) < molecule.vertices.size();
-}
-
 void readTriangles(JsonReader& root, Molecule& molecule, Defaults*) {
     std::vector<glm::ivec3> triples;
     if (!root.get("triangles", triples)) return;
     needAtMost(root, "triangles", triples.size(), maxMoleculeTriangles);
-    const JsonValue& array = *root.raw("triangles");
+    const Where whole(root);
     for (size_t t = 0; t < triples.size(); ++t) {
         const glm::ivec3 triple = triples[t];
-        const JsonValue& item = array.items[t];
-        const std::string path = concat(root.path(), ".triangles[", t, "]");
-        for (int i = 0; i < 3; ++i) {
-            const JsonValue& corner = item.items[size_t(i)];
-            checkIndex(triple[i], molecule,
-                       {root.file(), corner.line, corner.column, concat(path, "[", i, "]")});
-        }
-        const Location here{root.file(), item.line, item.column, path};
-        const Triangle triangle{triple.x, triple.y, triple.z};
-        checkCorners(triangle, here);
-        molecule.triangles.push_back(triangle);
-        molecule.places.triangles.push_back(here);
+        const Where here = whole.in("triangles", t);
+        for (int i = 0; i < 3; ++i)
+            checkIndex(triple[i], molecule, here.element(size_t(i)));
+        molecule.triangles.push_back({triple.x, triple.y, triple.z});
+        checkCorners(molecule.triangles.back(), here);
+        molecule.places.triangles.push_back(here.here());
     }
 }
 
@@ -121,24 +109,23 @@ JsonValue writeTriangles(const Molecule& molecule, const void*) {
 // ---- Rules
 
 void checkEnds(const Spring& spring, const Molecule& molecule, const Where& where) {
-    if (!isVertex(spring.a, molecule)) checkIndex(spring.a, molecule, where.at("a"));
-    if (!isVertex(spring.b, molecule)) checkIndex(spring.b, molecule, where.at("b"));
+    checkIndex(spring.a, molecule, where.in("a"));
+    checkIndex(spring.b, molecule, where.in("b"));
     if (spring.a == spring.b)
-        throw Error(where.at("b"),
-                    concat("a spring needs two different vertices, found ", spring.a, " twice"));
+        throw Error(where.at("b"), "a spring needs two different vertices, found ", spring.a, " twice");
 }
 
 void checkLength(const Spring& spring, const Molecule& molecule, const Where& where) {
     if (molecule.restLength(spring) < leastLength)
-        throw Error(where.here(), concat("this spring has no length: vertices ", spring.a, " and ", spring.b,
-                                         " stand in the same place (move one, or give a restLength)"));
+        throw Error(where.here(), "this spring has no length: vertices ", spring.a, " and ", spring.b,
+                    " stand in the same place (move one, or give a restLength)");
 }
 
 // `seen`: the ends of the springs before.
 void checkNew(const Spring& spring, std::set<std::pair<int, int>>& seen, const Where& where) {
     if (!seen.insert(std::minmax(spring.a, spring.b)).second)
-        throw Error(where.here(), concat("a spring between vertices ", spring.a, " and ", spring.b,
-                                         " exists already: add up their stiffness instead"));
+        throw Error(where.here(), "a spring between vertices ", spring.a, " and ", spring.b,
+                    " exists already: add up their stiffness instead");
 }
 
 void checkParts(const Molecule& molecule, const Where& where) {
@@ -157,8 +144,8 @@ void checkParts(const Molecule& molecule, const Where& where) {
     for (size_t i = 0; i < molecule.triangles.size(); ++i) {
         const Triangle& t = molecule.triangles[i];
         for (const int corner : {t.a, t.b, t.c})
-            if (!isVertex(corner, molecule)) checkIndex(corner, molecule, where.in("triangles", i).here());
-        if (t.a == t.b || t.b == t.c || t.c == t.a) checkCorners(t, where.in("triangles", i).here());
+            checkIndex(corner, molecule, where.in("triangles", i));
+        checkCorners(t, where.in("triangles", i));
     }
     checkSkin(molecule, where.in("skin"));
     if (molecule.material.texture.find('\0') != std::string::npos)
@@ -317,9 +304,10 @@ const Description& describe(const Molecule*) {
         Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
             .format("shoal-molecule-1")
             .key("name", &M::name, {"", "Its name, and that of groups that have none."})
-            .byHand<Defaults>(
-                "defaults", writeJson(schemaOf(describe(static_cast<const Defaults*>(nullptr)))),
-                {"object", "Values of elements that do not give their own."}, readDefaults, writeDefaults)
+            .byHand<Defaults>("defaults", R"("keys")",
+                              {"object", "Values of elements that do not give their own."}, readDefaults,
+                              writeDefaults)
+            .of(describeDefaults())
             .key("vertices", &M::vertices, {"", "Its vertices, 1 to 65,536."})
             .needed()
             .key("springs", &M::springs, {"", "Its springs, at most 1,048,576."})
@@ -345,17 +333,17 @@ const Description& describeDefaults() {
 
 // ---- What others check by the same rules
 
-void checkIndex(int index, const Molecule& molecule, const Location& where) {
+void checkIndex(int index, const Molecule& molecule, const Where& where) {
     const size_t count = molecule.vertices.size();
-    if (!isVertex(index, molecule))
-        throw Error(where, concat("vertex index ", index, " is out of range: the molecule has ", count,
-                                  count == 1 ? " vertex" : " vertices"));
+    if (index < 0 || size_t(index) >= count)
+        throw Error(where.here(), "vertex index ", index, " is out of range: the molecule has ", count,
+                    count == 1 ? " vertex" : " vertices");
 }
 
-void checkCorners(const Triangle& t, const Location& where) {
+void checkCorners(const Triangle& t, const Where& where) {
     if (t.a == t.b || t.b == t.c || t.c == t.a)
-        throw Error(where,
-                    concat("a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ", t.c));
+        throw Error(where.here(), "a triangle needs three different vertices, found ", t.a, ", ", t.b, ", ",
+                    t.c);
 }
 
 void checkMolecule(const Molecule& molecule, const Where& where) {
@@ -380,8 +368,8 @@ Image readTexture(const Molecule& molecule) {
     try {
         return readPng(file);
     } catch (const Error& error) {
-        throw Error(Location{molecule.file, 0, 0, "$.material.texture"},
-                    concat("the texture \"", file.string(), "\": ", error.message()));
+        throw Error(Location{.file = molecule.file, .path = "$.material.texture"}, "the texture \"",
+                    file.string(), "\": ", error.message());
     }
 }
 
@@ -402,10 +390,8 @@ JsonValue toJson(const Molecule& molecule, bool spelled) {
     return out;
 }
 
-std::string writeMolecule(const Molecule& molecule, const std::string& originalText) {
-    JsonValue root = toJson(molecule, false);
-    if (originalText.empty()) return writeJson(root);
-    return writeJson(inOrderOf(parseJson(originalText, molecule.file), std::move(root)));
+std::string writeMolecule(const Molecule& molecule) {
+    return writeJson(toJson(molecule, false));
 }
 
 }  // namespace shoal

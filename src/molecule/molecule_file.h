@@ -34,8 +34,7 @@ Molecule parseMolecule(const std::string& text, const std::string& file);
 // Error: none such, or no PNG; located at the molecule's key.
 Image readTexture(const Molecule& molecule);
 
-// Reads back as the same molecule. With the text of the file that it came from, keys keep that file's order
-// and comments survive. Defaults carry the mass, stiffness and damping that most elements share.
-std::string writeMolecule(const Molecule& molecule, const std::string& originalText = {});
+// Reads back as the same molecule. Defaults carry the mass, stiffness and damping that most elements share.
+std::string writeMolecule(const Molecule& molecule);
 
 }  // namespace shoal

@@ -16,8 +16,8 @@ constexpr double maxCoordinate = 1e6;  // m
 constexpr double mostFrequency = 1e6;  // Hz
 
 // Errors, each at what is wrong.
-void checkIndex(int index, const Molecule& molecule, const Location& where);
-void checkCorners(const Triangle& triangle, const Location& where);  // three different ones
+void checkIndex(int index, const Molecule& molecule, const Where& where);
+void checkCorners(const Triangle& triangle, const Where& where);  // three different ones
 
 // All of it, with its skin.
 void checkMolecule(const Molecule& molecule, const Where& where);

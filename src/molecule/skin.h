@@ -1,5 +1,4 @@
-// Where a molecule's skin lies (skin.cpp), and how a mesh is bound to a molecule's few vertices as its skin
-// (bind_skin.cpp).
+// Where a molecule's skin lies, and how a mesh is bound to a molecule's few vertices as its skin.
 #pragma once
 
 #include "molecule/molecule.h"

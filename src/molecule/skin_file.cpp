@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "molecule/molecule_file.h"
@@ -27,149 +26,136 @@ namespace {
 constexpr double mostValue = 1e6;  // of weights, uvs and offsets
 constexpr double mostSumError = 1e-5;
 
-bool isIndex(double number, size_t count) {
-    return number >= 0 && number < double(count) && number == std::floor(number);
-}
+using Kind = JsonValue::Kind;
 
-Error notIndex(const Location& where, double found, size_t count, const char* of) {
-    return Error(where, concat("expected the index of a vertex of ", of, ", 0 to ", int64_t(count) - 1,
-                               ", found ", found));
+void checkIndex(double number, size_t count, const char* of, const Where& where) {
+    if (!(number >= 0 && number < double(count) && number == std::floor(number)))
+        throw Error(where.here(), "expected the index of a vertex of ", of, ", 0 to ", int64_t(count) - 1,
+                    ", found ", number);
 }
 
 // Checks the count of a file's numbers for a skin vertex: pairs of a vertex and its weight.
-void checkWeightCount(size_t numbers, const Location& where) {
+void checkWeightCount(size_t numbers, const Where& where) {
     if (numbers == 0 || numbers % 2 != 0 || numbers > 2 * Skin::mostWeights)
-        throw Error(where, concat("expected 1 to ", Skin::mostWeights,
-                                  " pairs of a vertex and its weight, found ", numbers, " numbers"));
+        throw Error(where.here(), "expected 1 to ", Skin::mostWeights,
+                    " pairs of a vertex and its weight, found ", numbers, " numbers");
 }
 
-void checkWeights(const SkinVertex& vertex, const Location& where) {
+void checkWeights(const SkinVertex& vertex, const Where& where) {
     double sum = 0;
     for (size_t k = 0; k < vertex.weights.size(); ++k) {
         for (size_t other = 0; other < k; ++other)
             if (vertex.weights[other].vertex == vertex.weights[k].vertex)
-                throw Error(where,
-                            concat("vertex ", vertex.weights[k].vertex, " has two weights: add them up"));
+                throw Error(where.here(), "vertex ", vertex.weights[k].vertex,
+                            " has two weights: add them up");
         sum += vertex.weights[k].weight;
     }
     if (!(std::abs(sum - 1) <= mostSumError))
-        throw Error(where, concat("expected weights that add up to 1, found ", sum));
+        throw Error(where.here(), "expected weights that add up to 1, found ", sum);
 }
 
-void checkNumber(double number, const Location& where) {
-    if (!(std::abs(number) <= mostValue))
-        throw Error(where,
-                    concat("expected a number from ", -mostValue, " to ", mostValue, ", found ", number));
+bool isLarge(double number) {
+    return !(std::abs(number) <= mostValue);
 }
 
-void checkOffset(const SkinVertex& vertex, const Molecule& molecule, const Location& where) {
+Error tooLarge(double number, const Location& where) {
+    return Error(where, "expected a number from ", -mostValue, " to ", mostValue, ", found ", number);
+}
+
+void checkNumber(double number, const Where& where) {
+    if (isLarge(number)) throw tooLarge(number, where.here());
+}
+
+void checkOffset(const SkinVertex& vertex, const Molecule& molecule, const Where& where) {
     if (vertex.offset != 0 && molecule.triangles.empty())
-        throw Error(where, "an offset is along the normal of the molecule, which has no triangles");
+        throw Error(where.here(), "an offset is along the normal of the molecule, which has no triangles");
 }
 
-// An array in the skin, whose elements are located as they are read.
-class Elements {
-  public:
-    Elements(JsonReader& skin, const std::string& key, int most)
-        : array_(skin.raw(key)), file_(skin.file()), path_(skin.path() + "." + key) {
-        if (!array_) return;
-        kind(*array_, path_, JsonValue::Kind::array, "an array");
-        if (array_->items.size() > size_t(most))
-            throw Error(at(*array_, path_),
-                        concat("expected at most ", most, " ", key, ", found ", array_->items.size()));
-    }
+// ---- Reading
 
-    explicit operator bool() const { return array_ != nullptr; }
-    size_t count() const { return array_->items.size(); }
-    const JsonValue& operator[](size_t i) const { return array_->items[i]; }
-    std::string path(size_t i) const { return concat(path_, "[", i, "]"); }
-    Location whole() const { return at(*array_, path_); }
-    Location at(const JsonValue& value, const std::string& path) const {
-        return {file_, value.line, value.column, path};
-    }
+using Elements = std::vector<JsonValue>;
 
-    // The numbers of element i, each with its place.
-    const std::vector<JsonValue>& numbers(size_t i) const {
-        const JsonValue& item = (*this)[i];
-        kind(item, path(i), JsonValue::Kind::array, "an array of numbers");
-        for (size_t k = 0; k < item.items.size(); ++k)
-            kind(item.items[k], concat(path(i), "[", k, "]"), JsonValue::Kind::number, "a number");
-        return item.items;
-    }
-    double number(const JsonValue& value, const std::string& path) const {
-        kind(value, path, JsonValue::Kind::number, "a number");
-        checkNumber(value.number, at(value, path));
-        return value.number;
-    }
-    int index(const JsonValue& value, const std::string& path, size_t count, const char* of) const {
-        if (!isIndex(value.number, count)) throw notIndex(at(value, path), value.number, count, of);
-        return int(value.number);
-    }
+void needKind(const JsonValue& value, Kind kind, const char* what, const Where& where) {
+    if (value.kind != kind) throw Error(where.here(), "expected ", what, ", found ", name(value.kind));
+}
 
-  private:
-    void kind(const JsonValue& value, const std::string& path, JsonValue::Kind wanted,
-              const char* what) const {
-        if (value.kind != wanted)
-            throw Error(at(value, path), concat("expected ", what, ", found ", name(value.kind)));
-    }
+// The elements of a key's array; null where the key is absent.
+const Elements* elementsOf(JsonReader& skin, const char* key, size_t most) {
+    const JsonValue* array = skin.raw(key);
+    if (!array) return nullptr;
+    const Where where(skin);
+    needKind(*array, Kind::array, "an array", where.in(key));
+    needAtMost(where, key, array->items.size(), most);
+    return &array->items;
+}
 
-    const JsonValue* array_;
-    std::string file_, path_;
-};
+const Elements& numbersOf(const JsonValue& element, const Where& where) {
+    needKind(element, Kind::array, "an array of numbers", where);
+    for (size_t k = 0; k < element.items.size(); ++k)
+        needKind(element.items[k], Kind::number, "a number", where.element(k));
+    return element.items;
+}
 
-void readWeights(const Elements& weights, const Molecule& molecule, Skin& skin) {
-    for (size_t i = 0; i < weights.count(); ++i) {
-        const std::vector<JsonValue>& numbers = weights.numbers(i);
-        const Location here = weights.at(weights[i], weights.path(i));
+void readWeights(const Elements& weights, const Molecule& molecule, Skin& skin, const Where& where) {
+    for (size_t i = 0; i < weights.size(); ++i) {
+        const Where here = where.in("weights", i);
+        const Elements& numbers = numbersOf(weights[i], here);
         checkWeightCount(numbers.size(), here);
         SkinVertex vertex;
         for (size_t k = 0; k < numbers.size(); k += 2) {
-            SkinWeight weight;
-            weight.vertex = weights.index(numbers[k], concat(weights.path(i), "[", k, "]"),
-                                          molecule.vertices.size(), "the molecule");
-            weight.weight = weights.number(numbers[k + 1], concat(weights.path(i), "[", k + 1, "]"));
-            vertex.weights.push_back(weight);
+            checkIndex(numbers[k].number, molecule.vertices.size(), "the molecule", here.element(k));
+            checkNumber(numbers[k + 1].number, here.element(k + 1));
+            vertex.weights.push_back({int(numbers[k].number), numbers[k + 1].number});
         }
         checkWeights(vertex, here);
         skin.vertices.push_back(std::move(vertex));
     }
 }
 
-void checkCount(const Elements& elements, size_t count) {
-    if (elements.count() != count)
-        throw Error(elements.whole(), concat("expected one for each of the skin's ", count,
-                                             " weights, found ", elements.count()));
+void checkCount(const Elements& elements, size_t count, const Location& where) {
+    if (elements.size() != count)
+        throw Error(where, "expected one for each of the skin's ", count, " weights, found ",
+                    elements.size());
 }
 
-void readUvs(const Elements& uvs, Skin& skin) {
-    checkCount(uvs, skin.vertices.size());
-    for (size_t i = 0; i < uvs.count(); ++i) {
-        const std::vector<JsonValue>& pair = uvs.numbers(i);
-        if (pair.size() != 2)
-            throw Error(uvs.at(uvs[i], uvs.path(i)),
-                        concat("expected an array of 2 numbers, found ", pair.size()));
-        skin.vertices[i].uv = {uvs.number(pair[0], uvs.path(i)), uvs.number(pair[1], uvs.path(i))};
+void readUvs(const Elements& uvs, Skin& skin, const Where& where) {
+    checkCount(uvs, skin.vertices.size(), where.at("uvs"));
+    for (size_t i = 0; i < uvs.size(); ++i) {
+        const Where here = where.in("uvs", i);
+        const Elements& pair = numbersOf(uvs[i], here);
+        if (pair.size() != 2) throw Error(here.here(), "expected an array of 2 numbers, found ", pair.size());
+        for (size_t k = 0; k < 2; ++k) {
+            const double number = skin.vertices[i].uv[int(k)] = pair[k].number;
+            if (!isLarge(number)) continue;
+            Location place = here.element(k).here();
+            place.path = here.here().path;
+            throw tooLarge(number, place);
+        }
     }
 }
 
-void readOffsets(const Elements& offsets, const Molecule& molecule, Skin& skin) {
-    checkCount(offsets, skin.vertices.size());
-    for (size_t i = 0; i < offsets.count(); ++i) {
-        skin.vertices[i].offset = offsets.number(offsets[i], offsets.path(i));
-        checkOffset(skin.vertices[i], molecule, offsets.at(offsets[i], offsets.path(i)));
+void readOffsets(const Elements& offsets, const Molecule& molecule, Skin& skin, const Where& where) {
+    checkCount(offsets, skin.vertices.size(), where.at("offsets"));
+    for (size_t i = 0; i < offsets.size(); ++i) {
+        const Where here = where.in("offsets", i);
+        needKind(offsets[i], Kind::number, "a number", here);
+        checkNumber(offsets[i].number, here);
+        skin.vertices[i].offset = offsets[i].number;
+        checkOffset(skin.vertices[i], molecule, here);
     }
 }
 
-void readSkinTriangles(const Elements& triangles, Skin& skin) {
-    for (size_t i = 0; i < triangles.count(); ++i) {
-        const std::vector<JsonValue>& corners = triangles.numbers(i);
-        const Location here = triangles.at(triangles[i], triangles.path(i));
+void readSkinTriangles(const Elements& triangles, Skin& skin, const Where& where) {
+    for (size_t i = 0; i < triangles.size(); ++i) {
+        const Where here = where.in("triangles", i);
+        const Elements& corners = numbersOf(triangles[i], here);
         if (corners.size() != 3)
-            throw Error(here, concat("expected an array of 3 numbers, found ", corners.size()));
+            throw Error(here.here(), "expected an array of 3 numbers, found ", corners.size());
         int index[3];
-        for (size_t k = 0; k < 3; ++k)
-            index[k] = triangles.index(corners[k], concat(triangles.path(i), "[", k, "]"),
-                                       skin.vertices.size(), "the skin");
+        for (size_t k = 0; k < 3; ++k) {
+            checkIndex(corners[k].number, skin.vertices.size(), "the skin", here.element(k));
+            index[k] = int(corners[k].number);
+        }
         checkCorners({index[0], index[1], index[2]}, here);
         skin.triangles.push_back({index[0], index[1], index[2]});
     }
@@ -182,27 +168,21 @@ void readSkin(JsonReader& root, Molecule& molecule) {
     if (!reader) return;
     reader->require("weights");
     reader->require("triangles");
-    const Elements weights(*reader, "weights", maxSkinVertices), uvs(*reader, "uvs", maxSkinVertices),
-        offsets(*reader, "offsets", maxSkinVertices), triangles(*reader, "triangles", maxSkinTriangles);
+    const Elements *weights = elementsOf(*reader, "weights", maxSkinVertices),
+                   *uvs = elementsOf(*reader, "uvs", maxSkinVertices),
+                   *offsets = elementsOf(*reader, "offsets", maxSkinVertices),
+                   *triangles = elementsOf(*reader, "triangles", maxSkinTriangles);
+    const Where where(*reader);
     Skin skin;
-    readWeights(weights, molecule, skin);
-    if (uvs) readUvs(uvs, skin);
-    if (offsets) readOffsets(offsets, molecule, skin);
-    readSkinTriangles(triangles, skin);
-    if (skin.triangles.empty()) throw Error(triangles.whole(), "expected at least one triangle, found none");
+    readWeights(*weights, molecule, skin, where);
+    if (uvs) readUvs(*uvs, skin, where);
+    if (offsets) readOffsets(*offsets, molecule, skin, where);
+    readSkinTriangles(*triangles, skin, where);
+    if (skin.triangles.empty())
+        throw Error(where.at("triangles"), "expected at least one triangle, found none");
     reader->finish();
     molecule.skin = std::move(skin);
     placeSkin(molecule);
-}
-
-// Puts a place together only when something is wrong.
-template <typename Check>
-static void checkAt(const Where& where, const char* key, size_t index, const Check& check) {
-    try {
-        check(Location{});
-    } catch (const Error& error) {
-        throw Error(where.in(key, index).here(), error.message());
-    }
 }
 
 void checkSkin(const Molecule& molecule, const Where& where) {
@@ -211,32 +191,24 @@ void checkSkin(const Molecule& molecule, const Where& where) {
     needAtMost(where, "triangles", skin.triangles.size(), maxSkinTriangles);
     for (size_t i = 0; i < skin.vertices.size(); ++i) {
         const SkinVertex& vertex = skin.vertices[i];
-        checkAt(where, "weights", i, [&](const Location& here) {
-            checkWeightCount(2 * vertex.weights.size(), here);
-            for (const SkinWeight& weight : vertex.weights) {
-                if (!isIndex(weight.vertex, molecule.vertices.size()))
-                    throw notIndex(here, weight.vertex, molecule.vertices.size(), "the molecule");
-                checkNumber(weight.weight, here);
-            }
-            checkWeights(vertex, here);
-        });
-        checkAt(where, "uvs", i, [&](const Location& here) {
-            checkNumber(vertex.uv.x, here);
-            checkNumber(vertex.uv.y, here);
-        });
-        checkAt(where, "offsets", i, [&](const Location& here) {
-            checkNumber(vertex.offset, here);
-            checkOffset(vertex, molecule, here);
-        });
+        const Where weights = where.in("weights", i), uvs = where.in("uvs", i),
+                    offsets = where.in("offsets", i);
+        checkWeightCount(2 * vertex.weights.size(), weights);
+        for (const SkinWeight& weight : vertex.weights) {
+            checkIndex(weight.vertex, molecule.vertices.size(), "the molecule", weights);
+            checkNumber(weight.weight, weights);
+        }
+        checkWeights(vertex, weights);
+        checkNumber(vertex.uv.x, uvs);
+        checkNumber(vertex.uv.y, uvs);
+        checkNumber(vertex.offset, offsets);
+        checkOffset(vertex, molecule, offsets);
     }
     for (size_t i = 0; i < skin.triangles.size(); ++i) {
         const SkinTriangle& t = skin.triangles[i];
-        checkAt(where, "triangles", i, [&](const Location& here) {
-            for (const int corner : {t.a, t.b, t.c})
-                if (!isIndex(corner, skin.vertices.size()))
-                    throw notIndex(here, corner, skin.vertices.size(), "the skin");
-            checkCorners({t.a, t.b, t.c}, here);
-        });
+        for (const int corner : {t.a, t.b, t.c})
+            checkIndex(corner, skin.vertices.size(), "the skin", where.in("triangles", i));
+        checkCorners({t.a, t.b, t.c}, where.in("triangles", i));
     }
 }
 

@@ -247,9 +247,8 @@ const Description& describe(const WaveTrain*) {
                         "expected a direction with a part along x or z: waves travel level");
         const double most = train.wavelength / (2 * std::numbers::pi);
         if (train.amplitude >= most)
-            throw Error(where.at("amplitude"),
-                        concat("expected less than ", most, " m: crests of ", train.wavelength,
-                               " m length would curl over, found ", train.amplitude));
+            throw Error(where.at("amplitude"), "expected less than ", most, " m: crests of ",
+                        train.wavelength, " m length would curl over, found ", train.amplitude);
     };
     static const auto derive = [](WaveTrain& train, const Where&) {
         if (train.direction.x != 0 || train.direction.z != 0) train.direction.y = 0;
@@ -277,12 +276,11 @@ const Description& describe(const WavesField*) {
         constexpr size_t most = 32;
         const size_t count = field.trains.size();
         if (count == 0 || count > most)
-            throw Error(where.at("trains"), concat("expected 1 to ", most, " trains, found ", count));
+            throw Error(where.at("trains"), "expected 1 to ", most, " trains, found ", count);
         for (size_t i = 0; field.depth && i < count; ++i)
             if (field.trains[i].amplitude >= *field.depth)
-                throw Error(where.in("trains", i).at("amplitude"),
-                            concat("expected less than the depth of ", *field.depth, " m, found ",
-                                   field.trains[i].amplitude));
+                throw Error(where.in("trains", i).at("amplitude"), "expected less than the depth of ",
+                            *field.depth, " m, found ", field.trains[i].amplitude);
     };
     static const Description it =
         Describe<F>("waves", "The water under a sum of waves [Fournier 1986].")

@@ -197,7 +197,7 @@ const Description& describe(const AbcField*);
 const Description& describe(const TaylorGreenField*);
 const Description& describe(const CurlNoiseField*);
 const Description& describe(const FileSequence*);
-const Description& describe(const GridField*);  // scene/json/fields.cpp: its values are in files
+const Description& describe(const GridField*);  // scene/field_files: its values are in files
 const Description& describe(const WaveTrain*);
 const Description& describe(const WavesField*);
 const Description& describe(const HurricaneField*);

@@ -129,14 +129,6 @@ const Description& describe(const ThrustForce*) {
     return it;
 }
 
-ThrustForce ThrustForce::times(double factor) const {
-    return {rate * factor, limit};
-}
-
-double ThrustForce::fastestRate() const {
-    return std::abs(rate);
-}
-
 const Description& describe(const WindForce*) {
     static const Description it =
         Describe<WindForce>(
@@ -146,14 +138,6 @@ const Description& describe(const WindForce*) {
             .key("velocity", &WindForce::velocity, {"m/s", "The velocity that it adds."})
             .needed();
     return it;
-}
-
-WindForce WindForce::times(double factor) const {
-    return {factor * velocity};
-}
-
-double WindForce::fastestRate() const {
-    return 0;
 }
 
 // ---- How forces move, and whom they act on

@@ -4,6 +4,7 @@
 // says how to add one. SI units.
 #pragma once
 
+#include <cmath>
 #include <variant>
 
 #include "scene/force.h"
@@ -47,15 +48,15 @@ struct VortexLineForce {
 struct ThrustForce {
     double rate = 1;   // 1/s
     double limit = 1;  // m/s, above 0
-    ThrustForce times(double factor) const;
-    double fastestRate() const;
+    ThrustForce times(double factor) const { return {rate * factor, limit}; }
+    double fastestRate() const { return std::abs(rate); }
 };
 
 // Adds to the fluid's velocity everywhere: moves what has drag.
 struct WindForce {
     glm::dvec3 velocity{0};  // m/s
-    WindForce times(double factor) const;
-    double fastestRate() const;
+    WindForce times(double factor) const { return {factor * velocity}; }
+    double fastestRate() const { return 0; }
 };
 
 struct ForceShape : std::variant<AttractForce, VortexLineForce, ThrustForce, WindForce> {

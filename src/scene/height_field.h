@@ -1,8 +1,6 @@
 // Height fields for colliders: from a mesh seen from above, or from the grey levels of an image.
 #pragma once
 
-#include <string>
-
 #include "core/image.h"
 #include "geometry/mesh.h"
 #include "scene/scene.h"

@@ -6,13 +6,12 @@
 namespace shoal {
 
 inline void needTwoKeyframes(size_t count, const Location& where) {
-    if (count < 2) throw Error(where, concat("expected at least two keyframes, found ", count));
+    if (count < 2) throw Error(where, "expected at least two keyframes, found ", count);
 }
 
 inline void checkRises(double time, double before, const Location& where) {
     if (!(time > before))
-        throw Error(
-            where, concat("expected a time after that of the keyframe before, ", before, " s, found ", time));
+        throw Error(where, "expected a time after that of the keyframe before, ", before, " s, found ", time);
 }
 
 }  // namespace shoal

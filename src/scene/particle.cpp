@@ -20,15 +20,14 @@ void checkAges(const ParticleType& type, const Where& where) {
     const size_t count = type.colors.size();
     if (count == 0) throw Error(where.at("colors"), "expected at least one keyframe, found none");
     if (count > mostColorKeys)
-        throw Error(where.at("colors"),
-                    concat("expected at most ", mostColorKeys, " keyframes, found ", count));
+        throw Error(where.at("colors"), "expected at most ", mostColorKeys, " keyframes, found ", count);
     for (size_t i = 1; i < count; ++i) {
         const Where here = where.in("colors", i);
         here.require("age");
         const double age = type.colors[i].age, before = type.colors[i - 1].age;
         if (age - before < leastPositive)
-            throw Error(here.at("age"), concat("expected an age above that of the keyframe before, ", before,
-                                               ", found ", age));
+            throw Error(here.at("age"), "expected an age above that of the keyframe before, ", before,
+                        ", found ", age);
     }
 }
 
@@ -43,10 +42,10 @@ void checkImage(const ParticleImage& image, const Where& where) {
     const int most = image.columns * image.rows - 1;
     for (const int tile : {image.firstTile, image.lastTile})
         if (tile < 0 || tile > most)
-            throw Error(where.at(key), concat("the image has tiles 0 to ", most, ", found ", tile));
+            throw Error(where.at(key), "the image has tiles 0 to ", most, ", found ", tile);
     if (image.firstTile > image.lastTile)
-        throw Error(where.at(key),
-                    concat("expected [first, last], found ", image.firstTile, " above ", image.lastTile));
+        throw Error(where.at(key), "expected [first, last], found ", image.firstTile, " above ",
+                    image.lastTile);
     if (image.flipBook && image.firstTile == image.lastTile)
         throw Error(where.at("flipBook"), "a flip-book needs at least two tiles");
 }
@@ -54,9 +53,8 @@ void checkImage(const ParticleImage& image, const Where& where) {
 void checkPixels(ParticleImage& image, const Where& where) {
     const Image pixels = readPng(image.file);
     if (pixels.width % image.columns != 0 || pixels.height % image.rows != 0)
-        throw Error(where.at("file"),
-                    concat("the image is ", pixels.width, " x ", pixels.height, " pixels, which ",
-                           image.columns, " x ", image.rows, " tiles of the same size do not fill"));
+        throw Error(where.at("file"), "the image is ", pixels.width, " x ", pixels.height, " pixels, which ",
+                    image.columns, " x ", image.rows, " tiles of the same size do not fill");
 }
 
 void readFileOf(JsonReader& r, ParticleImage& image, void*) {
@@ -87,7 +85,7 @@ void readTiles(JsonReader& r, ParticleImage& image, void*) {
     if (!r.get("tiles", ends)) return;
     if (r.has("tile")) throw Error(r.at("tiles"), "\"tiles\" is given besides \"tile\": one of the two");
     if (ends.size() != 2)
-        throw Error(r.at("tiles"), concat("expected [first, last], found ", ends.size(), " numbers"));
+        throw Error(r.at("tiles"), "expected [first, last], found ", ends.size(), " numbers");
     image.firstTile = ends[0];
     image.lastTile = ends[1];
 }

@@ -8,9 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
-
-#include <glm/gtc/constants.hpp>
 
 #include "core/describe.h"
 #include "core/random.h"
@@ -175,9 +172,8 @@ class Hosts {
 
   private:
     Error nothing(const std::string& what) const {
-        return Error(group_.location,
-                     concat("nothing of model \"", model_->name, "\" matches the selection, ", what,
-                            " to place molecules on: ", selected_.report));
+        return Error(group_.location, "nothing of model \"", model_->name, "\" matches the selection, ", what,
+                     " to place molecules on: ", selected_.report);
     }
 
     // Fisher and Yates: the first n are a random choice of n distinct vertices. A count above the number

@@ -1,6 +1,7 @@
 #include "scene/scene.h"
 
 #include "core/describe.h"
+#include "scene/water.h"
 
 namespace shoal {
 
@@ -158,7 +159,7 @@ const Description& describe(const ColorScale*) {
         const JsonValue* list = r.raw("colors");
         if (!list) return;
         if (list->kind != JsonValue::Kind::array)
-            throw Error(r.at("colors"), concat("expected an array of colours, found ", name(list->kind)));
+            throw Error(r.at("colors"), "expected an array of colours, found ", name(list->kind));
         scale.colors.clear();
         for (const JsonValue& item : list->items) {
             glm::dvec3 color(-1);
@@ -171,11 +172,11 @@ const Description& describe(const ColorScale*) {
     };
     static const auto rule = [](const C& scale, const Where& where) {
         if (scale.to - scale.from < leastPositive)
-            throw Error(where.at("to"),
-                        concat("expected \"to\" above \"from\" (", scale.from, "), found ", scale.to));
+            throw Error(where.at("to"), "expected \"to\" above \"from\" (", scale.from, "), found ",
+                        scale.to);
         if (scale.colors.size() < leastScaleColors || scale.colors.size() > mostScaleColors)
-            throw Error(where.at("colors"), concat("expected ", leastScaleColors, " to ", mostScaleColors,
-                                                   " colours, found ", scale.colors.size()));
+            throw Error(where.at("colors"), "expected ", leastScaleColors, " to ", mostScaleColors,
+                        " colours, found ", scale.colors.size());
         for (size_t i = 0; i < scale.colors.size(); ++i)
             for (int c = 0; c < 3; ++c)
                 if (!contains(Range::between(0, 1), scale.colors[i][c]))
@@ -200,6 +201,24 @@ const Description& describe(const ColorScale*) {
                 readColors)
             .usually("dark blue over green to yellow")
             .rule(rule);
+    return it;
+}
+
+const Description& describe(const Water*) {
+    static const Description it =
+        Describe<Water>("water", "The scene is under water: what the picture makes of it.")
+            .key("surface", &Water::surface, {"m", "The y of the calm surface; all below it is water."})
+            .key("extinction", &Water::extinction,
+                 {"1/m", "How fast water takes red, green and blue out of light.",
+                  Range::between(0, mostExtinction)})
+            .color("scattering", &Water::scattering, {"", "The colour of endless water."})
+            .key("caustics", &Water::caustics,
+                 {"", "The strength of the bright net on what the sun reaches.", Range::between(0, 1)})
+            .key("causticsSize", &Water::causticsSize, {"m", "The size of its meshes.", aboveZero()})
+            .key("causticsSpeed", &Water::causticsSpeed,
+                 {"m/s", "The speed at which it runs.", Range::atLeast(0)})
+            .key("rays", &Water::rays,
+                 {"", "The strength of the beams through the water.", Range::between(0, 1)});
     return it;
 }
 

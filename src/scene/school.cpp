@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "core/describe.h"
-#include "scene/scene.h"
+#include "scene/json/reader.h"
 
 namespace shoal {
 
@@ -27,7 +27,7 @@ const Description& describe(const SchoolHome*) {
         if (home.box) {
             for (const char* key : {"center", "radius"})
                 if (where.given(key))
-                    throw Error(where.at(key), concat("\"", key, "\" has no effect beside \"box\""));
+                    throw Error(where.at(key), "\"", key, "\" has no effect beside \"box\"");
             return;
         }
         where.require("center");
@@ -54,15 +54,15 @@ const Description& describe(const School*) {
     };
     static const auto rule = [](const S& school, const Where& where) {
         if (school.slowest > school.cruise || school.cruise > school.fastest)
-            throw Error(where.here(), concat("expected slowest <= cruise <= fastest, found ", school.slowest,
-                                             ", ", school.cruise, " and ", school.fastest, " m/s"));
+            throw Error(where.here(), "expected slowest <= cruise <= fastest, found ", school.slowest, ", ",
+                        school.cruise, " and ", school.fastest, " m/s");
         if (school.separationRadius > school.radius)
             throw Error(where.here(),
-                        concat("expected a separationRadius of at most the radius in which others are seen (",
-                               school.radius, " m), found ", school.separationRadius));
+                        "expected a separationRadius of at most the radius in which others are seen (",
+                        school.radius, " m), found ", school.separationRadius);
         if (school.depth && !(school.depth->x <= school.depth->y))
-            throw Error(where.here(), concat("expected a depth from its lowest to its highest y, found ",
-                                             school.depth->x, " and ", school.depth->y));
+            throw Error(where.here(), "expected a depth from its lowest to its highest y, found ",
+                        school.depth->x, " and ", school.depth->y);
     };
     static const Description it =
         Describe<S>("school",
@@ -122,31 +122,25 @@ static bool targets(const std::vector<SchoolTarget>& list, const std::string& na
 }
 
 void checkSchools(const std::vector<Group>& groups) {
-    std::vector<std::string> names;
-    for (const Group& group : groups)
-        names.push_back(group.name);
+    const std::vector<std::string> names = namesOf(groups);
     for (const Group& group : groups) {
         if (!group.school) continue;
         const School& school = *group.school;
         if (school.flees.size() + school.hunts.size() > mostSchoolTargets)
-            throw Error(school.location,
-                        concat("a group flees and hunts at most ", mostSchoolTargets, " others, found ",
-                               school.flees.size() + school.hunts.size()));
+            throw Error(school.location, "a group flees and hunts at most ", mostSchoolTargets,
+                        " others, found ", school.flees.size() + school.hunts.size());
         for (const auto* list : {&school.flees, &school.hunts}) {
             for (const SchoolTarget& target : *list) {
-                if (std::find(names.begin(), names.end(), target.group) == names.end())
-                    throw Error(target.location, concat("there is no group \"", target.group, "\"",
-                                                        suggestion(target.group, names)));
+                needNamed(target.group, names, target.location, "there is no group");
                 if (target.group == group.name)
-                    throw Error(target.location, concat("\"", group.name, "\" cannot ",
-                                                        list == &school.flees ? "flee" : "hunt",
-                                                        " itself: expected another group"));
+                    throw Error(target.location, "\"", group.name, "\" cannot ",
+                                list == &school.flees ? "flee" : "hunt", " itself: expected another group");
             }
         }
         for (const SchoolTarget& target : school.hunts)
             if (targets(school.flees, target.group))
-                throw Error(target.location,
-                            concat("\"", group.name, "\" cannot both flee and hunt \"", target.group, "\""));
+                throw Error(target.location, "\"", group.name, "\" cannot both flee and hunt \"",
+                            target.group, "\"");
     }
 }
 

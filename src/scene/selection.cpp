@@ -13,8 +13,8 @@ const Description& describe(const Selection*) {
     using S = Selection;
     static const auto rule = [](const S& select, const Where& where) {
         if (select.minHeight && select.maxHeight && *select.minHeight > *select.maxHeight)
-            throw Error(where.at("maxHeight"), concat("expected maxHeight of at least minHeight (",
-                                                      *select.minHeight, "), found ", *select.maxHeight));
+            throw Error(where.at("maxHeight"), "expected maxHeight of at least minHeight (",
+                        *select.minHeight, "), found ", *select.maxHeight);
     };
     static const Description it =
         Describe<S>("select", "Which part of a model; all that is given must hold.")

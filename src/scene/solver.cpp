@@ -58,7 +58,7 @@ std::optional<SolverKind> solverOf(const std::string& word) {
     if (word == "auto") return std::nullopt;
     for (const Solver& one : table)
         if (word == one.name) return one.kind;
-    throw Error(concat("unknown solver \"", word, "\"", suggestion(word, solverWords())));
+    throw Error("unknown solver \"", word, "\"", suggestion(word, solverWords()));
 }
 
 }  // namespace shoal

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/file_watch.h"
-#include "core/json_merge.h"
+#include "core/json_edit.h"
 #include "run/scene_list.h"
 
 namespace shoal::window {

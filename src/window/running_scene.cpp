@@ -8,7 +8,6 @@
 #include "run/progress.h"
 #include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
-#include "scene/json/scene_files.h"
 #include "simulate/carry_over.h"
 
 namespace shoal::window {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/file_watch.h"
-#include "core/json_merge.h"
+#include "core/json_edit.h"
 #include "gpu/program_cache.h"
 #include "render/renderer.h"
 #include "run/request.h"

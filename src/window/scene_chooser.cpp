@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "scene/json/scene_files.h"
+#include "scene/json/scene_file.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
 #include "window/notices.h"

@@ -4,13 +4,13 @@
 #include <cstdlib>
 
 #include "core/describe.h"
-#include "core/description_schema.h"
 #include "core/file.h"
 #include "molecule/molecule_json.h"
 #include "scene/field_files/field_file.h"
 #include "scene/field_kinds.h"
 #include "scene/scene.h"
 #include "support/catch.h"
+#include "support/description_schema.h"
 #include "support/message_of.h"
 
 namespace shoal {
@@ -160,7 +160,7 @@ TEST_CASE("the schemas say what the descriptions say", "[description]") {
     const auto compare = [](const std::string& folder, const std::string& name,
                             const Description& description, const std::string& title) {
         const std::string file = SHOAL_SOURCE_DIR "/" + folder + "/" + name;
-        const std::string schema = schemaFile(description, name, title);
+        const std::string schema = test::schemaFile(description, name, title);
         if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, schema);
         INFO(name);
         CHECK((schema == readFile(file)));
@@ -186,9 +186,9 @@ static void compareTables(const std::string& name, const Tables& tables, const T
     const std::string file = SHOAL_SOURCE_DIR "/docs/" + name, committed = readFile(file);
     std::string text = committed;
     for (const auto& [object, description] : tables)
-        put(text, "keys: " + object, tableOf(*description));
+        put(text, "keys: " + object, test::tableOf(*description));
     for (const auto& [object, description] : kinds)
-        put(text, "kinds: " + object, kindsOf(*description));
+        put(text, "kinds: " + object, test::kindsOf(*description));
     if (std::getenv("SHOAL_UPDATE_SCHEMA")) return writeFile(file, text);
     CHECK((text == committed));
 }
@@ -244,7 +244,7 @@ TEST_CASE("the tables of the formats say what the descriptions say", "[descripti
 }
 
 TEST_CASE("tables of keys say type, default and meaning", "[description]") {
-    const std::string table = tableOf(describe(static_cast<const Thing*>(nullptr)));
+    const std::string table = test::tableOf(describe(static_cast<const Thing*>(nullptr)));
     INFO(table);
     CHECK_THAT(table, Catch::Contains("| `count` | whole number from 1 to 5 | 3 | How many there are. |"));
     CHECK_THAT(table, Catch::Contains("| `weight` | number above 0, kg | none | What it weighs. |"));

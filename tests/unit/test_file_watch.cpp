@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "core/file.h"
-#include "scene/json/scene_files.h"
+#include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

@@ -133,7 +133,7 @@ TEST_CASE("errors of a key say what was expected and what was found", "[json]") 
     glm::dvec3 v;
     glm::dvec2 w;
     std::optional<int> none;
-    CHECK(messageOf([&] { reader.get("mass", d, Range::positive()); }) ==
+    CHECK(messageOf([&] { reader.get("mass", d, Range{.least = 0, .aboveLeast = true}); }) ==
           "f:1:10: expected a number above 0, found -3 (at $.mass)");
     CHECK(messageOf([&] { reader.get("mass", d, Range::atLeast(0)); }) ==
           "f:1:10: expected a number of at least 0, found -3 (at $.mass)");
@@ -187,13 +187,4 @@ TEST_CASE("what is written reads well and reads back", "[json]") {
         "1]},\n"
         "    {}\n  ],\n  \"o\": {\n    \"b\": true\n  },\n  \"n\": null\n}\n";
     CHECK(writeJson(parseJson(text, "f")) == text);
-}
-
-TEST_CASE("saving again keeps the order of keys and the comments", "[json]") {
-    const JsonValue original =
-        parseJson(R"({"b": 1, "comment": "why", "a": [{"y": 1, "x": 2}], "gone": 3})", "f");
-    JsonValue fresh = parseJson(R"({"a": [{"x": 5, "y": 6}], "b": 7, "more": 8})", "f");
-    CHECK(writeJson(inOrderOf(original, fresh)) ==
-          "{\n  \"b\": 7,\n  \"comment\": \"why\",\n  \"a\": [\n    {\"y\": 6, \"x\": 5}\n  ],\n  \"more\": "
-          "8\n}\n");
 }

@@ -1,7 +1,6 @@
 // A file that changed on disk while edits of it are not saved: both are kept, or the conflict is said.
 #include "core/description.h"
 #include "core/json_edit.h"
-#include "core/json_merge.h"
 #include "scene/json/saver.h"
 #include "scene/json/scene_file.h"
 #include "simulate/carry_over.h"

@@ -1,5 +1,5 @@
-// Grids of velocities from files of other programs: the formats (a source each, read_*.cpp), what they share,
-// and numbered files (file_sequence.cpp).
+// Grids of velocities from files of other programs: the formats (read_*.cpp), what they share, and numbered
+// files (file_sequence.cpp).
 //
 //   a file  ->  FileGrid (its own axes and units)  ->  addFrame: GridField (the scene's)
 #pragma once
@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "core/error.h"
-#include "scene/field_files/numbers.h"
 #include "scene/field_kinds.h"
 
 namespace shoal {
@@ -21,6 +20,7 @@ class Description;
 class Where;
 
 inline constexpr const char* axisNames[] = {"x", "y", "z"};
+inline constexpr double largestInFiles = 1e30;  // squares of larger numbers overflow in single precision
 
 // A field holds at most this many cells, those of all frames together.
 inline constexpr long long maxFieldCells = 1ll << 24;
@@ -41,10 +41,72 @@ size_t countCells(const glm::dvec3& resolution, const Location& where);
 // than the first frame's.
 void addFrame(GridField& field, FileGrid&& grid, const std::string& file);
 
+// ---- Numbers in files: as text, as bytes, and as the bytes of VTK's arrays (numbers.cpp)
+
+// Takes numbers off text, separated by white space or commas, and knows where it is.
+class NumberScanner {
+  public:
+    // All of the text; a byte order mark is skipped.
+    NumberScanner(const std::string& text, const std::string& file);
+    // A part of it, as text whose lines count from its beginning.
+    NumberScanner(const std::string& text, size_t begin, size_t end, const std::string& file);
+
+    // False at the end. A number is followed by a comma, white space or the end.
+    // Error, located: not a number, not finite, beyond the range of doubles.
+    bool next(double& out);
+
+    // Returns the location of the number taken last, or of the end.
+    Location here() const { return {*file_, beginLine_, static_cast<int>(begin_ - beginLineStart_) + 1, {}}; }
+
+  private:
+    void skipSpace();
+    double convert(size_t begin, size_t end) const;
+    std::string quoted(size_t begin, size_t end) const;
+
+    const std::string* text_;
+    const std::string* file_;
+    size_t position_ = 0, lineStart_ = 0, end_ = 0;
+    int line_ = 1;
+    size_t begin_ = 0, beginLineStart_ = 0;
+    int beginLine_ = 1;
+};
+
+// Numbers as bytes.
+enum class NumberType { float16, float32, float64 };
+inline size_t bytesOf(NumberType type) {
+    return type == NumberType::float16 ? 2 : type == NumberType::float32 ? 4 : 8;
+}
+// `out[i]` from the i-th number; as many as `out` has, which the bytes must hold.
+void takeNumbers(std::span<const std::byte> bytes, NumberType type, bool bigEndian, std::span<float> out);
+
+// How an array of VTK's XML files is written: base64 or raw, with a header of lengths, in compressed blocks
+// or as it is.
+//
+//   as they are   [bytes] data
+//   compressed    [blocks, bytes of a block, bytes of the last (0: whole), compressed bytes of each] blocks
+//
+// The numbers of the header have 32 or 64 bits. In base64 header and data are streams of their own, each
+// padded; some writers make one of both.
+struct VtkEncoding {
+    bool bigEndian = false;
+    bool longHeader = false;  // 64 bits
+    bool zlib = false;
+    bool base64 = false;
+};
+
+// The `expected` bytes of the array that begins at `begin` in the text and lies before `end`.
+// Error at `where`: the data end too early, hold another number of bytes, or are not base64 or zlib's.
+std::vector<std::byte> vtkBytes(const std::string& text, size_t begin, size_t end,
+                                const VtkEncoding& encoding, size_t expected, const Location& where);
+
 // As floats, three a cell.
 inline std::span<float> asFloats(std::vector<glm::vec3>& values) {
     return {values.empty() ? nullptr : &values[0].x, 3 * values.size()};
 }
+// The velocities of so many cells. Error, located: the numbers end before, or one is beyond single precision.
+std::vector<glm::vec3> takeVelocities(NumberScanner& numbers, size_t cells);
+
+// ---- The formats
 
 // Vector fields as .fga text (Unreal, PopcornFX): comma-separated numbers, namely the resolution x, y, z,
 // the bounds' low x, y, z and high x, y, z, then one velocity x, y, z per cell, x fastest, then y, then z.
@@ -96,7 +158,6 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
 // Any of the formats by the name's ending (.fga, .vf, .vti, .raw); `layout`: of .raw, the file that describes
 // it. Error, located: no such file, an ending that is none of these, and what each format refuses.
 FileGrid readFieldFile(const std::string& file, const GridSource& source, const std::string& layout = {});
-const std::vector<std::string>& fieldFileEndings();
 
 // Numbered files: "wind-####.vti" with first, last and step stands for wind-0000.vti, wind-0001.vti, ...
 // The files of a source, with their times (s; none of a single file). Error, located: no such file, a number

@@ -63,20 +63,10 @@ std::vector<int> numbersIn(const Pattern& pattern) {
     return out;
 }
 
-}  // namespace
-
-void checkTimes(double before, double time, const Location& where) {
-    if (!(time - before >= leastPositive))
-        throw Error(where, concat("expected rising times, found ", before, " and then ", time));
-}
-
-namespace {
-
 std::vector<double> timesOf(const FileSequence& sequence, size_t count, const Where& where) {
     std::vector<double> times = sequence.times;
     if (where.given("times") && times.size() != count)
-        throw Error(where.at("times"),
-                    concat("expected ", count, " times, one a file, found ", times.size()));
+        throw Error(where.at("times"), "expected ", count, " times, one a file, found ", times.size());
     for (size_t i = 1; i < times.size(); ++i)
         checkTimes(times[i - 1], times[i], where.at("times"));
     if (!times.empty()) return times;
@@ -96,6 +86,11 @@ std::vector<std::string> oneFile(const GridSource& source, const Where& where) {
 
 }  // namespace
 
+void checkTimes(double before, double time, const Location& where) {
+    if (!(time - before >= leastPositive))
+        throw Error(where, "expected rising times, found ", before, " and then ", time);
+}
+
 TimedFiles filesOf(const GridSource& source, const Where& where) {
     if (!source.sequence) return {oneFile(source, where), {}};
     const FileSequence& sequence = *source.sequence;
@@ -113,16 +108,16 @@ TimedFiles filesOf(const GridSource& source, const Where& where) {
     const int first = sequence.first ? *sequence.first : numbers.front(),
               last = sequence.last ? *sequence.last : numbers.back(), step = sequence.step;
     if (last <= first || (last - first) % step != 0 || (last - first) / step >= mostFiles)
-        throw Error(inner.given("last") ? inner.at("last") : inner.here(),
-                    concat("expected 2 to ", mostFiles, " files from first to last, found numbers from ",
-                           first, " to ", last, " in steps of ", step));
+        throw Error(inner.given("last") ? inner.at("last") : inner.here(), "expected 2 to ", mostFiles,
+                    " files from first to last, found numbers from ", first, " to ", last, " in steps of ",
+                    step);
     TimedFiles out;
     for (int number = first; number <= last; number += step) {
         out.files.push_back(pattern->file(number));
         std::error_code code;
         if (!fs::is_regular_file(out.files.back(), code))
-            throw Error(where.at("file"),
-                        concat("no such file: ", out.files.back(), ", of the numbers ", first, " to ", last));
+            throw Error(where.at("file"), "no such file: ", out.files.back(), ", of the numbers ", first,
+                        " to ", last);
         if (number > last - step) break;  // the next might overflow
     }
     out.times = timesOf(sequence, out.files.size(), inner);

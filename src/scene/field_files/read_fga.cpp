@@ -1,11 +1,8 @@
 #include "scene/field_files/field_file.h"
 
-#include <cmath>
-
 namespace shoal {
 
 namespace {
-
 
 double need(NumberScanner& numbers, const std::string& what) {
     double value = 0;
@@ -26,9 +23,8 @@ FileGrid readHeader(NumberScanner& numbers) {
     for (int i = 0; i < 3; ++i) {
         grid.high[i] = need(numbers, concat("the high bound along ", axisNames[i]));
         if (!(grid.low[i] < grid.high[i]))
-            throw Error(numbers.here(),
-                        concat("expected the high bound along ", axisNames[i], " above the low one (",
-                               grid.low[i], "), found ", grid.high[i]));
+            throw Error(numbers.here(), "expected the high bound along ", axisNames[i],
+                        " above the low one (", grid.low[i], "), found ", grid.high[i]);
     }
     return grid;
 }
@@ -44,24 +40,15 @@ FileGrid parseFga(const std::string& text, const std::string& file) {
         size_t found = 0;
         for (double ignored; numbers.next(ignored);)
             ++found;
-        throw Error(numbers.here(), concat("expected ", expected, " values, found ", found));
+        throw Error(numbers.here(), "expected ", expected, " values, found ", found);
     }
-    grid.values.resize(expected / 3);
-    size_t found = 0;
-    for (float& out : asFloats(grid.values)) {
-        double value = 0;
-        if (!numbers.next(value))
-            throw Error(numbers.here(), concat("expected ", expected, " values, found ", found));
-        if (!(std::abs(value) < 1e30))
-            throw Error(numbers.here(), concat("a velocity of ", value, " is beyond single precision"));
-        out = float(value);
-        ++found;
-    }
+    grid.values = takeVelocities(numbers, expected / 3);
     if (double extra = 0; numbers.next(extra)) {
         const Location where = numbers.here();
-        for (++found; numbers.next(extra);)
+        size_t found = expected + 1;
+        while (numbers.next(extra))
             ++found;
-        throw Error(where, concat("expected ", expected, " values, found ", found));
+        throw Error(where, "expected ", expected, " values, found ", found);
     }
     return grid;
 }

@@ -40,15 +40,15 @@ RawLayout parseRawLayout(const std::string& text, const std::string& file) {
 }
 
 FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::string& file) {
-    const Location where{file, 0, 0, {}};
+    const Location where{file};
     const Box bounds = layout.bounds.value_or(Box{glm::dvec3(0), glm::dvec3(0)});
     FileGrid grid{layout.resolution, bounds.low, bounds.high, {}};
     const glm::ivec3 size = layout.resolution;
     const size_t cells = countCells(glm::dvec3(size), where);
     const size_t expected = size_t(layout.skip) + 3 * cells * bytesOf(layout.encoding);
     if (bytes.size() != expected)
-        throw Error(where, concat("the layout of ", size.x, " x ", size.y, " x ", size.z, " cells takes ",
-                                  expected, " bytes, found ", bytes.size()));
+        throw Error(where, "the layout of ", size.x, " x ", size.y, " x ", size.z, " cells takes ", expected,
+                    " bytes, found ", bytes.size());
     grid.values.resize(cells);
     const auto numbers = std::as_bytes(std::span(bytes).subspan(size_t(layout.skip)));
     if (!layout.planar && !layout.zFastest) {
@@ -68,6 +68,28 @@ FileGrid parseRaw(const std::string& bytes, const RawLayout& layout, const std::
             grid.values[cell][int(k)] = layout.planar ? plain[k * cells + i] : plain[3 * i + k];
     }
     return grid;
+}
+
+FileGrid parseVf(const std::string& bytes, const std::string& file) {
+    const Location where{file};
+    constexpr size_t headerBytes = 4 + 3 * 2;
+    if (bytes.rfind("VF_F", 0) == 0)
+        throw Error(where, "holds single numbers (VF_F), expected vectors (VF_V)");
+    if (bytes.rfind("VF_V", 0) != 0) throw Error(where, "expected a file that begins with \"VF_V\"");
+    if (bytes.size() < headerBytes)
+        throw Error(where, "expected a header of ", headerBytes, " bytes, found ", bytes.size());
+    RawLayout layout;
+    for (int i = 0; i < 3; ++i) {
+        const auto byte = [&](int k) { return int(uint8_t(bytes[size_t(4 + 2 * i + k)])); };
+        layout.resolution[i] = byte(0) | byte(1) << 8;
+    }
+    const glm::ivec3 size = layout.resolution;
+    const size_t expected = headerBytes + 12 * countCells(glm::dvec3(size), where);
+    if (bytes.size() != expected)
+        throw Error(where, size.x, " x ", size.y, " x ", size.z, " cells take ", expected, " bytes, found ",
+                    bytes.size());
+    layout.skip = headerBytes;
+    return parseRaw(bytes, layout, file);
 }
 
 }  // namespace shoal

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstring>
 
 #include <pugixml.hpp>
 
@@ -39,7 +38,7 @@ class Reader {
                                                                pugi::parse_default, pugi::encoding_utf8);
         if (!result)
             throw Error(locate(text, size_t(std::max<std::ptrdiff_t>(result.offset, 0)), file),
-                        concat("is not XML: ", result.description()));
+                        "is not XML: ", result.description());
         root_ = xml_.child("VTKFile");
         if (!root_) throw Error(Location{file, 1, 1, {}}, "expected a file of VTK's, with the tag VTKFile");
         const std::string type = root_.attribute("type").value();
@@ -262,19 +261,9 @@ class Reader {
         if ((end - begin) / 2 + 1 < 3 * cells)
             throw at(array, concat("expected ", 3 * cells, " values, found fewer"));
         NumberScanner scanner(text_, begin, end, file_);
-        std::vector<glm::vec3> out(cells);
-        size_t found = 0;
-        for (float& value : asFloats(out)) {
-            double number = 0;
-            if (!scanner.next(number))
-                throw Error(scanner.here(), concat("expected ", 3 * cells, " values, found ", found));
-            if (!(std::abs(number) < 1e30))
-                throw Error(scanner.here(), concat("a velocity of ", number, " is beyond single precision"));
-            value = float(number);
-            ++found;
-        }
+        std::vector<glm::vec3> out = takeVelocities(scanner, cells);
         if (double extra = 0; scanner.next(extra))
-            throw Error(scanner.here(), concat("expected ", 3 * cells, " values, found more"));
+            throw Error(scanner.here(), "expected ", 3 * cells, " values, found more");
         return out;
     }
 

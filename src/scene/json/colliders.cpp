@@ -15,8 +15,8 @@ namespace {
 void checkRectangle(const glm::dvec2& low, const glm::dvec2& high, const Where& where) {
     for (int i = 0; i < 2; ++i)
         if (!(low[i] < high[i]))
-            throw Error(where.at("high"), concat("expected high above low along ", i == 0 ? "x" : "z",
-                                                 ", found ", high[i], " against ", low[i]));
+            throw Error(where.at("high"), "expected high above low along ", i == 0 ? "x" : "z", ", found ",
+                        high[i], " against ", low[i]);
 }
 
 HeightFieldCollider heightsOfImage(const HeightSource& source, const Where& where) {
@@ -24,8 +24,8 @@ HeightFieldCollider heightsOfImage(const HeightSource& source, const Where& wher
     checkRectangle(source.low, source.high, where);
     const HeightImage image = readHeightPng(file);
     if (image.width < 2 || image.height < 2)
-        throw Error(Location{file, 0, 0, {}}, concat("expected an image of at least 2 by 2 pixels, found ",
-                                                     image.width, " by ", image.height));
+        throw Error(Location{file}, "expected an image of at least 2 by 2 pixels, found ", image.width,
+                    " by ", image.height);
     return heightFieldFromImage(image, source.low, source.high, source.heights);
 }
 
@@ -67,7 +67,7 @@ void load(DistanceFieldCollider& out, const Where& where, SceneReading& reading)
         out.field = distanceFieldOf(model.mesh, request, reading.baking, reading.warnings);
     } catch (const Error& error) {
         const char* key = request.error ? "error" : request.resolution ? "resolution" : "model";
-        throw Error(where.at(key), concat("model \"", model.name, "\": ", error.message()));
+        throw Error(where.at(key), "model \"", model.name, "\": ", error.message());
     }
     for (const std::string& warning : fieldWarnings(out.field, request))
         reading.warnings.push_back({where.at("model"), concat("model \"", model.name, "\" ", warning)});
@@ -84,8 +84,7 @@ void checkHeights(const HeightFieldCollider& field, const Where& where) {
     checkRectangle(field.low, field.high, where);
     const size_t samples = size_t(field.columns) * size_t(field.rows);
     if (field.heights.size() != samples)
-        throw Error(where.at("heights"),
-                    concat("expected ", samples, " heights, found ", field.heights.size()));
+        throw Error(where.at("heights"), "expected ", samples, " heights, found ", field.heights.size());
     for (const float height : field.heights)
         if (!(std::abs(height) <= largestNumber)) needWithin(where.at("heights"), double(height), finite);
 }
@@ -93,9 +92,8 @@ void checkHeights(const HeightFieldCollider& field, const Where& where) {
 void checkDistances(const DistanceFieldCollider& collider, const Where& where) {
     const DistanceField& field = collider.field;
     if (field.distances.empty() || field.distances.size() != field.grid.count())
-        throw Error(where.at("field"),
-                    concat("expected ", field.grid.count(), " distances, one a sample of a grid, found ",
-                           field.distances.size()));
+        throw Error(where.at("field"), "expected ", field.grid.count(),
+                    " distances, one a sample of a grid, found ", field.distances.size());
 }
 
 }  // namespace
@@ -168,14 +166,6 @@ const Description& describe(const DistanceFieldCollider*) {
 
 namespace {
 
-// A name of "between", which some collider or group must have.
-void needSurface(const Where& r, const std::string& name, const std::vector<std::string>& known) {
-    if (std::find(known.begin(), known.end(), name) != known.end()) return;
-    throw Error(r.at("between"),
-                "no collider and no group has the surface \"" + name + "\"" +
-                    (known.empty() ? " (none names a \"surface\")" : suggestion(name, known)));
-}
-
 std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
                                       const std::vector<Group>& groups) {
     std::vector<std::string> names;
@@ -193,8 +183,7 @@ std::vector<std::string> surfaceNames(const std::vector<Collider>& colliders,
 void checkNew(const SurfaceRule& rule, std::span<const SurfaceRule> before, const Where& where) {
     for (const SurfaceRule& earlier : before)
         if ((earlier.a == rule.a && earlier.b == rule.b) || (earlier.a == rule.b && earlier.b == rule.a))
-            throw Error(where.at("between"),
-                        concat("\"", rule.a, "\" and \"", rule.b, "\" already have an entry"));
+            throw Error(where.at("between"), "\"", rule.a, "\" and \"", rule.b, "\" already have an entry");
 }
 
 }  // namespace
@@ -204,8 +193,9 @@ void checkSurfaces(const Scene& scene, const Where& whole) {
     for (size_t i = 0; i < scene.surfacePairs.size(); ++i) {
         const SurfaceRule& rule = scene.surfacePairs[i];
         const Where where = whole.in("surfacePairs", i);
-        needSurface(where, rule.a, known);
-        needSurface(where, rule.b, known);
+        for (const std::string& name : {rule.a, rule.b})
+            needNamed(name, known, where.at("between"), "no collider and no group has the surface",
+                      " (none names a \"surface\")");
         checkNew(rule, std::span(scene.surfacePairs).first(i), where);
     }
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 
 #include "core/describe.h"
-#include "core/description_schema.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 #include "scene/json/reader.h"
@@ -28,8 +27,8 @@ void checkItems(const Placement& place, const Where& where) {
 void checkCount(double count, const Placement& place, const Where& where) {
     const double places = placesOf(place);
     if (places > 0 && count > places)
-        throw Error(where.at("count"),
-                    concat("expected a count of at most ", places, ", the number of places, found ", count));
+        throw Error(where.at("count"), "expected a count of at most ", places,
+                    ", the number of places, found ", count);
 }
 
 void deriveCount(Group& group, const Where& where) {
@@ -45,8 +44,8 @@ void deriveCount(Group& group, const Where& where) {
     const double places = placesOf(group.place);
     if (places == 0) where.require("count");
     if (places > maxGroupCount)
-        throw Error(where.in("place").at("cells"),
-                    concat("expected at most ", maxGroupCount, " places, found ", places));
+        throw Error(where.in("place").at("cells"), "expected at most ", maxGroupCount, " places, found ",
+                    places);
     group.count = int(places);
 }
 
@@ -62,11 +61,6 @@ void readDrag(JsonReader& r, Group& group, void*) {
     }
     r.get("drag", group.drag.normal, Range::atLeast(0));
     group.drag.tangent = group.drag.normal;
-}
-
-std::string dragSchema() {
-    return concat(R"({"anyOf": [{"type": "number", "minimum": 0}, )",
-                  writeJson(schemaOf(describe(static_cast<const Drag*>(nullptr)))), R"(], "default": 0})");
 }
 
 // ---- Life
@@ -114,12 +108,11 @@ void deriveCapacity(const Group& group, Lifecycle& life, const Where& where) {
         return;
     }
     const bool tooMany = life.life.y < longestLife;
-    throw Error(where.here(),
-                concat("expected a \"capacity\" in \"life\": ",
-                       emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
-                       : tooMany             ? concat("rate times span is ", mostAlive(group.count, life),
-                                                      ", more than the ", maxGroupCount, " that a group may have")
-                                             : "without a \"span\" nothing says how many may be alive"));
+    throw Error(where.here(), "expected a \"capacity\" in \"life\": ",
+                emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
+                : tooMany ? concat("rate times span is ", mostAlive(group.count, life), ", more than the ",
+                                   maxGroupCount, " that a group may have")
+                          : "without a \"span\" nothing says how many may be alive");
 }
 
 void checkLife(const Group& group, const Where& where) {
@@ -127,19 +120,18 @@ void checkLife(const Group& group, const Where& where) {
     const Where own = where.in("life");
     for (const char* key : newbornKeys)
         if (group.particle && own.given(key))
-            throw Error(own.at(key),
-                        concat("\"", key, "\" is of newborn molecules, and this group has a particle"));
+            throw Error(own.at(key), "\"", key, "\" is of newborn molecules, and this group has a particle");
     if (own.given("allocator") && life.emitters.empty())
         throw Error(own.at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
     if (life.capacity < group.count)
-        throw Error(own.at("capacity"), concat("expected a capacity of at least the count at the start, ",
-                                               group.count, ", found ", life.capacity));
+        throw Error(own.at("capacity"), "expected a capacity of at least the count at the start, ",
+                    group.count, ", found ", life.capacity);
     for (size_t i = 0; i < life.emitters.size(); ++i)
         if (life.emitters[i].from == Emitter::From::death && life.allocator != Allocator::gpu)
             throw Error(where.in("emitters", i).here(),
-                        concat("only the allocator \"gpu\" can emit from deaths: how many there are is known "
-                               "there, and \"",
-                               name(life.allocator), "\" is asked for"));
+                        "only the allocator \"gpu\" can emit from deaths: how many there are is known "
+                        "there, and \"",
+                        name(life.allocator), "\" is asked for");
 }
 
 // ---- The whole
@@ -150,8 +142,7 @@ void derive(Group& group, const Where& where) {
     if (group.particle)
         for (const char* key : {"molecule", "color", "secondColor"})
             if (where.given(key))
-                throw Error(where.at(key),
-                            concat("\"", key, "\" is of molecules, and this group has a particle"));
+                throw Error(where.at(key), "\"", key, "\" is of molecules, and this group has a particle");
     if (group.particle) group.molecule = moleculeOf(*group.particle);
     if (!where.given("name")) group.name = group.molecule.name;
     deriveCount(group, where);
@@ -173,7 +164,7 @@ void checkGroup(const Group& group, const Where& where) {
     if (group.colorBy)
         for (const char* key : {"color", "secondColor"})
             if (where.given(key))
-                throw Error(where.at(key), concat("\"", key, "\" has no effect beside \"colorBy\""));
+                throw Error(where.at(key), "\"", key, "\" has no effect beside \"colorBy\"");
 }
 
 }  // namespace
@@ -204,10 +195,11 @@ const Description& describe(const Group*) {
                                               "What molecules or particles of the group are born from.")
             .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
-            .byHand("drag", dragSchema(),
+            .byHand("drag", R"({"anyOf": [{"type": "number", "minimum": 0}, "keys"], "default": 0})",
                     {"number of at least 0, 1/s; or an object",
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)
+            .of(describe(static_cast<const Drag*>(nullptr)))
             .key("held", &G::held, {"", "Whether pinned vertices hold; else they are free from the start."})
             .key("release", &G::release, {"", "When pins let go."})
             .only("held", {"true"}, "means nothing: \"held\" is false, so pins are free from the start")
@@ -254,18 +246,13 @@ namespace {
 void checkModelIndex(int model, const std::vector<Model>& models, const Location& where) {
     if (models.empty()) throw Error(where, "expected a model to sit on (the scene has no models)");
     if (model < 0 || size_t(model) >= models.size())
-        throw Error(where,
-                    concat("expected the number of a model, 0 to ", models.size() - 1, ", found ", model));
+        throw Error(where, "expected the number of a model, 0 to ", models.size() - 1, ", found ", model);
 }
 
 void checkObject(const Selection& select, const Model& model, const Where& where) {
     if (select.object.empty()) return;
-    std::vector<std::string> names;
-    for (const Mesh::Object& object : model.mesh.objects)
-        names.push_back(object.name);
-    if (std::find(names.begin(), names.end(), select.object) == names.end())
-        throw Error(where.at("object"), "model \"" + model.name + "\" has no object \"" + select.object +
-                                            "\"" + suggestion(select.object, names));
+    needNamed(select.object, namesOf(model.mesh.objects), where.at("object"),
+              "model \"" + model.name + "\" has no object");
 }
 
 void checkSurface(const Emitter& emitter, const std::vector<Model>& models, const Where& where) {
@@ -273,9 +260,8 @@ void checkSurface(const Emitter& emitter, const std::vector<Model>& models, cons
     const Model& model = models[size_t(emitter.model)];
     checkObject(emitter.select, model, where.in("select"));
     if (!(selectedArea(model.mesh, emitter.select) > 0))
-        throw Error(where.here(),
-                    concat("nothing of model \"", model.name,
-                           "\" matches the selection, expected triangles with an area to emit from"));
+        throw Error(where.here(), "nothing of model \"", model.name,
+                    "\" matches the selection, expected triangles with an area to emit from");
 }
 
 void checkModelsOf(const Group& group, const std::vector<Model>& models, const Where& where) {
@@ -291,22 +277,13 @@ void checkModelsOf(const Group& group, const std::vector<Model>& models, const W
 }
 
 void checkDeaths(const std::vector<Group>& groups) {
-    std::vector<std::string> names;
-    for (const Group& group : groups)
-        names.push_back(group.name);
-    const auto find = [&](const Emitter& emitter) {
-        const auto found = std::find(names.begin(), names.end(), emitter.group);
-        if (found == names.end())
-            throw Error(emitter.location,
-                        "no group is named \"" + emitter.group + "\"" + suggestion(emitter.group, names));
-        return size_t(found - names.begin());
-    };
+    const std::vector<std::string> names = namesOf(groups);
     // Every way along the deaths must end: longer than there are groups, and it is a circle.
     const auto follow = [&](const auto& self, size_t g, size_t depth) -> void {
         if (!groups[g].life) return;
         for (const Emitter& emitter : groups[g].life->emitters) {
             if (emitter.from != Emitter::From::death) continue;
-            const size_t source = find(emitter);
+            const size_t source = needNamed(emitter.group, names, emitter.location, "no group is named");
             if (!groups[source].life)
                 throw Error(emitter.location,
                             "none of \"" + emitter.group + "\" ever dies: it has no \"life\"");
@@ -330,11 +307,9 @@ void deriveLife(Group& group, const Where& where) {
 
 void checkGroups(const Scene& scene, const Where& where) {
     if (scene.groups.empty()) throw Error(where.at("groups"), "expected at least one group, found none");
-    std::vector<std::string> names;
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         const Where here = where.in("groups", i);
-        if (here.given("name")) refuseRepeated(here, names, scene.groups[i].name);
-        names.push_back(scene.groups[i].name);
+        if (here.given("name")) refuseRepeated(here, scene.groups, i);
         checkModelsOf(scene.groups[i], scene.models, here);
     }
     checkDeaths(scene.groups);

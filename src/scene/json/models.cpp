@@ -43,12 +43,10 @@ void checkMesh(const Mesh& mesh, const Where& where) {
     for (const glm::ivec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             if (t[i] < 0 || size_t(t[i]) >= count)
-                throw Error(where.here(),
-                            concat("has a triangle with vertex ", t[i], " of a mesh of ", count));
+                throw Error(where.here(), "has a triangle with vertex ", t[i], " of a mesh of ", count);
     for (const int welded : mesh.weld)
         if (welded < 0 || size_t(welded) >= mesh.weldedPositions.size())
-            throw Error(where.here(),
-                        concat("welds to vertex ", welded, " of ", mesh.weldedPositions.size()));
+            throw Error(where.here(), "welds to vertex ", welded, " of ", mesh.weldedPositions.size());
 }
 
 void checkModel(const Model& model, const Where& where) {
@@ -56,8 +54,8 @@ void checkModel(const Model& model, const Where& where) {
     for (const glm::dvec3& corner : {model.mesh.low, model.mesh.high})
         for (int i = 0; i < 3; ++i)
             if (!(std::abs(corner[i]) < largestNumber))
-                throw Error(where.here(), concat("the model reaches ", corner[i],
-                                                 " m after scaling, beyond single precision"));
+                throw Error(where.here(), "the model reaches ", corner[i],
+                            " m after scaling, beyond single precision");
 }
 
 }  // namespace

@@ -12,8 +12,8 @@ namespace fs = std::filesystem;
 
 void refuseHugeNumbers(const JsonValue& value, const std::string& file, const std::string& path) {
     if (value.kind == JsonValue::Kind::number && !(std::abs(value.number) <= largestNumber))
-        throw Error(Location{file, value.line, value.column, path},
-                    concat("expected a number within ", largestNumber, " of 0, found ", value.text));
+        throw Error(Location{file, value.line, value.column, path}, "expected a number within ",
+                    largestNumber, " of 0, found ", value.text);
     for (size_t i = 0; i < value.items.size(); ++i)
         refuseHugeNumbers(value.items[i], file, concat(path, "[", i, "]"));
     for (const auto& [key, member] : value.members)
@@ -27,7 +27,7 @@ std::string needFile(const Where& where, const std::string& key, const std::stri
         throw Error(at, "expected the name of a file, found a null character in it");
     const fs::path path = (fs::path(at.file).parent_path() / written).lexically_normal();
     std::error_code code;
-    if (!mayOpen(path)) throw Error(at, concat("\"", written, "\" ", outsideSandbox));
+    if (!mayOpen(path)) throw Error(at, "\"", written, "\" ", outsideSandbox);
     if (!fs::exists(path, code)) throw Error(at, "no such file: " + path.string());
     if (fs::is_directory(path, code)) throw Error(at, "expected a file, found a folder: " + path.string());
     return path.string();
@@ -39,28 +39,24 @@ std::string needFile(JsonReader& reader, const std::string& key) {
     return needFile(Where(reader), key, written);
 }
 
+size_t needNamed(const std::string& name, const std::vector<std::string>& names, const Location& where,
+                 const std::string& what, const char* none) {
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw Error(where, what + " \"" + name + "\"" + (names.empty() ? none : suggestion(name, names)));
+    return size_t(found - names.begin());
+}
+
 int needModel(const Where& where, const std::string& key, const std::string& name,
               const std::vector<Model>& models) {
-    std::vector<std::string> names;
-    for (const Model& model : models)
-        names.push_back(model.name);
-    const auto found = std::find(names.begin(), names.end(), name);
-    if (found == names.end()) {
-        const std::string hint = names.empty() ? " (the scene has no models)" : suggestion(name, names);
-        throw Error(where.at(key), "no model is named \"" + name + "\"" + hint);
-    }
-    return static_cast<int>(found - names.begin());
+    return int(
+        needNamed(name, namesOf(models), where.at(key), "no model is named", " (the scene has no models)"));
 }
 
 int needModel(JsonReader& reader, const std::string& key, const std::vector<Model>& models) {
     std::string name;
     reader.need(key, name);
     return needModel(Where(reader), key, name, models);
-}
-
-void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name) {
-    if (!name.empty() && std::find(earlier.begin(), earlier.end(), name) != earlier.end())
-        throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
 }
 
 }  // namespace shoal

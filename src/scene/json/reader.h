@@ -1,12 +1,12 @@
 // Declares what the readers of the parts of a scene share.
 #pragma once
 
-#include <optional>
+#include <algorithm>
+#include <cstddef>
 #include <string>
 #include <vector>
 
 #include "core/description.h"
-#include "core/json_values.h"
 #include "core/where.h"
 #include "geometry/distance_field.h"
 #include "scene/scene.h"
@@ -43,7 +43,25 @@ int needModel(JsonReader& reader, const std::string& key, const std::vector<Mode
 int needModel(const Where& where, const std::string& key, const std::string& name,
               const std::vector<Model>& models);
 
-// Refuses a name that an earlier element already has. An element's own name may be empty.
-void refuseRepeated(const Where& where, const std::vector<std::string>& earlier, const std::string& name);
+template <typename T>
+std::vector<std::string> namesOf(const std::vector<T>& list) {
+    std::vector<std::string> names;
+    for (const T& one : list)
+        names.push_back(one.name);
+    return names;
+}
+
+// The index of a name among others. Error: `what` "name" (did you mean ...), or `none` where there are none.
+size_t needNamed(const std::string& name, const std::vector<std::string>& names, const Location& where,
+                 const std::string& what, const char* none = "");
+
+// Refuses the name of an element that an earlier one already has. It may be empty.
+template <typename T>
+void refuseRepeated(const Where& where, const std::vector<T>& list, size_t index) {
+    const std::string& name = list[index].name;
+    const auto same = [&](const T& earlier) { return earlier.name == name; };
+    if (!name.empty() && std::any_of(list.begin(), list.begin() + std::ptrdiff_t(index), same))
+        throw Error(where.at("name"), "the name \"" + name + "\" is already taken");
+}
 
 }  // namespace shoal

@@ -27,8 +27,8 @@ const JsonValue& groupsOf(const JsonValue& root, const Scene& before) {
         const JsonValue* name = groups->items[g].find("name");
         if (name && name->text != before.groups[g].name)
             throw Error(Location{before.file, name->line, name->column, concat("$.groups[", g, "].name")},
-                        concat("is not the group \"", before.groups[g].name,
-                               "\" that was there when it was opened: nothing was saved"));
+                        "is not the group \"", before.groups[g].name,
+                        "\" that was there when it was opened: nothing was saved");
     }
     return *groups;
 }

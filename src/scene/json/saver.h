@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "core/json_merge.h"
+#include "core/json_edit.h"
 #include "scene/scene.h"
 
 namespace shoal {

@@ -1,11 +1,14 @@
 #include "scene/json/scene_file.h"
 
-#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
 
 #include "core/describe.h"
 #include "core/file.h"
 #include "core/json.h"
 #include "core/where.h"
+#include "scene/field_files/field_file.h"
 #include "scene/json/reader.h"
 
 namespace shoal {
@@ -14,26 +17,19 @@ namespace {
 
 template <typename T>
 void checkNames(const char* key, const std::vector<T>& list, const Where& whole) {
-    std::vector<std::string> names;
-    for (size_t i = 0; i < list.size(); ++i) {
-        refuseRepeated(whole.in(key, i), names, list[i].name);
-        names.push_back(list[i].name);
-    }
+    for (size_t i = 0; i < list.size(); ++i)
+        refuseRepeated(whole.in(key, i), list, i);
 }
 
 void checkForceGroups(const Scene& scene, const Where& whole) {
-    std::vector<std::string> known;
-    for (const Group& group : scene.groups)
-        if (!group.name.empty()) known.push_back(group.name);
+    std::vector<std::string> known = namesOf(scene.groups);
+    std::erase(known, "");
     for (size_t i = 0; i < scene.forces.size(); ++i) {
         const Where where = whole.in("forces", i);
         if (where.given("groups") && scene.forces[i].groups.empty())
             throw Error(where.at("groups"), "expected the name of at least one group; all without it");
         for (const std::string& name : scene.forces[i].groups)
-            if (std::find(known.begin(), known.end(), name) == known.end())
-                throw Error(where.at("groups"),
-                            "no group is named \"" + name + "\"" +
-                                (known.empty() ? " (none has a \"name\")" : suggestion(name, known)));
+            needNamed(name, known, where.at("groups"), "no group is named", " (none has a \"name\")");
     }
 }
 
@@ -99,6 +95,72 @@ void checkScene(const Scene& scene) {
 
 Scene readScene(const std::string& file, const FieldBaking& baking) {
     return parseScene(readFile(file), file, baking);
+}
+
+// ---- The files that a scene is made of
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class Collector {
+  public:
+    void add(const fs::path& file) {
+        if (!files.insert(file.string()).second) return;
+        const std::string kind = lowerExtension(file);
+        if (kind == ".json") addNamed(file);
+        if (kind == ".obj") addMaterials(file);
+    }
+
+    std::set<std::string> files;
+
+  private:
+    void addIfFile(const fs::path& by, const std::string& text) {
+        constexpr size_t longestName = 1024;
+        if (text.empty() || text.size() > longestName || text.find('\0') != std::string::npos) return;
+        const fs::path path = (by.parent_path() / text).lexically_normal();
+        std::error_code code;
+        if (fs::is_regular_file(path, code)) add(path);
+        for (const std::string& one : numberedFiles(path))
+            add(one);
+    }
+
+    void addNamed(const fs::path& file) {
+        try {
+            addTexts(file, readJson(file.string()));
+        } catch (const Error&) {
+            // whoever reads it for what it says tells what is wrong
+        }
+    }
+
+    void addTexts(const fs::path& file, const JsonValue& value) {
+        if (value.kind == JsonValue::Kind::string) addIfFile(file, value.text);
+        for (const JsonValue& item : value.items)
+            addTexts(file, item);
+        for (const auto& [key, member] : value.members)
+            addTexts(file, member);
+    }
+
+    // They stand before the faces that use them, as a rule at the beginning.
+    void addMaterials(const fs::path& file) {
+        if (!mayOpen(file)) return;
+        constexpr int most = 200;  // lines
+        std::ifstream in(file);
+        std::string line;
+        for (int i = 0; i < most && std::getline(in, line); ++i) {
+            if (line.rfind("mtllib ", 0) != 0) continue;
+            if (line.back() == '\r') line.pop_back();
+            addIfFile(file, line.substr(7));
+        }
+    }
+};
+
+}  // namespace
+
+std::vector<std::string> filesOf(const std::string& sceneFile) {
+    Collector collector;
+    collector.add(fs::path(sceneFile).lexically_normal());
+    return {collector.files.begin(), collector.files.end()};
 }
 
 }  // namespace shoal

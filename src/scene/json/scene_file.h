@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "core/cache_folder.h"
 #include "geometry/distance_field.h"
@@ -21,5 +22,11 @@ Scene parseScene(const std::string& text, const std::string& file,
 // The rules of the reader for a scene that was made, or changed, in code. Error: the reader's, with the path
 // of what is wrong and no file. What only files say (which keys go together) is not asked.
 void checkScene(const Scene& scene);
+
+// The scene file and whatever it names, directly or through another JSON file (molecules, their images, skins
+// and so on): every text in them that is the name of a file which is there, relative to the file that names
+// it, or that stands for numbered ones (wind-##.vti); and the materials that .obj models name. Files that
+// cannot be read name nothing. Sorted, each once.
+std::vector<std::string> filesOf(const std::string& sceneFile);
 
 }  // namespace shoal

@@ -1,60 +1,73 @@
-#include "core/description_schema.h"
+// Writes descriptions as JSON Schema for text editors and as tables for people, as they are committed.
+#pragma once
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
 
-namespace shoal {
+#include "core/description_text.h"
 
-namespace {
+namespace shoal::test {
 
 using Kind = Key::Kind;
 
-JsonValue text(const std::string& words) {
+inline JsonValue text(const std::string& words) {
     return JsonValue::makeString(words);
 }
 
-JsonValue object(std::initializer_list<std::pair<const char*, JsonValue>> members) {
+inline JsonValue object(std::initializer_list<std::pair<const char*, JsonValue>> members) {
     JsonValue out = JsonValue::makeObject();
     for (const auto& [key, value] : members)
         out.add(key, value);
     return out;
 }
 
-JsonValue list(const std::vector<std::string>& words) {
+inline JsonValue list(const std::vector<std::string>& words) {
     JsonValue out = JsonValue::makeArray();
     for (const std::string& word : words)
         out.items.push_back(text(word));
     return out;
 }
 
-JsonValue reference(const char* name) {
+inline JsonValue reference(const char* name) {
     return object({{"$ref", text(concat("#/$defs/", name))}});
 }
 
-void addRange(JsonValue& out, const Range& range) {
+inline JsonValue number(const char* type, const Range& range) {
+    JsonValue out = object({{"type", text(type)}});
     if (std::isfinite(range.least))
         out.add(range.aboveLeast ? "exclusiveMinimum" : "minimum", JsonValue::makeNumber(range.least));
     if (std::isfinite(range.most)) out.add("maximum", JsonValue::makeNumber(range.most));
-}
-
-JsonValue number(const char* type, const Range& range) {
-    JsonValue out = object({{"type", text(type)}});
-    addRange(out, range);
     return out;
 }
 
-JsonValue numbers(int count, const Range& range) {
+inline JsonValue numbers(int count, const Range& range, const char* type = "number") {
     return object({{"type", text("array")},
                    {"minItems", JsonValue::makeNumber(count)},
                    {"maxItems", JsonValue::makeNumber(count)},
-                   {"items", number("number", range)}});
+                   {"items", number(type, range)}});
 }
 
-bool limited(const Range& range) {
+inline bool limited(const Range& range) {
     return std::isfinite(range.least) || std::isfinite(range.most);
 }
 
-JsonValue valueSchema(const Key& key) {
+inline JsonValue schemaOf(const Description& description);
+
+// With the schema of a key's object in place of the word "keys".
+inline JsonValue withKeys(JsonValue schema, const Key& key) {
+    if (schema.kind == JsonValue::Kind::string && schema.text == "keys") return schemaOf(*key.objects.at(0));
+    for (JsonValue& item : schema.items)
+        item = withKeys(std::move(item), key);
+    for (auto& [name, member] : schema.members)
+        member = withKeys(std::move(member), key);
+    return schema;
+}
+
+inline JsonValue valueSchema(const Key& key) {
     const Range range = key.says.range;
     switch (key.kind) {
     case Kind::number:
@@ -62,10 +75,7 @@ JsonValue valueSchema(const Key& key) {
     case Kind::whole:
         return number("integer", range);
     case Kind::whole3:
-        return object({{"type", text("array")},
-                       {"minItems", JsonValue::makeNumber(3)},
-                       {"maxItems", JsonValue::makeNumber(3)},
-                       {"items", number("integer", range)}});
+        return numbers(3, range, "integer");
     case Kind::seed:
         return number("integer", Range::between(0, 4294967295.0));
     case Kind::longSeed:
@@ -106,33 +116,22 @@ JsonValue valueSchema(const Key& key) {
     case Kind::list:
         return object({{"type", text("array")}, {"items", schemaOf(*key.objects[0])}});
     case Kind::byHand:
-        return parseJson(key.schema, "the schema of " + key.name);
+        return withKeys(parseJson(key.schema, "the schema of " + key.name), key);
     case Kind::variant:
         break;
     }
     return JsonValue::makeObject();
 }
 
-// When the key means something.
-std::string conditions(const Key& key) {
-    std::string out;
-    for (const Condition& condition : key.only) {
-        out += concat(out.empty() ? " Only with `" : " and `", condition.key, "`");
-        for (size_t i = 0; i < condition.words.size(); ++i)
-            out += concat(i == 0 ? " " : i + 1 == condition.words.size() ? " or " : ", ", condition.words[i]);
-    }
-    return out.empty() ? out : out + ".";
-}
-
-std::string sentence(const Key& key) {
+inline std::string sentence(const Key& key) {
     const Says& says = key.says;
     return (says.unit.empty() || key.kind == Kind::text ? says.sentence
                                                         : concat(says.sentence, " [", says.unit, "]")) +
-           conditions(key);
+           meaningOf(key).substr(says.sentence.size());  // beside what it means something
 }
 
 // That an object meets a condition.
-JsonValue isMet(const Condition& condition, const Description& of) {
+inline JsonValue isMet(const Condition& condition, const Description& of) {
     const Key& other = *of.find(condition.key);
     if (condition.words.empty()) return object({{"required", list({other.name})}});
     const bool flag = other.kind == Kind::flag;
@@ -147,7 +146,7 @@ JsonValue isMet(const Condition& condition, const Description& of) {
     return out;
 }
 
-JsonValue areMet(const std::vector<Condition>& conditions, const Description& of) {
+inline JsonValue areMet(const std::vector<Condition>& conditions, const Description& of) {
     if (conditions.size() == 1) return isMet(conditions[0], of);
     JsonValue all = JsonValue::makeArray();
     for (const Condition& condition : conditions)
@@ -155,7 +154,7 @@ JsonValue areMet(const std::vector<Condition>& conditions, const Description& of
     return object({{"allOf", all}});
 }
 
-bool same(const std::vector<Condition>& a, const std::vector<Condition>& b) {
+inline bool same(const std::vector<Condition>& a, const std::vector<Condition>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](const Condition& one, const Condition& other) {
                           return one.key == other.key && one.words == other.words;
@@ -163,13 +162,11 @@ bool same(const std::vector<Condition>& a, const std::vector<Condition>& b) {
 }
 
 // Which keys may be there only beside which others, and which must be then.
-void addConditions(const Description& of, std::vector<std::string>& rules) {
-    std::vector<const std::vector<Condition>*> done;
+inline void addConditions(const Description& of, std::vector<std::string>& rules) {
     for (const Key& key : of.keys()) {
-        if (key.only.empty()) continue;
-        if (std::any_of(done.begin(), done.end(), [&](const auto* one) { return same(*one, key.only); }))
-            continue;
-        done.push_back(&key.only);
+        const auto first = std::find_if(of.keys().begin(), of.keys().end(),
+                                        [&](const Key& other) { return same(other.only, key.only); });
+        if (key.only.empty() || &*first != &key) continue;
         JsonValue there = JsonValue::makeArray();
         std::vector<std::string> needed;
         for (const Key& other : of.keys()) {
@@ -185,12 +182,12 @@ void addConditions(const Description& of, std::vector<std::string>& rules) {
     }
 }
 
-JsonValue usualValue(const Key& key, const Description& of) {
+inline JsonValue usualValue(const Key& key, const Description& of) {
     return key.needed || key.unlessZero ? JsonValue() : of.usualValue(key);
 }
 
 // The keys of an object, but for those of a variant's word.
-void addKeys(const Description& of, JsonValue& properties, std::vector<std::string>& required) {
+inline void addKeys(const Description& of, JsonValue& properties, std::vector<std::string>& required) {
     for (const Key& key : of.keys()) {
         if (key.kind == Kind::variant) continue;
         JsonValue schema = valueSchema(key);
@@ -203,8 +200,8 @@ void addKeys(const Description& of, JsonValue& properties, std::vector<std::stri
     }
 }
 
-JsonValue closed(const std::string& sentence, JsonValue properties, const std::vector<std::string>& required,
-                 const std::vector<std::string>& rules) {
+inline JsonValue closed(const std::string& sentence, JsonValue properties,
+                        const std::vector<std::string>& required, const std::vector<std::string>& rules) {
     JsonValue out = object({{"description", text(sentence)},
                             {"type", text("object")},
                             {"additionalProperties", JsonValue::makeBoolean(false)}});
@@ -217,7 +214,7 @@ JsonValue closed(const std::string& sentence, JsonValue properties, const std::v
     return out;
 }
 
-JsonValue schemaOfAlternative(const Description& of, const Key& variant, const Description& one) {
+inline JsonValue schemaOfAlternative(const Description& of, const Key& variant, const Description& one) {
     JsonValue properties = object(
         {{"comment", reference("comment")}, {variant.name.c_str(), object({{"const", text(one.name())}})}});
     std::vector<std::string> required = {variant.name};
@@ -229,9 +226,8 @@ JsonValue schemaOfAlternative(const Description& of, const Key& variant, const D
     return closed(one.sentence(), std::move(properties), required, rules);
 }
 
-}  // namespace
-
-JsonValue schemaOf(const Description& description) {
+// The JSON Schema (2020-12) of an object. Refers to the definitions of schemaDefinitions().
+inline JsonValue schemaOf(const Description& description) {
     for (const Key& key : description.keys()) {
         if (key.kind != Kind::variant) continue;
         JsonValue alternatives = JsonValue::makeArray();
@@ -247,7 +243,8 @@ JsonValue schemaOf(const Description& description) {
     return closed(description.sentence(), std::move(properties), required, rules);
 }
 
-JsonValue schemaDefinitions() {
+// "$defs": vectors, directions, colours, boxes, rotations, comments.
+inline JsonValue schemaDefinitions() {
     const JsonValue vector = numbers(3, {});
     JsonValue direction = vector;
     direction.add("description", text("A vector of any length above 0."));
@@ -276,7 +273,9 @@ JsonValue schemaDefinitions() {
                    {"rotation", object({{"anyOf", either}})}});
 }
 
-std::string schemaFile(const Description& description, const std::string& id, const std::string& title) {
+// The text of a schema's file, with those definitions that it refers to.
+inline std::string schemaFile(const Description& description, const std::string& id,
+                              const std::string& title) {
     JsonValue out = object({{"$schema", text("https://json-schema.org/draft/2020-12/schema")},
                             {"$id", text(id)},
                             {"title", text(title)}});
@@ -296,88 +295,8 @@ std::string schemaFile(const Description& description, const std::string& id, co
     return writeJson(out);
 }
 
-std::string typeText(const Key& key) {
-    const Range range = key.says.range;
-    const auto withUnit = [&](std::string words) {
-        if (std::isfinite(range.least) && std::isfinite(range.most))
-            words += concat(" from ", writeJsonLine(JsonValue::makeNumber(range.least)), " to ",
-                            writeJsonLine(JsonValue::makeNumber(range.most)));
-        else if (std::isfinite(range.least))
-            words += range.least == leastPositive || range.aboveLeast
-                         ? concat(" above ", range.aboveLeast ? range.least : 0)
-                         : concat(" of at least ", range.least);
-        return key.says.unit.empty() ? words : words + ", " + key.says.unit;
-    };
-    switch (key.kind) {
-    case Kind::number:
-        return withUnit("number");
-    case Kind::whole:
-        return withUnit("whole number");
-    case Kind::whole3:
-        return withUnit("three whole numbers");
-    case Kind::seed:
-        return "whole number from 0 to 4294967295";
-    case Kind::longSeed:
-        return "whole number of 64 bits";
-    case Kind::flag:
-        return "true or false";
-    case Kind::text:
-        return key.says.unit.empty() ? "string" : key.says.unit;
-    case Kind::texts:
-        return "list of strings";
-    case Kind::vector2:
-        return withUnit("two numbers");
-    case Kind::vector3:
-        return withUnit("[x, y, z]");
-    case Kind::direction:
-        return "direction";
-    case Kind::color:
-        return "colour";
-    case Kind::span:
-        return withUnit("number or [least, most]");
-    case Kind::ends:
-        return withUnit("number or [first, last]");
-    case Kind::box:
-        return "box, m";
-    case Kind::rotation:
-        return "rotation";
-    case Kind::word:
-    case Kind::variant: {
-        std::string out;
-        for (const std::string& word : key.words)
-            out += concat(out.empty() ? "" : ", ", "`\"", word, "\"`");
-        return out;
-    }
-    case Kind::object:
-        return "object";
-    case Kind::list:
-        return "list of objects";
-    case Kind::byHand:
-        return key.says.unit.empty() ? "see the text" : key.says.unit;
-    }
-    return {};
-}
-
-std::string meaningOf(const Key& key) {
-    return key.says.sentence + conditions(key);
-}
-
-std::string usualText(const Key& key, const Description& of) {
-    if (key.needed) return "required";
-    if (!key.usual.empty()) return key.usual;
-    JsonValue usual = usualValue(key, of);
-    if (key.kind == Kind::byHand) {
-        const JsonValue schema = parseJson(key.schema, "the schema of " + key.name);
-        if (const JsonValue* value = schema.find("default")) usual = *value;
-    }
-    if (key.kind == Kind::object && !key.member.optional) return "as below";
-    if (usual.kind == JsonValue::Kind::null) return "none";
-    std::string out = writeJsonLine(usual);
-    if (usual.kind == JsonValue::Kind::string) out = concat("`", out, "`");
-    return out;
-}
-
-std::string kindsOf(const Description& description) {
+// The alternatives of its variant, a row each: the word, what it is, its keys with their defaults.
+inline std::string kindsOf(const Description& description) {
     constexpr size_t most = 7;  // keys in a row
     std::string out = "| word | what it is | keys (default) |\n|---|---|---|\n";
     for (const Key& variant : description.keys())
@@ -396,7 +315,8 @@ std::string kindsOf(const Description& description) {
     return out;
 }
 
-std::string tableOf(const Description& description) {
+// A table in Markdown, a row a key: name, type and unit, default, meaning.
+inline std::string tableOf(const Description& description) {
     std::string out = "| key | type, unit | default | meaning |\n|---|---|---|---|\n";
     for (const Key& key : description.keys())
         out += concat("| `", key.name, "` | ", typeText(key), " | ", usualText(key, description), " | ",
@@ -404,4 +324,4 @@ std::string tableOf(const Description& description) {
     return out;
 }
 
-}  // namespace shoal
+}  // namespace shoal::test
