@@ -10,6 +10,7 @@
 #include "core/printable.h"
 #include "geometry/mesh.h"
 #include "run/progress.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {
@@ -191,7 +192,7 @@ std::vector<BakedField> ofScene(const Options& options, std::vector<Warning>& wa
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {
-        const auto* field = std::get_if<DistanceFieldCollider>(&collider.shape);
+        const auto* field = std::get_if<DistanceFieldCollider>(&*collider.shape);
         if (!field) continue;
         for (const Model& model : scene.models)
             if (model.name == field->model)

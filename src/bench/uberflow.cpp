@@ -7,6 +7,7 @@
 #include <random>
 
 #include "gpu/gl.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 #include "sort/sorter.h"

@@ -3,6 +3,7 @@
 
 #include "compile/plan.h"
 #include "render/lighting.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal {
 
@@ -73,20 +74,33 @@ static bool isCrown(const Group& group, const Box& box) {
            extent.y > 0.35 * std::max(extent.x, extent.z);
 }
 
-// Nothing of what has no end, and of height fields, which are not drawn.
-static std::optional<Box> boundsOf(const ColliderShape& shape) {
-    if (const auto* sphere = std::get_if<SphereCollider>(&shape))
-        return Box{sphere->center - sphere->radius, sphere->center + sphere->radius};
-    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape))
-        return Box{glm::min(capsule->from, capsule->to) - capsule->radius,
-                   glm::max(capsule->from, capsule->to) + capsule->radius};
-    if (const auto* box = std::get_if<BoxCollider>(&shape)) {
-        const glm::dmat3 turn = glm::mat3_cast(box->rotation);
-        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box->size.x + glm::abs(turn[1]) * box->size.y +
-                                       glm::abs(turn[2]) * box->size.z);
-        return Box{box->center - half, box->center + half};
-    }
+// Nothing of what has no end, or is drawn as its model.
+static std::optional<Box> extentOf(const PlaneCollider&) {
     return {};
+}
+
+static std::optional<Box> extentOf(const HeightFieldCollider&) {
+    return {};
+}
+
+static std::optional<Box> extentOf(const DistanceFieldCollider&) {
+    return {};
+}
+
+static std::optional<Box> extentOf(const SphereCollider& sphere) {
+    return Box{sphere.center - sphere.radius, sphere.center + sphere.radius};
+}
+
+static std::optional<Box> extentOf(const CapsuleCollider& capsule) {
+    return Box{glm::min(capsule.from, capsule.to) - capsule.radius,
+               glm::max(capsule.from, capsule.to) + capsule.radius};
+}
+
+static std::optional<Box> extentOf(const BoxCollider& box) {
+    const glm::dmat3 turn = glm::mat3_cast(box.rotation);
+    const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box.size.x + glm::abs(turn[1]) * box.size.y +
+                                   glm::abs(turn[2]) * box.size.z);
+    return Box{box.center - half, box.center + half};
 }
 
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
@@ -114,7 +128,8 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        const std::optional<Box> box = boundsOf(collider.shape);
+        const std::optional<Box> box =
+            std::visit([](const auto& kind) { return extentOf(kind); }, *collider.shape);
         if (!box) continue;
         std::vector<ColliderPath::Keyframe> frames(1);
         if (collider.path) frames = collider.path->keyframes;

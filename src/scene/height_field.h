@@ -5,7 +5,7 @@
 
 #include "core/image.h"
 #include "geometry/mesh.h"
-#include "scene/scene.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal {
 

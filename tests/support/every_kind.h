@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/problem.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "support/shapes.h"
