@@ -20,10 +20,6 @@ const Description& describe(const PlaneCollider*) {
     return it;
 }
 
-std::optional<double> PlaneCollider::reach() const {
-    return {};
-}
-
 GlslCall PlaneCollider::call() const {
     return GlslCall("planeSurface").apart(point).vector(glm::normalize(normal));
 }
@@ -36,10 +32,6 @@ const Description& describe(const SphereCollider*) {
                                       .key("radius", &C::radius, {"m", "Its radius.", aboveZero()})
                                       .needed();
     return it;
-}
-
-std::optional<double> SphereCollider::reach() const {
-    return glm::length(center) + radius;
 }
 
 GlslCall SphereCollider::call() const {
@@ -57,10 +49,6 @@ const Description& describe(const BoxCollider*) {
     return it;
 }
 
-std::optional<double> BoxCollider::reach() const {
-    return glm::length(center) + glm::length(size) / 2;
-}
-
 GlslCall BoxCollider::call() const {
     return GlslCall("boxSurface").from(center).vector(size / 2.0).turned(rotation);
 }
@@ -76,10 +64,6 @@ const Description& describe(const CapsuleCollider*) {
             .key("radius", &C::radius, {"m", "The radius.", aboveZero()})
             .needed();
     return it;
-}
-
-std::optional<double> CapsuleCollider::reach() const {
-    return std::max(glm::length(from), glm::length(to)) + radius;
 }
 
 // Returns a unit vector across an axis of any length.
@@ -102,10 +86,6 @@ GlslCall CapsuleCollider::call() const {
         .axis(along, squared > 0 ? 1 / squared : 0)
         .vector(across(along))
         .number(radius);
-}
-
-std::optional<double> HeightFieldCollider::reach() const {
-    return {};
 }
 
 // Appends a texel a sample: the unit normal by central differences, and the height. `cell`: m.
@@ -135,12 +115,6 @@ GlslCall HeightFieldCollider::call() const {
         .four({1 / cell.x, cell.x, cell.y, 1 / cell.y})
         .text(concat("ivec2(", columns, ", ", rows, ")"))
         .samples([this, cell](std::vector<glm::vec4>& table) { appendHeights(*this, cell, table); });
-}
-
-std::optional<double> DistanceFieldCollider::reach() const {
-    const SampleGrid& grid = field.grid;
-    const glm::dvec3 high = grid.low + grid.cell * glm::dvec3(grid.size - 1);
-    return glm::length(glm::max(glm::abs(grid.low), glm::abs(high)));
 }
 
 // Appends the distances. Of sample (i, j, k) the 4-vector at (j * size.x + i) * size.z + k holds those of (i,

@@ -7,6 +7,7 @@
 // its way.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <variant>
@@ -21,17 +22,19 @@
 
 namespace shoal {
 
+struct HeightImage;
+
 struct PlaneCollider {
     glm::dvec3 point{0};
     glm::dvec3 normal{0, 1, 0};  // free side
-    std::optional<double> reach() const;
+    std::optional<double> reach() const { return {}; }
     GlslCall call() const;
 };
 
 struct SphereCollider {
     glm::dvec3 center{0};
     double radius = 1;  // m
-    std::optional<double> reach() const;
+    std::optional<double> reach() const { return glm::length(center) + radius; }
     GlslCall call() const;
 };
 
@@ -51,7 +54,7 @@ struct HeightFieldCollider {
     std::vector<float> heights;   // m, x fastest
     bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
     HeightSource source = {};
-    std::optional<double> reach() const;
+    std::optional<double> reach() const { return {}; }
     GlslCall call() const;
 };
 
@@ -59,7 +62,7 @@ struct BoxCollider {
     glm::dvec3 center{0};
     glm::dvec3 size{1};  // m, whole edges
     glm::dquat rotation{1, 0, 0, 0};
-    std::optional<double> reach() const;
+    std::optional<double> reach() const { return glm::length(center) + glm::length(size) / 2; }
     GlslCall call() const;
 };
 
@@ -67,7 +70,7 @@ struct BoxCollider {
 struct CapsuleCollider {
     glm::dvec3 from{0}, to{0};
     double radius = 1;  // m
-    std::optional<double> reach() const;
+    std::optional<double> reach() const { return std::max(glm::length(from), glm::length(to)) + radius; }
     GlslCall call() const;
 };
 
@@ -76,7 +79,9 @@ struct DistanceFieldCollider {
     std::string model;  // its name
     FieldRequest request;
     DistanceField field;
-    std::optional<double> reach() const;
+    std::optional<double> reach() const {
+        return glm::length(glm::max(glm::abs(field.grid.low), glm::abs(field.grid.high())));
+    }
     GlslCall call() const;
 };
 
@@ -84,6 +89,15 @@ struct ColliderShape : std::variant<PlaneCollider, SphereCollider, HeightFieldCo
                                     CapsuleCollider, DistanceFieldCollider> {
     using variant::variant;
 };
+
+// Holds the highest surface of the mesh at each of columns x rows samples over its bounding box in x and z.
+// Samples with nothing beneath take the lowest height; their number goes to `missed` if given.
+HeightFieldCollider heightFieldFromMesh(const Mesh& mesh, int columns, int rows, int* missed = nullptr);
+
+// Holds one sample per pixel: black is heights.x, white heights.y. The left column is low.x; the image's top
+// row is low.y (the smallest z), as a map lies with north up and -Z north.
+HeightFieldCollider heightFieldFromImage(const HeightImage& image, glm::dvec2 low, glm::dvec2 high,
+                                         glm::dvec2 heights);
 
 std::optional<double> reachOf(const ColliderShape& shape);
 GlslCall callOf(const ColliderShape& shape);  // its samples are the shape's
