@@ -45,15 +45,8 @@ static void includePlaced(Box& out, const Box& box, const Pose& pose) {
 
 // Where an emitter's newborn go: as far as they are thrown, for a few seconds at most.
 static Box reachOf(const Scene& scene, const Lifecycle& life, const Emitter& emitter) {
-    Box out{emitter.position, emitter.position};
     if (emitter.from == Emitter::From::death) return emptyBox;
-    if (emitter.from == Emitter::From::line)
-        out = {glm::min(emitter.lineFrom, emitter.lineTo), glm::max(emitter.lineFrom, emitter.lineTo)};
-    if (emitter.from == Emitter::From::box) out = emitter.box;
-    if (emitter.from == Emitter::From::surface) {
-        const Mesh& mesh = scene.models[size_t(emitter.model)].mesh;
-        out = {mesh.low, mesh.high};
-    }
+    Box out = placeOf(emitter, scene.models).box;
     constexpr double seconds = 3;
     const double speed = emitter.speed.y, gravity = glm::length(scene.gravity);
     double reach = speed * std::min(life.life.y, seconds);
