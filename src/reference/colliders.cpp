@@ -20,18 +20,10 @@ Surface surface(const PlaneCollider& plane, const glm::dvec3& x, double) {
     return {n, glm::dot(x - plane.point, n)};
 }
 
-SurfaceFacts facts(const PlaneCollider&, double) {
-    return {};
-}
-
 Surface surface(const SphereCollider& sphere, const glm::dvec3& x, double) {
     const glm::dvec3 d = x - sphere.center;
     const double r = glm::length(d);
     return {r > 0 ? d / r : glm::dvec3(0, 1, 0), r - sphere.radius};
-}
-
-SurfaceFacts facts(const SphereCollider& sphere, double) {
-    return {.feature = sphere.radius / 2};
 }
 
 Surface surface(const BoxCollider& box, const glm::dvec3& x, double) {
@@ -51,10 +43,6 @@ Surface surface(const BoxCollider& box, const glm::dvec3& x, double) {
     return {box.rotation * n, distance};
 }
 
-SurfaceFacts facts(const BoxCollider& box, double) {
-    return {.feature = std::min({box.size.x, box.size.y, box.size.z}) / 4};
-}
-
 Surface surface(const CapsuleCollider& capsule, const glm::dvec3& x, double) {
     const glm::dvec3 axis = capsule.to - capsule.from, off = x - capsule.from;
     const double squared = glm::dot(axis, axis);
@@ -65,10 +53,6 @@ Surface surface(const CapsuleCollider& capsule, const glm::dvec3& x, double) {
     const glm::dvec3 other = std::abs(axis.x) <= std::abs(axis.y) ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
     const glm::dvec3 n = glm::cross(axis, other);
     return {glm::length(n) > 0 ? glm::normalize(n) : glm::dvec3(0, 1, 0), -capsule.radius};
-}
-
-SurfaceFacts facts(const CapsuleCollider& capsule, double) {
-    return {.feature = capsule.radius / 2};
 }
 
 // Between the values value(x, z) of the four samples around p, in units of cells.
@@ -149,24 +133,31 @@ double leastUp(const HeightFieldCollider& field, const glm::dvec2& cell) {
     return 1 / std::sqrt(1 + steepX * steepX + steepZ * steepZ);
 }
 
-SurfaceFacts facts(const HeightFieldCollider& field, double thickness) {
-    const glm::dvec2 cell = Heights(field).cell();
-    const double highest = double(*std::max_element(field.heights.begin(), field.heights.end()));
-    return {.feature = std::min(cell.x, cell.y),
-            .top = highest + thickness / leastUp(field, cell),
-            .steepest = 0,
-            .exact = false};
-}
-
 Surface surface(const DistanceFieldCollider& collider, const glm::dvec3& x, double) {
     const FieldValue value = valueAt(collider.field, x);
     return {glm::normalize(value.gradient), value.distance};
 }
 
-SurfaceFacts facts(const DistanceFieldCollider& collider, double) {
-    // a trilinear function between distances
-    return {.feature = collider.field.grid.cell, .steepest = std::sqrt(3.0), .exact = false};
-}
+struct FactsOf {
+    double thickness;  // m, of the collider
+
+    SurfaceFacts operator()(const PlaneCollider&) const { return {}; }
+    SurfaceFacts operator()(const SphereCollider& sphere) const { return {.feature = sphere.radius / 2}; }
+    SurfaceFacts operator()(const CapsuleCollider& capsule) const { return {.feature = capsule.radius / 2}; }
+    SurfaceFacts operator()(const BoxCollider& box) const {
+        return {.feature = std::min({box.size.x, box.size.y, box.size.z}) / 4};
+    }
+    SurfaceFacts operator()(const HeightFieldCollider& field) const {
+        const glm::dvec2 cell = Heights(field).cell();
+        const double highest = double(*std::max_element(field.heights.begin(), field.heights.end()));
+        const double top = highest + thickness / leastUp(field, cell);
+        return {.feature = std::min(cell.x, cell.y), .top = top, .steepest = 0, .exact = false};
+    }
+    SurfaceFacts operator()(const DistanceFieldCollider& collider) const {
+        // a trilinear function between distances
+        return {.feature = collider.field.grid.cell, .steepest = std::sqrt(3.0), .exact = false};
+    }
+};
 
 }  // namespace
 
@@ -176,8 +167,7 @@ Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x) {
 
 RestSurfaces::RestSurfaces(const std::vector<Collider>& colliders) : colliders_(&colliders) {
     for (const Collider& collider : colliders)
-        facts_.push_back(
-            std::visit([&](const auto& one) { return facts(one, collider.thickness); }, *collider.shape));
+        facts_.push_back(std::visit(FactsOf{collider.thickness}, *collider.shape));
 }
 
 Surface RestSurfaces::at(size_t i, const glm::dvec3& x) const {

@@ -68,33 +68,24 @@ static bool isCrown(const Group& group, const Box& box) {
 }
 
 // Nothing of what has no end, or is drawn as its model.
-static std::optional<Box> extentOf(const PlaneCollider&) {
-    return {};
-}
-
-static std::optional<Box> extentOf(const HeightFieldCollider&) {
-    return {};
-}
-
-static std::optional<Box> extentOf(const DistanceFieldCollider&) {
-    return {};
-}
-
-static std::optional<Box> extentOf(const SphereCollider& sphere) {
-    return Box{sphere.center - sphere.radius, sphere.center + sphere.radius};
-}
-
-static std::optional<Box> extentOf(const CapsuleCollider& capsule) {
-    return Box{glm::min(capsule.from, capsule.to) - capsule.radius,
-               glm::max(capsule.from, capsule.to) + capsule.radius};
-}
-
-static std::optional<Box> extentOf(const BoxCollider& box) {
-    const glm::dmat3 turn = glm::mat3_cast(box.rotation);
-    const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box.size.x + glm::abs(turn[1]) * box.size.y +
-                                   glm::abs(turn[2]) * box.size.z);
-    return Box{box.center - half, box.center + half};
-}
+struct ExtentOf {
+    std::optional<Box> operator()(const PlaneCollider&) const { return {}; }
+    std::optional<Box> operator()(const HeightFieldCollider&) const { return {}; }
+    std::optional<Box> operator()(const DistanceFieldCollider&) const { return {}; }
+    std::optional<Box> operator()(const SphereCollider& sphere) const {
+        return Box{sphere.center - sphere.radius, sphere.center + sphere.radius};
+    }
+    std::optional<Box> operator()(const CapsuleCollider& capsule) const {
+        return Box{glm::min(capsule.from, capsule.to) - capsule.radius,
+                   glm::max(capsule.from, capsule.to) + capsule.radius};
+    }
+    std::optional<Box> operator()(const BoxCollider& box) const {
+        const glm::dmat3 turn = glm::mat3_cast(box.rotation);
+        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box.size.x + glm::abs(turn[1]) * box.size.y +
+                                       glm::abs(turn[2]) * box.size.z);
+        return Box{box.center - half, box.center + half};
+    }
+};
 
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     SceneBounds bounds;
@@ -121,8 +112,7 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        const std::optional<Box> box =
-            std::visit([](const auto& kind) { return extentOf(kind); }, *collider.shape);
+        const std::optional<Box> box = std::visit(ExtentOf(), *collider.shape);
         if (!box) continue;
         std::vector<ColliderPath::Keyframe> frames(1);
         if (collider.path) frames = collider.path->keyframes;

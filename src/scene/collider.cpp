@@ -67,7 +67,7 @@ const Description& describe(const CapsuleCollider*) {
 }
 
 // Returns a unit vector across an axis of any length.
-static glm::dvec3 across(const glm::dvec3& axis) {
+static glm::dvec3 asideOf(const glm::dvec3& axis) {
     const glm::dvec3 size = glm::abs(axis);
     const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
                              : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
@@ -84,7 +84,7 @@ GlslCall CapsuleCollider::call() const {
     return GlslCall("capsuleSurface")
         .from(from)
         .axis(along, squared > 0 ? 1 / squared : 0)
-        .vector(across(along))
+        .vector(asideOf(along))
         .number(radius);
 }
 

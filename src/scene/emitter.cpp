@@ -18,23 +18,8 @@ const std::vector<std::string> allocatorWords = {"gpu", "ring", "stack", "heap"}
 const std::vector<std::string> fromWords = {"point", "line", "disc", "sphere", "box", "surface", "death"};
 const std::vector<std::string> bySchedule(fromWords.begin(), fromWords.end() - 1);  // all but death
 
-// Whether newborn go outward: they cannot, they may be asked to, or they do unless a direction is given.
-enum class Outward { never, asked, usually };
-
-Outward outwardOf(const Emitter& emitter) {
-    switch (emitter.from) {
-    case From::line:
-    case From::box:
-        return Outward::never;
-    case From::point:
-    case From::disc:
-        return Outward::asked;
-    case From::sphere:
-    case From::surface:
-    case From::death:
-        return Outward::usually;
-    }
-    return Outward::never;
+bool outwardByNature(const Emitter& emitter) {
+    return emitter.from == From::sphere || emitter.from == From::surface || emitter.from == From::death;
 }
 
 // Whether an emitter has a velocity of its own.
@@ -44,7 +29,7 @@ bool isCarried(const Emitter& emitter) {
 
 // Sets and checks what depends on which keys a file gives.
 void follow(Emitter& emitter, const Where& where) {
-    if (!where.given("along") && outwardOf(emitter) == Outward::usually && !where.given("direction"))
+    if (!where.given("along") && outwardByNature(emitter) && !where.given("direction"))
         emitter.along = Emitter::Along::outward;
     emitter.spread = std::min(emitter.spread, std::numbers::pi);
     if (emitter.from != From::death && !where.given("rate") && emitter.bursts.empty())
@@ -59,7 +44,7 @@ void checkEmitter(const Emitter& emitter, const Where& where) {
     if (emitter.from != From::death && !(emitter.end > emitter.begin))
         throw Error(where.at("until"),
                     concat("expected a time after \"begin\" (", emitter.begin, " s), found ", emitter.end));
-    if (emitter.along == Emitter::Along::outward && outwardOf(emitter) == Outward::never)
+    if (emitter.along == Emitter::Along::outward && (emitter.from == From::line || emitter.from == From::box))
         throw Error(where.at("along"), "nothing is outward of a line or a box: expected a \"direction\"");
 }
 
@@ -67,7 +52,7 @@ void checkEmitter(const Emitter& emitter, const Where& where) {
 JsonValue writeAlong(const Emitter& emitter, const void*) {
     const bool outward = emitter.along == Emitter::Along::outward,
                up = emitter.direction == glm::dvec3(0, 1, 0);
-    if (outward == (outwardOf(emitter) == Outward::usually && up)) return {};
+    if (outward == (outwardByNature(emitter) && up)) return {};
     return JsonValue::makeString(outward ? "outward" : "direction");
 }
 
