@@ -68,7 +68,7 @@ vec4 heightSurfaceSampled(vec3 x, vec4 cells, ivec2 size, int base)
 
 // A distance field. x: relative to the first sample, m. last: xyz the last sample's indices, w the least distance on
 // the grid's faces, m. Samples: the distances at the four corners of a cell in one layer, layers along z one after
-// another (compile/distance_samples.h), so that a cell is two fetches that follow one another.
+// another (scene/collider.cpp), so that a cell is two fetches that follow one another.
 //
 // The normal is the gradient of the trilinear distance: exact on flat faces whatever their direction, so that what
 // rests there does not jitter. Beyond the grid the distance is a lower bound. Without branches, as in collide.glsl.

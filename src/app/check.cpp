@@ -63,7 +63,7 @@ void findInside(const Scene& scene, const GroupPlan& group, std::vector<Warning>
              concat(looked < group.start.anchors.size() ? concat(inside, " of the ", looked, " looked at")
                                                         : concat(inside, " of ", looked),
                     " molecules of \"", group.name, "\" start inside the ",
-                    kindName(scene.colliders[c].shape), name.empty() ? "" : concat(" \"", name, "\""),
+                    kindName(*scene.colliders[c].shape), name.empty() ? "" : concat(" \"", name, "\""),
                     ", which pushes them out: move one or the other")});
     }
 }

@@ -10,6 +10,7 @@
 #include "geometry/mesh.h"
 #include "measure/report_json.h"
 #include "run/progress.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {
@@ -190,7 +191,7 @@ std::vector<BakedField> fieldsOfScene(const Options& options, std::vector<Warnin
     warnings = scene.warnings;
     std::vector<BakedField> out;
     for (const Collider& collider : scene.colliders) {
-        const auto* field = std::get_if<DistanceFieldCollider>(&collider.shape);
+        const auto* field = std::get_if<DistanceFieldCollider>(&*collider.shape);
         if (!field) continue;
         for (const Model& model : scene.models)
             if (model.name == field->model)

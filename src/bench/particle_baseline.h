@@ -17,7 +17,7 @@
 
 #include "bench/baseline.h"
 #include "scene/placement.h"
-#include "scene/scene.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal::bench {
 

@@ -2,6 +2,7 @@
 
 #include "bench/particles.h"
 #include "core/error.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 
 namespace shoal::bench {

@@ -7,6 +7,7 @@
 
 #include "bench/sort.h"
 #include "gpu/gl.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "simulate/simulation.h"
 

@@ -8,7 +8,7 @@
 
 namespace shoal {
 
-NumberLayout::Slice NumberLayout::put(const glm::dvec3& value, int count) {
+NumberLayout::Slice NumberLayout::put(const glm::dvec4& value, int count) {
     auto space = std::find_if(free_.begin(), free_.end(), [&](const Slice& s) { return s.count >= count; });
     if (space == free_.end()) {
         parameters.push_back(glm::vec4(0));
@@ -24,72 +24,66 @@ NumberLayout::Slice NumberLayout::put(const glm::dvec3& value, int count) {
 
 NumberLayout::Point NumberLayout::put(const glm::dvec3& point, std::optional<bool> far) {
     const SplitPoint split = far == false ? SplitPoint{glm::dvec3(0), point} : splitPoint(point);
-    Point out{put(split.rest, 3), {}};
-    if (far.value_or(split.isFar())) out.lattice = put(split.lattice, 3);
+    Point out{put({split.rest, 0}, 3), {}};
+    if (far.value_or(split.isFar())) out.lattice = put({split.lattice, 0}, 3);
     return out;
-}
-
-// Components of an argument that is numbers; 0: it is something else.
-static int widthOf(GlslCall::Kind kind) {
-    using Kind = GlslCall::Kind;
-    return kind == Kind::vector ? 3 : kind == Kind::pair ? 2 : kind == Kind::number ? 1 : 0;
 }
 
 std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far) {
     NumberLayout layout;
     for (const GlslCall::Argument& one : call.arguments()) {
         if (one.kind == GlslCall::Kind::from)
-            layout.put(one.value, std::optional(far));
-        else if (const int width = widthOf(one.kind))
-            layout.put(one.value, width);
+            layout.put(glm::dvec3(one.value), std::optional(far));
+        else if (one.count > 0)
+            layout.put(one.value, one.count);
         else
             EXPECTS(one.kind == GlslCall::Kind::text);
     }
     return std::move(layout.parameters);
 }
 
+std::string CallWriter::parameter(size_t slot) const {
+    return std::string(name_).replace(name_.find('#'), 1, concat(first_ + slot));
+}
+
 std::string CallWriter::textOf(const Slice& slice) const {
-    return concat(array_, "[", first_ + slice.slot, "].",
-                  std::string("xyzw").substr(size_t(slice.from), size_t(slice.count)));
+    const std::string whole = parameter(slice.slot);
+    return slice.count == 4
+               ? whole
+               : concat(whole, ".", std::string("xyzw").substr(size_t(slice.from), size_t(slice.count)));
 }
 
 std::string CallWriter::slot(const glm::dvec3& v, double w) {
     parameters.push_back(glm::vec4(glm::vec3(v), float(w)));
-    return concat(array_, "[", first_ + parameters.size() - 1, "]");
+    return parameter(parameters.size() - 1);
 }
 
 std::string CallWriter::fromPoint(const glm::dvec3& point, std::optional<bool> far) {
     const auto known =
         std::find_if(points_.begin(), points_.end(), [&](const auto& one) { return one.first == point; });
     if (known != points_.end()) return known->second;
-    const Point at = put(point, far);
-    const std::string from = at.lattice ? concat("(anchor - ", textOf(*at.lattice), ")") : "anchor";
-    points_.emplace_back(point, concat("(", from, " - ", textOf(at.rest), ")"));
+    const Point at = put(point - frame_.origin, far);
+    const std::string from =
+        at.lattice ? concat("(", frame_.anchor, " - ", textOf(*at.lattice), ")") : frame_.anchor;
+    points_.emplace_back(point, concat(from, " - ", textOf(at.rest)));
     return points_.back().second;
-}
-
-// Returns where they begin.
-size_t CallWriter::addSamples(const GlslCall::Argument& argument) {
-    EXPECTS(samples_);
-    const size_t base = samples_->size();
-    if (argument.samples) samples_->reserve(base + argument.samples->size());
-    if (argument.samples)
-        for (const glm::vec3& value : *argument.samples)
-            samples_->emplace_back(value, 0.0f);
-    for (const double number : argument.numbers)
-        samples_->emplace_back(float(number), 0.0f, 0.0f, 0.0f);
-    return base;
 }
 
 std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bool> far) {
     using Kind = GlslCall::Kind;
     switch (one.kind) {
     case Kind::from:
-        return fromPoint(one.value, far) + " + position";
-    case Kind::vector:
-    case Kind::pair:
-    case Kind::number:
-        return textOf(put(one.value, widthOf(one.kind)));
+        return concat("(", fromPoint(glm::dvec3(one.value), far), ") + ", frame_.position);
+    case Kind::apart:
+        return concat(fromPoint(glm::dvec3(one.value), far), ", ", frame_.position);
+    case Kind::numbers:
+        return textOf(put(one.value, one.count));
+    case Kind::axis: {
+        const size_t slot = put(one.value, one.count).slot;
+        return concat(textOf({slot, 0, 3}), ", ", textOf({slot, 3, 1}));
+    }
+    case Kind::cell:
+        return cell = textOf(put(one.value, one.count));
     case Kind::text:
         return one.text;
     case Kind::clock: {
@@ -99,9 +93,12 @@ std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bo
         if (one.clock.kind == FieldClock::Kind::frames) return concat(c, ".x, ", c, ".y + time");
         return concat(c, ".x, uint(", c, ".y) + 65536u * uint(", c, ".z)");
     }
-    case Kind::samples:
-    case Kind::numbers:
-        return concat(addSamples(one));
+    case Kind::samples: {
+        EXPECTS(samples_);
+        const size_t base = samples_->size();
+        one.append(*samples_);
+        return concat(base);
+    }
     case Kind::call:
         return text(one.inner.front(), far);
     }
@@ -109,13 +106,19 @@ std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bo
 }
 
 std::string CallWriter::text(const GlslCall& call, std::optional<bool> far) {
-    std::string out = call.function() + "(";
-    bool first = true;
-    for (const GlslCall::Argument& one : call.arguments()) {
-        out += (first ? "" : ", ") + argument(one, far);
-        first = false;
+    std::vector<std::string> arguments;
+    for (const GlslCall::Argument& one : call.arguments())
+        arguments.push_back(argument(one, far));
+    std::string turn;
+    if (const std::optional<glm::dquat>& q = call.rotation()) {
+        turn = slot({q->x, q->y, q->z}, q->w);
+        arguments.front() = concat("turnedBack(", turn, ", ", arguments.front(), ")");
     }
-    return out + ")";
+    std::string out = call.function() + "(";
+    for (size_t i = 0; i < arguments.size(); ++i)
+        out += (i == 0 ? "" : ", ") + arguments[i];
+    out += ")";
+    return turn.empty() ? out : concat("turnedSurface(", turn, ", ", out, ")");
 }
 
 std::string CallWriter::text(const GlslCalls& calls) {

@@ -23,7 +23,7 @@ class NumberLayout {
         Slice rest;
         std::optional<Slice> lattice;
     };
-    Slice put(const glm::dvec3& value, int count);
+    Slice put(const glm::dvec4& value, int count);
     // `far`: whether the point takes both parts; by default as it needs them.
     Point put(const glm::dvec3& point, std::optional<bool> far);
 
@@ -36,14 +36,21 @@ class NumberLayout {
 // The parameters of a call that has neither clocks nor samples, laid out as its text names them.
 std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far);
 
+// What the position is that calls read: the anchor from a point on (m), and the vertex from there.
+struct CallFrame {
+    std::string anchor = "anchor", position = "position";
+    glm::dvec3 origin{0};
+};
+
 class CallWriter : private NumberLayout {
   public:
     using NumberLayout::parameters;
 
-    // Parameters are elements of `array`, from `first` on. `samples` is the plan's table, where calls read
-    // it.
-    explicit CallWriter(std::string array, size_t first = 0, std::vector<glm::vec4>* samples = nullptr)
-        : array_(std::move(array)), first_(first), samples_(samples) {}
+    // `name` of a parameter has # for its number, which is counted from `first` on. `samples` is the plan's
+    // table, where calls read it.
+    explicit CallWriter(std::string name, size_t first = 0, std::vector<glm::vec4>* samples = nullptr,
+                        CallFrame frame = {})
+        : name_(std::move(name)), first_(first), samples_(samples), frame_(std::move(frame)) {}
 
     // The text of a call. `far`: of its point (NumberLayout). The layout of the parameters depends on nothing
     // else but the kinds of the arguments.
@@ -54,17 +61,21 @@ class CallWriter : private NumberLayout {
     std::string slot(const glm::dvec3& v, double w = 0);
     // The way from a point to the anchor.
     std::string fromPoint(const glm::dvec3& point, std::optional<bool> far = {});
+    // Lays a number out and returns the text that reads it.
+    std::string number(double value) { return textOf(put({value, 0, 0, 0}, 1)); }
 
     std::vector<ClockSlot> clocks;
+    std::string cell;  // text of the cell of the call that has one
 
   private:
+    std::string parameter(size_t slot) const;
     std::string textOf(const Slice& slice) const;
-    size_t addSamples(const GlslCall::Argument& argument);
     std::string argument(const GlslCall::Argument& argument, std::optional<bool> far);
 
-    std::string array_;
+    std::string name_;
     size_t first_;
     std::vector<glm::vec4>* samples_;
+    CallFrame frame_;
     std::vector<std::pair<glm::dvec3, std::string>> points_;  // that are there already, and their texts
 };
 

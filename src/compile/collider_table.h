@@ -1,18 +1,17 @@
-// Colliders that uniforms have no room for: spheres, boxes and capsules that stand still, as loops over the
-// shared table of samples, so that their number is not in the text's length. Texels of a collider:
-//
-//   sphere    center, radius | thickness, -, number, material
-//   box       center, thickness | half its size, - | quaternion | -, -, number, material
-//   capsule   from, radius | axis, 1 / axis^2 | aside, thickness | -, -, number, material
+// Colliders that uniforms have no room for: those that stand still, can be crossed and read no samples, as
+// loops over the shared table of samples, so that their number is not in the text's length. Texels of a
+// collider: the numbers of its call (scene/collider_kinds.h) and its thickness, each in the first room that
+// is left for it (NumberLayout), and in z and w of the last its number and its material.
 //
 // material: index of the uniform whose x is the restitution and y the friction. Where one float is not enough
 // for some of their places, all are relative to a point of the anchors' lattice amid them.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
-#include "compile/collider_kinds.h"
+#include "scene/scene.h"
 
 namespace shoal {
 
@@ -23,7 +22,7 @@ class ColliderTable {
     // Whether a collider can lie in the table.
     static bool holds(const Collider& collider);
     void add(const Collider& collider, size_t number, size_t material);
-    bool empty() const { return spheres_.empty() && boxes_.empty() && capsules_.empty(); }
+    bool empty() const { return kinds_.empty(); }
 
     struct Loops {
         std::string clearances, survey;  // statements of the functions of that name (compile/generate.h)
@@ -32,8 +31,18 @@ class ColliderTable {
     Loops write(std::vector<glm::vec4>& samples) const;
 
   private:
-    glm::dvec3 middle_{0};  // m
-    std::vector<glm::vec4> spheres_, boxes_, capsules_;
+    struct Kind {
+        std::string name;                // in the plural
+        std::string surface, thickness;  // text: from t0 ...
+        size_t read = 0;                 // texels of one that these need
+        size_t count = 0;
+        std::vector<glm::vec4> texels;
+        size_t texelsOfOne() const { return texels.size() / count; }
+    };
+    static std::string loopOver(const Kind& kind, size_t base, size_t read, const std::string& body);
+
+    glm::dvec3 middle_{0};          // m
+    std::map<size_t, Kind> kinds_;  // by the index of the alternative
 };
 
 }  // namespace shoal

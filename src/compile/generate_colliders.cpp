@@ -1,25 +1,28 @@
 // A scene with a single plane or height field that stands still asks for it at the end of every substep. Any
 // other has contact with all at once (shaders/step/joint_contact.glsl).
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <tuple>
 
+#include "compile/call_writer.h"
 #include "compile/collider_table.h"
-#include "compile/distance_samples.h"
 #include "compile/generate.h"
 #include "compile/pack.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal {
 
 namespace {
 
+bool isSwept(const Collider& collider) {
+    return reachOf(*collider.shape).has_value();
+}
+
 // Holds the GLSL of a collider: statements before, its surface, its material and its velocity.
 struct Text {
     std::string comment, before, surface, material, velocity;
     bool swept = false;
-    std::string slower = {};  // function of a distance that changes no faster than the vertex moves
-    std::string cell = {};    // m: a way shorter than this passes through nothing
+    std::string cell = {};  // of a distance field, m: a way shorter than this passes through nothing
 };
 
 class ColliderWriter {
@@ -35,138 +38,64 @@ class ColliderWriter {
 
     Text text(const Collider& collider, size_t index) {
         Text out;
-        out.comment = concat("    // ", kindName(collider.shape), " ", inComment(collider.name), "\n");
-        out.swept = isSwept(collider.shape);
+        out.comment = concat("    // ", kindName(*collider.shape), " ", inComment(collider.name), "\n");
+        out.swept = isSwept(collider);
         out.velocity = "vec3(0.0)";
         result.materials[index] = result.parameters.size();
         out.material = slot({collider.restitution, collider.friction, collider.thickness});
-        anchor_ = "anchor", position_ = "c.position", middle_ = glm::dvec3(0);
-        if (collider.path) place(collider, index, out);
-        out.surface = std::visit([this](const auto& shape) { return emit(shape); }, collider.shape);
-        if (std::holds_alternative<DistanceFieldCollider>(collider.shape)) {
-            out.slower = "slower";
-            out.cell = cell_;
-        }
+        GlslCall call = callOf(*collider.shape);
+        CallFrame frame{.position = "c.position"};
+        if (collider.path) place(collider, index, call.origin(), frame, out);
+        writeSurface(call, std::move(frame), out);
         if (collider.path && collider.path->turns())
             out.surface = concat("turnedSurface(turn", index, ", ", out.surface, ")");
         return out;
     }
 
   private:
-    // Into the frame that moves.
-    void place(const Collider& collider, size_t index, Text& out) {
+    // Into the frame that moves. `own`: a point of the shape's own frame that is on it or near it.
+    void place(const Collider& collider, size_t index, const glm::dvec3& own, CallFrame& frame, Text& out) {
         const bool turns = collider.path->turns();
         ColliderPath path = *collider.path;
         if (!turns) {
             // what is far off in its own frame is in one whose origin lies there
-            const glm::dvec3 own = placeOf(collider.shape), size = glm::abs(own);
+            const glm::dvec3 size = glm::abs(own);
             constexpr double near = 32;  // m
-            if (std::max({size.x, size.y, size.z}) > near) middle_ = glm::dvec3(glm::vec3(latticePoint(own)));
+            if (std::max({size.x, size.y, size.z}) > near)
+                frame.origin = glm::dvec3(glm::vec3(latticePoint(own)));
             for (ColliderPath::Keyframe& keyframe : path.keyframes)
-                keyframe.pose.position += middle_;
+                keyframe.pose.position += frame.origin;
         }
-        result.moving.push_back(
-            {std::move(path), result.parameters.size(), turns, out.swept, out.swept ? reachOf(collider) : 0});
+        const double reach = out.swept ? collider.thickness + *reachOf(*collider.shape) : 0;
+        result.moving.push_back({std::move(path), result.parameters.size(), turns, out.swept, reach});
         const std::string lattice = slot({}), at = slot({}), rate = slot({});
         out.before = concat("    vec3 arm", index, " = ((anchor - ", lattice, ".xyz) - ", at,
                             ".xyz) + (c.position - ", rate, ".xyz * time);\n");
         out.velocity = rate + ".xyz";
-        anchor_ = "vec3(0.0)", position_ = concat("arm", index);
+        frame.anchor = "vec3(0.0)", frame.position = concat("arm", index);
         if (!turns) return;
         const std::string from = slot({}), to = slot({}), spin = slot({});
         out.before +=
             concat("    vec4 turn", index, " = turnAt(", from, ", ", to, ", time * ", spin,
                    ".w);\n    vec3 local", index, " = turnedBack(turn", index, ", arm", index, ");\n");
         out.velocity += concat(" + cross(", spin, ".xyz, arm", index, ")");
-        position_ = concat("local", index);
+        frame.position = concat("local", index);
     }
 
-    // The slot of a point of the shape, and the text of the way from there to the anchor.
-    struct Origin {
-        std::string slot, way;
-    };
-    Origin origin(const glm::dvec3& point, double w = 0) {
-        const SplitPoint split = splitPoint(point - middle_);
-        std::string from = anchor_;
-        if (split.isFar()) from = concat("(", anchor_, " - ", slot(split.lattice), ".xyz)");
-        const std::string rest = slot(split.rest, w);
-        return {rest, concat(from, " - ", rest, ".xyz")};
-    }
-
-    std::string relative(const Origin& origin) const { return concat("(", origin.way, ") + ", position_); }
-
-    // Each returns text of a vec4: unit normal, signed distance (negative inside).
-    std::string emit(const PlaneCollider& plane) {
-        const Origin point = origin(plane.point);
-        return concat("planeSurface(", point.way, ", ", position_, ", ", slot(glm::normalize(plane.normal)),
-                      ".xyz)");
-    }
-
-    std::string emit(const SphereCollider& sphere) {
-        const Origin center = origin(sphere.center, sphere.radius);
-        return concat("sphereSurface(", relative(center), ", ", center.slot, ".w)");
-    }
-
-    std::string emit(const BoxCollider& box) {
-        const std::string x = relative(origin(box.center)), half = slot(box.size / 2.0);
-        if (box.rotation == glm::dquat(1, 0, 0, 0)) return concat("boxSurface(", x, ", ", half, ".xyz)");
-        const std::string turn = slot({box.rotation.x, box.rotation.y, box.rotation.z}, box.rotation.w);
-        return concat("turnedSurface(", turn, ", boxSurface(turnedBack(", turn, ", ", x, "), ", half,
-                      ".xyz))");
-    }
-
-    std::string emit(const CapsuleCollider& capsule) {
-        const CapsuleAxis axis = axisOf(capsule);
-        const Origin from = origin(capsule.from, capsule.radius);
-        const std::string along = slot(axis.along, axis.perLength), aside = slot(axis.aside);
-        return concat("capsuleSurface(", relative(from), ", ", along, ".xyz, ", along, ".w, ", aside,
-                      ".xyz, ", from.slot, ".w)");
-    }
-
-    std::string emit(const HeightFieldCollider& field) {
-        const size_t base = samples_->size();
-        const glm::dvec2 cell = (field.high - field.low) / glm::dvec2(field.columns - 1, field.rows - 1);
-        appendSamples(field, cell);
-        const Origin low = origin({field.low.x, 0, field.low.y});
-        const std::string cells = slot({1 / cell.x, cell.x, cell.y}, 1 / cell.y);
-        return concat(field.sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored", "(",
-                      relative(low), ", ", cells, ", ivec2(", field.columns, ", ", field.rows, "), ", base,
-                      ")");
-    }
-
-    std::string emit(const DistanceFieldCollider& collider) {
-        const DistanceField& field = collider.field;
-        const size_t base = appendDistances(field, *samples_);
-        const Origin low = origin(field.grid.low, field.grid.cell);
-        cell_ = low.slot + ".w";
-        const std::string last = slot(glm::dvec3(field.grid.size - 1), field.outside);
-        return concat("distanceSurface(", relative(low), ", ", cell_, ", ", last, ", ", base, ")");
-    }
-
-    // One texel a sample: unit normal by central differences, and height.
-    void appendSamples(const HeightFieldCollider& field, glm::dvec2 cell) {
-        const auto height = [&](int x, int z) {
-            x = std::clamp(x, 0, field.columns - 1);
-            z = std::clamp(z, 0, field.rows - 1);
-            return double(field.heights[size_t(z) * size_t(field.columns) + size_t(x)]);
-        };
-        samples_->reserve(samples_->size() + field.heights.size());
-        for (int z = 0; z < field.rows; ++z) {
-            for (int x = 0; x < field.columns; ++x) {
-                const double spanX = cell.x * (std::min(x + 1, field.columns - 1) - std::max(x - 1, 0));
-                const double spanZ = cell.y * (std::min(z + 1, field.rows - 1) - std::max(z - 1, 0));
-                const glm::dvec3 normal =
-                    glm::normalize(glm::dvec3((height(x - 1, z) - height(x + 1, z)) / spanX, 1,
-                                              (height(x, z - 1) - height(x, z + 1)) / spanZ));
-                samples_->emplace_back(glm::vec3(normal), float(height(x, z)));
-            }
+    void writeSurface(GlslCall& call, CallFrame frame, Text& out) {
+        const SplitPoint split = splitPoint(call.origin() - frame.origin);
+        if (split.isFar()) {
+            frame.anchor = concat("(", frame.anchor, " - ", slot(split.lattice), ".xyz)");
+            frame.origin += split.lattice;
         }
+        if (call.rotation() == glm::dquat(1, 0, 0, 0)) call.turned({});
+        CallWriter writer("colliderParameters[#]", result.parameters.size(), samples_, std::move(frame));
+        out.surface = writer.text(call, false);
+        out.cell = writer.cell;
+        result.parameters.insert(result.parameters.end(), writer.parameters.begin(), writer.parameters.end());
     }
 
     std::vector<glm::vec4>* samples_;
-    std::string cell_;               // text of the last distance field's cell, m
-    std::string anchor_, position_;  // text of what the surface at hand is relative to, and of the vertex
-    glm::dvec3 middle_{0};           // m, of the shape's own frame: what its points are written from
 };
 
 std::string sourceOfOne(const Text& text) {
@@ -201,7 +130,7 @@ class Joint {
             slots += slotsOf(collider);
         for (size_t i = 0; i < colliders_->size(); ++i) {
             const Collider& collider = (*colliders_)[i];
-            swept_ = swept_ || isSwept(collider.shape);
+            swept_ = swept_ || isSwept(collider);
             if (slots > maxParameters && ColliderTable::holds(collider)) {
                 writer_.result.materials[i] = tabledMaterial(collider);
                 table_.add(collider, i, writer_.result.materials[i]);
@@ -225,7 +154,7 @@ class Joint {
   private:
     // As many uniforms as a collider takes at most.
     static size_t slotsOf(const Collider& collider) {
-        const size_t lattice = splitPoint(placeOf(collider.shape)).isFar() ? 1 : 0;
+        const size_t lattice = splitPoint(callOf(*collider.shape).origin()).isFar() ? 1 : 0;
         return 4 + lattice + (collider.path ? (collider.path->turns() ? 6 : 3) : 0);
     }
 
@@ -239,18 +168,18 @@ class Joint {
 
     void write(const Text& t, size_t number) {
         const std::string head = concat(t.comment, t.before, "    surface = ", t.surface, ";\n");
-        const char* part = t.swept ? "least.y" : "least.x";
-        clearances_ += concat(head, "    ", part, " = min(", part, ", ", t.slower, "(surface.w - ",
-                              t.material, ".z));\n");
-        const auto touch = [&](const std::string& slower) {
-            return concat("(s, Touch(surface.xyz, ", slower, "(surface.w - ", t.material, ".z), ", t.material,
-                          ".xy, ", t.velocity, ", ", number, "), ");
+        const char *part = t.swept ? "least.y" : "least.x", *slower = t.cell.empty() ? "" : "slower";
+        clearances_ +=
+            concat(head, "    ", part, " = min(", part, ", ", slower, "(surface.w - ", t.material, ".z));\n");
+        const auto touch = [&](const char* distance) {
+            return concat("(s, Touch(surface.xyz, ", distance, "(surface.w - ", t.material, ".z), ",
+                          t.material, ".xy, ", t.velocity, ", ", number, "), ");
         };
         survey_ += head;
         // what is thin in a model is thickened to two cells, so that a short way ends inside
         if (!t.cell.empty())
             survey_ += concat("    if (isShort(", t.cell, ")) meetSolid", touch(""),
-                              "velocity, skip);\n    else meetSwept", touch(t.slower), "skip);\n");
+                              "velocity, skip);\n    else meetSwept", touch(slower), "skip);\n");
         else
             survey_ += concat("    ", t.swept ? "meetSwept" : "meetSolid", touch(""),
                               t.swept ? "" : "velocity, ", "skip);\n");
@@ -299,13 +228,14 @@ class Joint {
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
                                      std::vector<glm::vec4>& samples) {
     const bool joint =
-        colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0].shape)));
+        colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0])));
     if (joint) return Joint(colliders, samples).generate();
     ColliderWriter writer(samples);
     writer.result.materials.resize(colliders.size());
+    const size_t before = samples.size();
     const std::string body = colliders.empty() ? "" : sourceOfOne(writer.text(colliders[0], 0));
     GeneratedColliders out = std::move(writer.result);
-    const bool dear = !colliders.empty() && std::holds_alternative<HeightFieldCollider>(colliders[0].shape);
+    const bool dear = samples.size() > before;  // what reads samples
     out.source = concat(dear ? "#define KEEP_SURFACE\n" : "", "#include \"physics/collide.glsl\"\n",
                         "#include \"step/surfaces.glsl\"\n",
                         parameterArray("colliderParameters", out.parameters.size()), body);

@@ -25,12 +25,7 @@ constexpr size_t slots = 8;
 using From = Emitter::From;
 using Along = Emitter::Along;
 
-glm::dvec3 middleOf(const Scene& scene, const Emitter& emitter) {
-    if (emitter.from != From::surface) return shoal::middleOf(emitter);
-    const Mesh& mesh = scene.models[size_t(emitter.model)].mesh;
-    return 0.5 * (mesh.low + mesh.high);
-}
-
+// What of a kind's size is not its radius.
 glm::dvec3 extentOf(const Emitter& emitter) {
     if (emitter.from == From::line) return emitter.lineTo - emitter.lineFrom;
     if (emitter.from == From::box) return 0.5 * (emitter.box.high - emitter.box.low);
@@ -45,7 +40,7 @@ glm::vec4 four(const glm::dvec3& v, double w = 0) {
 // as a share of all; the two edges from that corner.
 size_t addSurface(const Scene& scene, const Emitter& emitter, std::vector<glm::vec4>& samples, int& count) {
     const Mesh& mesh = scene.models[size_t(emitter.model)].mesh;
-    const glm::dvec3 origin = latticePoint(middleOf(scene, emitter));
+    const glm::dvec3 origin = latticePoint(placeOf(emitter, scene.models).middle);
     const size_t base = samples.size();
     const double all = selectedArea(mesh, emitter.select);
     double area = 0;
@@ -90,6 +85,13 @@ class EmitterText {
         return emitter_->path ? concat("turned(", slot(7), ", ", v, ")") : v;
     }
 
+    // Of what has no middle to be outward of.
+    const char* anyOutward() const {
+        return emitter_->along == Along::outward ? "        vec3 outward = anyDirection(drawn(seed, "
+                                                   "bornOutward), drawn(seed, bornOutward + 1u));\n"
+                                                 : "";
+    }
+
     std::string fromPlace() {
         std::string out = offsetText();
         out += "        vec3 carried = vec3(0.0);\n";
@@ -104,10 +106,6 @@ class EmitterText {
         const std::string random =
             "        vec3 dice = vec3(drawn(seed, bornPlace), drawn(seed, bornPlace + 1u), "
             "drawn(seed, bornPlace + 2u));\n";
-        const std::string any =
-            "        vec3 outward = anyDirection(drawn(seed, bornOutward), "
-            "drawn(seed, bornOutward + 1u));\n";
-        const bool needsOutward = emitter_->along == Along::outward;
         switch (emitter_->from) {
         case From::line:
             return random + concat("        vec3 offset = ", turned(slot(4) + ".xyz"), " * dice.x;\n");
@@ -127,9 +125,11 @@ class EmitterText {
                                 slot(2), ".w, ", slot(3), ".z, dice.x);\n");
         case From::surface:
             return random + surfaceText();
-        default:
-            return (needsOutward ? any : "") + "        vec3 offset = vec3(0.0);\n";
+        case From::point:
+        case From::death:
+            break;
         }
+        return concat(anyOutward(), "        vec3 offset = vec3(0.0);\n");
     }
 
     std::string surfaceText() {
@@ -148,17 +148,14 @@ class EmitterText {
     std::string fromDeath() {
         const int elements = layout_.stateElements(), positions = layout_.positionElements();
         const std::string states = concat("sourceStates", index_), records = concat("sourceRecords", index_);
-        const std::string outward =
-            "        vec3 outward = anyDirection(drawn(seed, bornOutward), drawn(seed, bornOutward + 1u));\n";
         // back from the frame's end to its death, as gravity had it
-        return concat("        int first = (source.molecule / ", BufferLayout::block, ") * ",
-                      BufferLayout::block * elements, " + source.molecule % ", BufferLayout::block, ";\n",
-                      "        vec3 carried = texelFetch(", states, ", first + ",
-                      positions * BufferLayout::block, ").xyz - gravity * source.since;\n",
-                      "        start.lattice = texelFetch(", records, ", source.molecule).xyz;\n",
-                      "        start.place = texelFetch(", states,
-                      ", first).xyz - (carried + gravity * (0.5 * source.since)) * source.since;\n",
-                      emitter_->along == Along::outward ? outward : "");
+        return concat(
+            "        int first = (source.molecule / ", BufferLayout::block, ") * ",
+            BufferLayout::block * elements, " + source.molecule % ", BufferLayout::block, ";\n",
+            "        vec3 carried = texelFetch(", states, ", first + ", positions * BufferLayout::block,
+            ").xyz - gravity * source.since;\n", "        start.lattice = texelFetch(", records,
+            ", source.molecule).xyz;\n", "        start.place = texelFetch(", states,
+            ", first).xyz - (carried + gravity * (0.5 * source.since)) * source.since;\n", anyOutward());
     }
 
     const Scene* scene_;
@@ -183,12 +180,6 @@ const char* rotationText(Placement::Turn turn) {
 }
 
 }  // namespace
-
-glm::dvec3 middleOf(const Emitter& emitter) {
-    if (emitter.from == From::line) return emitter.lineFrom;
-    if (emitter.from == From::box) return 0.5 * (emitter.box.low + emitter.box.high);
-    return emitter.position;
-}
 
 std::string generateEmitters(const Scene& scene, const Lifecycle& life,
                              const std::vector<BufferLayout>& layouts, std::vector<glm::vec4>& samples) {
@@ -222,7 +213,7 @@ std::string generateEmitters(const Scene& scene, const Lifecycle& life,
 std::vector<glm::dvec3> emitterMiddles(const Scene& scene, const Lifecycle& life) {
     std::vector<glm::dvec3> out;
     for (const Emitter& emitter : life.emitters)
-        out.push_back(middleOf(scene, emitter));
+        out.push_back(placeOf(emitter, scene.models).middle);
     return out;
 }
 

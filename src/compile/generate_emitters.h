@@ -25,8 +25,6 @@ std::vector<glm::vec4> emitterParameters(const Lifecycle& life, const std::vecto
 // m, of each emitter, without its path.
 std::vector<glm::dvec3> emitterMiddles(const Scene& scene, const Lifecycle& life);
 
-glm::dvec3 middleOf(const Emitter& emitter);  // of one that is not from a surface
-
 // Whether one can become the other by its parameters alone, without another text.
 bool sameText(const Emitter& a, const Emitter& b);
 

@@ -11,7 +11,7 @@ namespace shoal {
 
 GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples) {
     GeneratedFields out;
-    CallWriter writer("fieldParameters", 0, &samples);
+    CallWriter writer("fieldParameters[#]", 0, &samples);
     for (const Field& field : fields) {
         out.source += concat("    // ", kindName(*field.shape), " ", inComment(field.name), "\n");
         const GlslCalls calls = std::visit([](const auto& kind) { return kind.calls(); }, *field.shape);
@@ -22,7 +22,7 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
         if (field.box) {
             const std::string low = writer.fromPoint(field.box->low),
                               high = writer.fromPoint(field.box->high);
-            guard = concat("if (insideBox(", low, ", ", high, ", position)) ");
+            guard = concat("if (insideBox((", low, "), (", high, "), position)) ");
         }
         out.source += concat("    ", guard, "u += ", weight, " * ", velocity, ";\n");
     }

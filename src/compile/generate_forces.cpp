@@ -37,7 +37,7 @@ class ForceWriter {
     template <typename Pull>
     void add(const Pull& pull, const GroupForces::One& one, bool far) {
         result.pulls.push_back(one);
-        CallWriter writer("forceParameters", one.slot);
+        CallWriter writer("forceParameters[#]", one.slot);
         pulls += concat(comment_, "    a += ", writer.text(pull.call(), far), ";\n");
         result.parameterCount += writer.parameters.size();
     }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <optional>
 
 #include "core/json.h"
 #include "core/printable.h"
@@ -57,32 +56,36 @@ bool isPlainNumbers(const JsonValue& value) {
                        [](const JsonValue& item) { return item.kind == JsonValue::Kind::number; });
 }
 
-// `indent`: nothing for all in one line. `element`: the value stands in an array, where short things keep to
+constexpr int inOneLine = -1;
+
+// `indent`: spaces, or inOneLine. `element`: the value stands in an array, where short things keep to
 // one line.
-void write(const JsonValue& value, std::optional<size_t> indent, bool element, std::string& out) {
+void write(const JsonValue& value, int indent, bool element, std::string& out) {
     if (!value.isContainer()) {
         out += scalar(value);
         return;
     }
     const bool empty = value.items.empty() && value.members.empty();
-    if (empty || isPlainNumbers(value)) indent.reset();
-    if (indent && element && *indent + writeJsonLine(value).size() < lineWidth) indent.reset();
+    if (empty || isPlainNumbers(value)) indent = inOneLine;
+    if (indent >= 0 && element && size_t(indent) + writeJsonLine(value).size() < lineWidth)
+        indent = inOneLine;
+    const bool lines = indent >= 0;
     const bool array = value.kind == JsonValue::Kind::array;
-    const std::string start = indent ? "\n" + std::string(*indent + 2, ' ') : "";
-    const std::optional<size_t> inner = indent ? std::optional(*indent + 2) : std::nullopt;
+    const int inner = lines ? indent + 2 : inOneLine;
+    const std::string start = lines ? "\n" + std::string(size_t(inner), ' ') : "";
     out += array ? "[" : "{";
     const char* separator = "";
     for (const JsonValue& item : value.items) {
         out += separator + start;
         write(item, inner, true, out);
-        separator = indent ? "," : ", ";
+        separator = lines ? "," : ", ";
     }
     for (const auto& [key, member] : value.members) {
         out += separator + start + inQuotes(key) + ": ";
         write(member, inner, false, out);
-        separator = indent ? "," : ", ";
+        separator = lines ? "," : ", ";
     }
-    if (indent) out += "\n" + std::string(*indent, ' ');
+    if (lines) out += "\n" + std::string(size_t(indent), ' ');
     out += array ? "]" : "}";
 }
 
@@ -127,7 +130,7 @@ std::string writeJson(const JsonValue& value) {
 
 std::string writeJsonLine(const JsonValue& value) {
     std::string out;
-    write(value, std::nullopt, false, out);
+    write(value, inOneLine, false, out);
     return out;
 }
 

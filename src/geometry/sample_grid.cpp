@@ -12,7 +12,7 @@ namespace shoal {
 namespace {
 
 // A triangle in units of cells from the first sample, with its welded vertices.
-struct Corners {
+struct ScanCorners {
     std::array<glm::dvec3, 3> at;
     std::array<int, 3> vertex;
 };
@@ -25,7 +25,7 @@ double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& p) {
 // Crossings of the lines along one axis.
 class Scan {
   public:
-    Scan(const std::vector<Corners>& triangles, const SampleGrid& grid, int axis)
+    Scan(const std::vector<ScanCorners>& triangles, const SampleGrid& grid, int axis)
         : triangles_(triangles),
           grid_(grid),
           axis_(axis),
@@ -35,7 +35,7 @@ class Scan {
 
     // Lines of the rows from <= v < to.
     void rows(int from, int to) {
-        for (const Corners& t : triangles_)
+        for (const ScanCorners& t : triangles_)
             cross(t, from, to);
         sumUp(from, to);
     }
@@ -43,7 +43,7 @@ class Scan {
     std::vector<int16_t> take() { return std::move(counts_); }
 
   private:
-    void cross(const Corners& t, int from, int to) {
+    void cross(const ScanCorners& t, int from, int to) {
         glm::dvec2 p[3], low(1e300), high(-1e300);
         for (int i = 0; i < 3; ++i) {
             p[i] = {t.at[size_t(i)][u_], t.at[size_t(i)][v_]};
@@ -57,7 +57,7 @@ class Scan {
                 crossLine(t, p, u, v);
     }
 
-    void crossLine(const Corners& t, const glm::dvec2 (&p)[3], int u, int v) {
+    void crossLine(const ScanCorners& t, const glm::dvec2 (&p)[3], int u, int v) {
         double areas[3];  // opposite each corner
         int sides = 0;
         for (int i = 0; i < 3; ++i) {
@@ -96,13 +96,13 @@ class Scan {
                     counts_[at(i, u, v)] = int16_t(counts_[at(i, u, v)] + counts_[at(i - 1, u, v)]);
     }
 
-    const std::vector<Corners>& triangles_;
+    const std::vector<ScanCorners>& triangles_;
     const SampleGrid& grid_;
     int axis_, u_, v_;
     std::vector<int16_t> counts_;
 };
 
-std::vector<int16_t> scan(const std::vector<Corners>& triangles, const SampleGrid& grid, int axis,
+std::vector<int16_t> scan(const std::vector<ScanCorners>& triangles, const SampleGrid& grid, int axis,
                           int threads) {
     Scan out(triangles, grid, axis);
     const int rows = grid.size[(axis + 2) % 3], pieces = std::min(rows, 4 * threads);
@@ -114,10 +114,10 @@ std::vector<int16_t> scan(const std::vector<Corners>& triangles, const SampleGri
 }  // namespace
 
 std::vector<int16_t> windingNumbers(const Mesh& mesh, const SampleGrid& grid, int threads) {
-    std::vector<Corners> triangles;
+    std::vector<ScanCorners> triangles;
     triangles.reserve(mesh.triangles.size());
     for (const glm::ivec3& t : mesh.triangles) {
-        Corners corners;
+        ScanCorners corners;
         for (int i = 0; i < 3; ++i) {
             corners.vertex[size_t(i)] = mesh.weld[size_t(t[i])];
             corners.at[size_t(i)] =

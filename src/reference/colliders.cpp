@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/collider_kinds.h"
+
 namespace shoal::reference {
 
 namespace {
@@ -11,7 +13,8 @@ namespace {
 // only rounding (1e-16 / 1e-6 of a height) and the normal's curvature (1e-12 of it) are lost.
 constexpr double nudge = 1e-6;
 
-// `beyond`: the cells by which a surface reaches past its border.
+// Of each kind: its surface at x, where `beyond` is the cells by which a height field reaches past its
+// border; and what is known of it, where `thickness` is the collider's.
 Surface surface(const PlaneCollider& plane, const glm::dvec3& x, double) {
     const glm::dvec3 n = glm::normalize(plane.normal);
     return {n, glm::dot(x - plane.point, n)};
@@ -115,11 +118,6 @@ Surface surface(const HeightFieldCollider& field, const glm::dvec3& x, double be
     return {n, (x.y - heights.at(p)) * n.y};
 }
 
-Surface surface(const DistanceFieldCollider& collider, const glm::dvec3& x, double) {
-    const FieldValue value = valueAt(collider.field, x);
-    return {glm::normalize(value.gradient), value.distance};
-}
-
 // The least y of a unit normal: a slope is at most the steepest step between neighbours, along both axes.
 double leastUp(const HeightFieldCollider& field, const glm::dvec2& cell) {
     double steepX = 0, steepZ = 0;
@@ -135,6 +133,32 @@ double leastUp(const HeightFieldCollider& field, const glm::dvec2& cell) {
     return 1 / std::sqrt(1 + steepX * steepX + steepZ * steepZ);
 }
 
+Surface surface(const DistanceFieldCollider& collider, const glm::dvec3& x, double) {
+    const FieldValue value = valueAt(collider.field, x);
+    return {glm::normalize(value.gradient), value.distance};
+}
+
+struct FactsOf {
+    double thickness;  // m, of the collider
+
+    SurfaceFacts operator()(const PlaneCollider&) const { return {}; }
+    SurfaceFacts operator()(const SphereCollider& sphere) const { return {.feature = sphere.radius / 2}; }
+    SurfaceFacts operator()(const CapsuleCollider& capsule) const { return {.feature = capsule.radius / 2}; }
+    SurfaceFacts operator()(const BoxCollider& box) const {
+        return {.feature = std::min({box.size.x, box.size.y, box.size.z}) / 4};
+    }
+    SurfaceFacts operator()(const HeightFieldCollider& field) const {
+        const glm::dvec2 cell = Heights(field).cell();
+        const double highest = double(*std::max_element(field.heights.begin(), field.heights.end()));
+        const double top = highest + thickness / leastUp(field, cell);
+        return {.feature = std::min(cell.x, cell.y), .top = top, .steepest = 0, .exact = false};
+    }
+    SurfaceFacts operator()(const DistanceFieldCollider& collider) const {
+        // a trilinear function between distances
+        return {.feature = collider.field.grid.cell, .steepest = std::sqrt(3.0), .exact = false};
+    }
+};
+
 }  // namespace
 
 Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x) {
@@ -143,40 +167,17 @@ Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x) {
 
 RestSurfaces::RestSurfaces(const std::vector<Collider>& colliders) : colliders_(&colliders) {
     for (const Collider& collider : colliders)
-        facts_.push_back(facts(collider));
-}
-
-RestSurfaces::Facts RestSurfaces::facts(const Collider& collider) {
-    Facts out;
-    if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) out.feature = sphere->radius / 2;
-    if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape))
-        out.feature = capsule->radius / 2;
-    if (const auto* box = std::get_if<BoxCollider>(&collider.shape))
-        out.feature = std::min({box->size.x, box->size.y, box->size.z}) / 4;
-    if (const auto* field = std::get_if<HeightFieldCollider>(&collider.shape)) {
-        const glm::dvec2 cell = Heights(*field).cell();
-        out.feature = std::min(cell.x, cell.y);
-        out.top = double(*std::max_element(field->heights.begin(), field->heights.end())) +
-                  collider.thickness / leastUp(*field, cell);
-        out.steepest = 0;
-        out.exact = false;
-    }
-    if (const auto* field = std::get_if<DistanceFieldCollider>(&collider.shape)) {
-        out.feature = field->field.grid.cell;
-        out.steepest = std::sqrt(3.0);  // of a trilinear function between distances
-        out.exact = false;
-    }
-    return out;
+        facts_.push_back(std::visit(FactsOf{collider.thickness}, *collider.shape));
 }
 
 Surface RestSurfaces::at(size_t i, const glm::dvec3& x) const {
-    Surface out = surfaceAt(collider(i).shape, x);
+    Surface out = surfaceAt(*collider(i).shape, x);
     out.distance -= collider(i).thickness;
     return out;
 }
 
 Surface RestSurfaces::under(size_t i, const glm::dvec3& x) const {
-    Surface out = std::visit([&](const auto& one) { return surface(one, x, 0.5); }, collider(i).shape);
+    Surface out = std::visit([&](const auto& one) { return surface(one, x, 0.5); }, *collider(i).shape);
     out.distance -= collider(i).thickness;
     return out;
 }
@@ -188,10 +189,10 @@ bool RestSurfaces::clear(size_t i, const glm::dvec3& x, double reach) const {
 
 RestSurfaces::Following RestSurfaces::following(size_t i, const Surface& surface, const glm::dvec3& x,
                                                 const glm::dvec3& v) const {
-    if (std::holds_alternative<PlaneCollider>(collider(i).shape)) return {};
+    if (std::holds_alternative<PlaneCollider>(*collider(i).shape)) return {};
     const double speed = glm::length(v);
     if (!(speed > 0)) return {};
-    if (const auto* sphere = std::get_if<SphereCollider>(&collider(i).shape)) {
+    if (const auto* sphere = std::get_if<SphereCollider>(&*collider(i).shape)) {
         // v . dn/dt = v_t^2 / r, from the centre
         const double r = surface.distance + collider(i).thickness + sphere->radius;
         const double along = glm::dot(v, surface.normal);

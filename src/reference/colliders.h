@@ -21,6 +21,14 @@ struct Surface {
 // it is flat.
 Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x);
 
+// What is known of the surface of a kind.
+struct SurfaceFacts {
+    double feature = 1e30;
+    double top = 1e30;    // m: nothing is above this height
+    double steepest = 1;  // how much the distance changes in a metre at most; 0: not known
+    bool exact = true;
+};
+
 // The surfaces that vertices rest on, each its collider's thickness off the drawn one.
 class RestSurfaces {
   public:
@@ -50,17 +58,10 @@ class RestSurfaces {
     Following following(size_t i, const Surface& surface, const glm::dvec3& x, const glm::dvec3& v) const;
 
   private:
-    struct Facts {
-        double feature = 1e30;
-        double top = 1e30;    // m: nothing is above this height
-        double steepest = 1;  // how much the distance changes in a metre at most; 0: not known
-        bool exact = true;
-    };
-    static Facts facts(const Collider& collider);
     double shiftAlong(size_t i, const Surface& surface, const glm::dvec3& x, const glm::dvec3& v) const;
 
     const std::vector<Collider>* colliders_;
-    std::vector<Facts> facts_;
+    std::vector<SurfaceFacts> facts_;
 };
 
 }  // namespace shoal::reference

@@ -3,6 +3,7 @@
 
 #include "compile/plan.h"
 #include "render/lighting.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal {
 
@@ -44,15 +45,8 @@ static void includePlaced(Box& out, const Box& box, const Pose& pose) {
 
 // Where an emitter's newborn go: as far as they are thrown, for a few seconds at most.
 static Box reachOf(const Scene& scene, const Lifecycle& life, const Emitter& emitter) {
-    Box out{emitter.position, emitter.position};
     if (emitter.from == Emitter::From::death) return emptyBox;
-    if (emitter.from == Emitter::From::line)
-        out = {glm::min(emitter.lineFrom, emitter.lineTo), glm::max(emitter.lineFrom, emitter.lineTo)};
-    if (emitter.from == Emitter::From::box) out = emitter.box;
-    if (emitter.from == Emitter::From::surface) {
-        const Mesh& mesh = scene.models[size_t(emitter.model)].mesh;
-        out = {mesh.low, mesh.high};
-    }
+    Box out = placeOf(emitter, scene.models).box;
     constexpr double seconds = 3;
     const double speed = emitter.speed.y, gravity = glm::length(scene.gravity);
     double reach = speed * std::min(life.life.y, seconds);
@@ -73,21 +67,25 @@ static bool isCrown(const Group& group, const Box& box) {
            extent.y > 0.35 * std::max(extent.x, extent.z);
 }
 
-// Nothing of what has no end, and of height fields, which are not drawn.
-static std::optional<Box> boundsOf(const ColliderShape& shape) {
-    if (const auto* sphere = std::get_if<SphereCollider>(&shape))
-        return Box{sphere->center - sphere->radius, sphere->center + sphere->radius};
-    if (const auto* capsule = std::get_if<CapsuleCollider>(&shape))
-        return Box{glm::min(capsule->from, capsule->to) - capsule->radius,
-                   glm::max(capsule->from, capsule->to) + capsule->radius};
-    if (const auto* box = std::get_if<BoxCollider>(&shape)) {
-        const glm::dmat3 turn = glm::mat3_cast(box->rotation);
-        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box->size.x + glm::abs(turn[1]) * box->size.y +
-                                       glm::abs(turn[2]) * box->size.z);
-        return Box{box->center - half, box->center + half};
+// Nothing of what has no end, or is drawn as its model.
+struct ExtentOf {
+    std::optional<Box> operator()(const PlaneCollider&) const { return {}; }
+    std::optional<Box> operator()(const HeightFieldCollider&) const { return {}; }
+    std::optional<Box> operator()(const DistanceFieldCollider&) const { return {}; }
+    std::optional<Box> operator()(const SphereCollider& sphere) const {
+        return Box{sphere.center - sphere.radius, sphere.center + sphere.radius};
     }
-    return {};
-}
+    std::optional<Box> operator()(const CapsuleCollider& capsule) const {
+        return Box{glm::min(capsule.from, capsule.to) - capsule.radius,
+                   glm::max(capsule.from, capsule.to) + capsule.radius};
+    }
+    std::optional<Box> operator()(const BoxCollider& box) const {
+        const glm::dmat3 turn = glm::mat3_cast(box.rotation);
+        const glm::dvec3 half = 0.5 * (glm::abs(turn[0]) * box.size.x + glm::abs(turn[1]) * box.size.y +
+                                       glm::abs(turn[2]) * box.size.z);
+        return Box{box.center - half, box.center + half};
+    }
+};
 
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     SceneBounds bounds;
@@ -114,7 +112,7 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     }
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
-        const std::optional<Box> box = boundsOf(collider.shape);
+        const std::optional<Box> box = std::visit(ExtentOf(), *collider.shape);
         if (!box) continue;
         std::vector<ColliderPath::Keyframe> frames(1);
         if (collider.path) frames = collider.path->keyframes;

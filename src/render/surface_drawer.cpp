@@ -63,7 +63,7 @@ void addRings(SurfaceMesh& mesh, int rings, int segments, const MakeCorner& corn
         }
 }
 
-SurfaceMesh sphereMesh(const SphereCollider& sphere) {
+SurfaceMesh meshOf(const SphereCollider& sphere) {
     constexpr int rings = 48, segments = 96;
     SurfaceMesh out;
     out.origin = sphere.center;
@@ -76,7 +76,7 @@ SurfaceMesh sphereMesh(const SphereCollider& sphere) {
     return out;
 }
 
-SurfaceMesh boxMesh(const BoxCollider& box) {
+SurfaceMesh meshOf(const BoxCollider& box) {
     SurfaceMesh out;
     out.origin = box.center;
     const glm::dmat3 turn = glm::mat3_cast(box.rotation);
@@ -99,7 +99,7 @@ SurfaceMesh boxMesh(const BoxCollider& box) {
 }
 
 // A sphere cut in two at its equator, the halves moved to the ends.
-SurfaceMesh capsuleMesh(const CapsuleCollider& capsule) {
+SurfaceMesh meshOf(const CapsuleCollider& capsule) {
     constexpr int rings = 24, segments = 64;
     SurfaceMesh out;
     out.origin = capsule.from;
@@ -119,8 +119,9 @@ SurfaceMesh capsuleMesh(const CapsuleCollider& capsule) {
 }
 
 // A disc of radius 1 around the origin; its rings are closer together in the middle, where the eye is.
-SurfaceMesh discMesh(const glm::dvec3& normal) {
+SurfaceMesh meshOf(const PlaneCollider& plane) {
     constexpr int rings = 24, segments = 64;
+    const glm::dvec3 normal = glm::normalize(plane.normal);
     const auto [along, across] = tangentsOf(normal);
     SurfaceMesh out;
     addRings(out, rings + 1, segments, [&, &u = along, &v = across](int i, double turn) {
@@ -129,6 +130,15 @@ SurfaceMesh discMesh(const glm::dvec3& normal) {
         return SurfaceMesh::Corner{glm::vec3(place), glm::vec3(normal), glm::vec3(1)};
     });
     return out;
+}
+
+// Nothing: these are drawn as their models.
+SurfaceMesh meshOf(const HeightFieldCollider&) {
+    return {};
+}
+
+SurfaceMesh meshOf(const DistanceFieldCollider&) {
+    return {};
 }
 
 constexpr double planeReach = 60;   // how far a plane is drawn, in heights of the eye above it
@@ -157,25 +167,20 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
     bool planes = false;
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
+        const SurfaceMesh mesh = std::visit([](const auto& kind) { return meshOf(kind); }, *collider.shape);
+        if (mesh.indices.empty()) continue;
         Drawn drawn;
         drawn.color = glm::vec3(collider.color);
         drawn.path = collider.path;
-        if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, sphereMesh(*sphere), std::move(drawn), collider.name.c_str());
-        } else if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, boxMesh(*box), std::move(drawn), collider.name.c_str());
-        } else if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, capsuleMesh(*capsule), std::move(drawn), collider.name.c_str());
-        } else if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
+        if (const auto* plane = std::get_if<PlaneCollider>(&*collider.shape)) {
             drawn.plane = *plane;
             drawn.casts = false;
             drawn.detail = grid ? 0.35f : 0.9f;
             planes = true;
-            add(context, discMesh(glm::normalize(plane->normal)), std::move(drawn), collider.name.c_str());
+        } else {
+            drawn.roughness = 0.5f;
         }
+        add(context, mesh, std::move(drawn), collider.name.c_str());
     }
     if (surfaces_.empty()) return;
 

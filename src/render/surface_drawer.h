@@ -9,6 +9,7 @@
 #include "gpu/program.h"
 #include "render/lighting.h"
 #include "render/view.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal {
 

@@ -1,8 +1,15 @@
-#include "scene/collider.h"
+#include "scene/collider_kinds.h"
+
+#include <algorithm>
+#include <cmath>
 
 #include "core/describe.h"
 
 namespace shoal {
+
+template class Boxed<ColliderShape>;
+
+// ---- The kinds
 
 const Description& describe(const PlaneCollider*) {
     using C = PlaneCollider;
@@ -11,6 +18,10 @@ const Description& describe(const PlaneCollider*) {
             .key("point", &C::point, {"m", "A point of the plane."})
             .direction("normal", &C::normal, {"", "The direction of the free side."});
     return it;
+}
+
+GlslCall PlaneCollider::call() const {
+    return GlslCall("planeSurface").apart(point).vector(glm::normalize(normal));
 }
 
 const Description& describe(const SphereCollider*) {
@@ -23,6 +34,10 @@ const Description& describe(const SphereCollider*) {
     return it;
 }
 
+GlslCall SphereCollider::call() const {
+    return GlslCall("sphereSurface").from(center).number(radius);
+}
+
 const Description& describe(const BoxCollider*) {
     using C = BoxCollider;
     static const Description it = Describe<C>("box", "A box.")
@@ -32,6 +47,10 @@ const Description& describe(const BoxCollider*) {
                                       .needed()
                                       .rotation("rotation", &C::rotation, {"", "How it is turned."});
     return it;
+}
+
+GlslCall BoxCollider::call() const {
+    return GlslCall("boxSurface").from(center).vector(size / 2.0).turned(rotation);
 }
 
 const Description& describe(const CapsuleCollider*) {
@@ -46,6 +65,91 @@ const Description& describe(const CapsuleCollider*) {
             .needed();
     return it;
 }
+
+// Returns a unit vector across an axis of any length.
+static glm::dvec3 asideOf(const glm::dvec3& axis) {
+    const glm::dvec3 size = glm::abs(axis);
+    const glm::dvec3 other = size.x <= size.y && size.x <= size.z ? glm::dvec3(1, 0, 0)
+                             : size.y <= size.z                   ? glm::dvec3(0, 1, 0)
+                                                                  : glm::dvec3(0, 0, 1);
+    const glm::dvec3 out = glm::cross(axis / std::max({size.x, size.y, size.z, 1e-300}), other);
+    return glm::length(out) > 0 ? glm::normalize(out) : glm::dvec3(0, 1, 0);
+}
+
+GlslCall CapsuleCollider::call() const {
+    constexpr double leastAxis = 1e-9;  // m: ends that are nearer coincide
+    glm::dvec3 along = to - from;
+    if (glm::length(along) < leastAxis) along = {};
+    const double squared = glm::dot(along, along);
+    return GlslCall("capsuleSurface")
+        .from(from)
+        .axis(along, squared > 0 ? 1 / squared : 0)
+        .vector(asideOf(along))
+        .number(radius);
+}
+
+// Appends a texel a sample: the unit normal by central differences, and the height. `cell`: m.
+static void appendHeights(const HeightFieldCollider& field, glm::dvec2 cell, std::vector<glm::vec4>& table) {
+    const auto height = [&](int x, int z) {
+        x = std::clamp(x, 0, field.columns - 1);
+        z = std::clamp(z, 0, field.rows - 1);
+        return double(field.heights[size_t(z) * size_t(field.columns) + size_t(x)]);
+    };
+    table.reserve(table.size() + field.heights.size());
+    for (int z = 0; z < field.rows; ++z) {
+        for (int x = 0; x < field.columns; ++x) {
+            const double spanX = cell.x * (std::min(x + 1, field.columns - 1) - std::max(x - 1, 0));
+            const double spanZ = cell.y * (std::min(z + 1, field.rows - 1) - std::max(z - 1, 0));
+            const glm::dvec3 normal =
+                glm::normalize(glm::dvec3((height(x - 1, z) - height(x + 1, z)) / spanX, 1,
+                                          (height(x, z - 1) - height(x, z + 1)) / spanZ));
+            table.emplace_back(glm::vec3(normal), float(height(x, z)));
+        }
+    }
+}
+
+GlslCall HeightFieldCollider::call() const {
+    const glm::dvec2 cell = (high - low) / glm::dvec2(columns - 1, rows - 1);
+    return GlslCall(sampledNormals ? "heightSurfaceSampled" : "heightSurfaceStored")
+        .from({low.x, 0, low.y})
+        .four({1 / cell.x, cell.x, cell.y, 1 / cell.y})
+        .text(concat("ivec2(", columns, ", ", rows, ")"))
+        .samples([this, cell](std::vector<glm::vec4>& table) { appendHeights(*this, cell, table); });
+}
+
+// Appends the distances. Of sample (i, j, k) the 4-vector at (j * size.x + i) * size.z + k holds those of (i,
+// j), (i + 1, j), (i, j + 1) and (i + 1, j + 1) in layer k, so that a cell is two 4-vectors that follow one
+// another.
+static void appendDistances(const DistanceField& field, std::vector<glm::vec4>& table) {
+    const SampleGrid& grid = field.grid;
+    table.reserve(table.size() + grid.count());
+    for (int y = 0; y < grid.size.y; ++y)
+        for (int x = 0; x < grid.size.x; ++x)
+            for (int z = 0; z < grid.size.z; ++z) {
+                const int right = std::min(x + 1, grid.size.x - 1), up = std::min(y + 1, grid.size.y - 1);
+                table.emplace_back(
+                    field.distances[grid.index(x, y, z)], field.distances[grid.index(right, y, z)],
+                    field.distances[grid.index(x, up, z)], field.distances[grid.index(right, up, z)]);
+            }
+}
+
+GlslCall DistanceFieldCollider::call() const {
+    return GlslCall("distanceSurface")
+        .from(field.grid.low)
+        .cell(field.grid.cell)
+        .four({glm::dvec3(field.grid.size - 1), field.outside})
+        .samples([this](std::vector<glm::vec4>& table) { appendDistances(field, table); });
+}
+
+std::optional<double> reachOf(const ColliderShape& shape) {
+    return std::visit([](const auto& kind) { return kind.reach(); }, shape);
+}
+
+GlslCall callOf(const ColliderShape& shape) {
+    return std::visit([](const auto& kind) { return kind.call(); }, shape);
+}
+
+// ---- Colliders
 
 const Description& describe(const Collider*) {
     using C = Collider;

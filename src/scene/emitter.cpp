@@ -16,7 +16,7 @@ using From = Emitter::From;
 
 const std::vector<std::string> allocatorWords = {"gpu", "ring", "stack", "heap"};
 const std::vector<std::string> fromWords = {"point", "line", "disc", "sphere", "box", "surface", "death"};
-const std::vector<std::string> bySchedule = {"point", "line", "disc", "sphere", "box", "surface"};
+const std::vector<std::string> bySchedule(fromWords.begin(), fromWords.end() - 1);  // all but death
 
 bool outwardByNature(const Emitter& emitter) {
     return emitter.from == From::sphere || emitter.from == From::surface || emitter.from == From::death;
@@ -81,6 +81,29 @@ const char* name(Allocator allocator) {
 
 const char* name(Emitter::From from) {
     return fromWords[size_t(from)].c_str();
+}
+
+EmitterPlace placeOf(const Emitter& emitter, const std::vector<Model>& models) {
+    switch (emitter.from) {
+    case From::point:
+    case From::disc:
+    case From::sphere:
+    case From::death:
+        break;
+    case From::line: {
+        const glm::dvec3 &from = emitter.lineFrom, &to = emitter.lineTo;
+        return {from, {glm::min(from, to), glm::max(from, to)}};
+    }
+    case From::box: {
+        const Box& box = emitter.box;
+        return {0.5 * (box.low + box.high), box};
+    }
+    case From::surface: {
+        const Mesh& mesh = models[size_t(emitter.model)].mesh;
+        return {0.5 * (mesh.low + mesh.high), {mesh.low, mesh.high}};
+    }
+    }
+    return {emitter.position, {emitter.position, emitter.position}};
 }
 
 const Description& describe(const Burst*) {

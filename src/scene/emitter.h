@@ -15,6 +15,7 @@
 namespace shoal {
 
 class Description;
+struct Model;
 
 // How a newborn finds a free place in its group. All but `ring` emit nothing while the group is full, and
 // count what was not emitted.
@@ -78,6 +79,13 @@ struct Emitter {
 };
 
 const char* name(Emitter::From from);
+
+// Where newborn start, without the emitter's path and its radius.
+struct EmitterPlace {
+    glm::dvec3 middle{0};  // m, of a line its start; of what dies anything
+    Box box;               // m: all of it
+};
+EmitterPlace placeOf(const Emitter& emitter, const std::vector<Model>& models);
 
 // Describes birth and death in a group.
 struct Lifecycle {

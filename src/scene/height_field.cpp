@@ -1,8 +1,10 @@
-#include "scene/height_field.h"
+#include "scene/collider_kinds.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "core/image.h"
 
 namespace shoal {
 

@@ -384,7 +384,8 @@ bool Births::change(size_t group, const Lifecycle& life) {
         same = sameText(life.emitters[e], now.emitters[e]);
     if (!same) return false;
     for (size_t e = 0; e < life.emitters.size(); ++e)
-        if (life.emitters[e].from != Emitter::From::surface) living.middles[e] = middleOf(life.emitters[e]);
+        if (life.emitters[e].from != Emitter::From::surface)
+            living.middles[e] = placeOf(life.emitters[e], {}).middle;
     living.life = life;
     for (Living::DeathRun& run : living.deathRuns)
         run.each = life.emitters[size_t(run.emitter)].perDeath;

@@ -1,4 +1,5 @@
 #include "gl/school_reference.h"
+#include "scene/collider_kinds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -110,9 +111,9 @@ double SchoolReference::clearance(const dvec3& place) const {
     double least = 1e30;
     for (const Collider& collider : scene_->colliders) {
         double distance = 0;
-        if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape))
+        if (const auto* plane = std::get_if<PlaneCollider>(&*collider.shape))
             distance = glm::dot(glm::normalize(plane->normal), place - plane->point);
-        if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape))
+        if (const auto* sphere = std::get_if<SphereCollider>(&*collider.shape))
             distance = glm::distance(place, sphere->center) - sphere->radius;
         least = std::min(least, distance - collider.thickness);
     }

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gl/births.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "simulate/fused.h"
 #include "support/catch.h"

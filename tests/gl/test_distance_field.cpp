@@ -1,9 +1,9 @@
 // Distance fields on the GPU: the surface's own text against its definition in double, and contact with it.
 #include <cmath>
 
-#include "compile/distance_samples.h"
 #include "gl/numerics.h"
 #include "reference/colliders.h"
+#include "scene/collider_kinds.h"
 #include "simulate/tables.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -71,7 +71,7 @@ TEST_CASE("distance field: the shader's surface is the reference's", "[numerics]
     int pushed = 0;
     double worst = 0;
     for (size_t i = 0; i < items.size(); ++i) {
-        const reference::Surface s = reference::surfaceAt(scene.colliders[0].shape, items[i].position);
+        const reference::Surface s = reference::surfaceAt(*scene.colliders[0].shape, items[i].position);
         const double depth = std::max(0.0, thickness - s.distance);
         pushed += depth > 0;
         worst = std::max(worst, glm::distance(now.positions[i], items[i].position + depth * s.normal));
@@ -139,7 +139,7 @@ TEST_CASE("distance field: points come to rest, on flat and round places, and st
                 // what is looked for along the way is touched from 1e-5 m on (step/joint_contact.glsl)
                 if (!round) CHECK(later.positions[m].y == Approx(thickness).margin(1.2e-5));
                 const reference::Surface s =
-                    reference::surfaceAt(scene.colliders[0].shape, later.positions[m]);
+                    reference::surfaceAt(*scene.colliders[0].shape, later.positions[m]);
                 CHECK(s.distance == Approx(thickness).margin(1.5e-5));
             }
         }

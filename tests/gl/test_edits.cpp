@@ -5,6 +5,7 @@
 
 #include "core/description.h"
 #include "gl/births.h"
+#include "scene/collider_kinds.h"
 #include "simulate/carry_over.h"
 #include "support/catch.h"
 #include "support/moved.h"

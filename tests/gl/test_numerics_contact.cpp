@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "gl/numerics.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 
 namespace shoal {

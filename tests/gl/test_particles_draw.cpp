@@ -4,6 +4,7 @@
 
 #include "core/image.h"
 #include "gl/blending.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

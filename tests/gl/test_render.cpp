@@ -2,6 +2,7 @@
 #include <tuple>
 
 #include "gl/render_scene.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/scratch.h"
 

@@ -1,5 +1,6 @@
 // Pictures under water, and of metallic molecules: invariants, no goldens.
 #include "gl/render_scene.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 
 using namespace shoal;

@@ -194,7 +194,8 @@ TEST_CASE("hard: grooves", "[hard][contact]") {
                 test::runChecked(simulation, 1);
                 for (const glm::dvec3& x : simulation.snapshot(0).positions)
                     for (const Collider& c : scene.colliders)
-                        out = std::max(out, thickness - glm::dot(x, std::get<PlaneCollider>(c.shape).normal));
+                        out =
+                            std::max(out, thickness - glm::dot(x, std::get<PlaneCollider>(*c.shape).normal));
             }
             judge.atMost("deepest m", out, 1e-4);
             judgeRest(judge, simulation);
@@ -280,7 +281,7 @@ TEST_CASE("hard: starting inside a collider", "[hard][contact]") {
         judge.atMost("m/s on the way", speed, limit);
         double deepest = 0;
         for (const glm::dvec3& x : now.positions) {
-            const bool ball = std::holds_alternative<SphereCollider>(scene.colliders[0].shape);
+            const bool ball = std::holds_alternative<SphereCollider>(*scene.colliders[0].shape);
             deepest = std::max(deepest, ball ? 0.5 - glm::length(x) : -x.y);
         }
         judge.atMost("m inside at the end", deepest, 1e-4);

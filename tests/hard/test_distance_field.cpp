@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hard/outcome.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/solids.h"
 
@@ -53,7 +54,7 @@ TEST_CASE("hard: a thin distance field", "[hard][contact][distanceField]") {
         Scene scene = test::sceneOf(test::point(1), solver.kind, items);
         scene.gravity = {0, -g, 0};
         scene.colliders = {fieldOf(plate, 40)};
-        const DistanceField field = std::get<DistanceFieldCollider>(scene.colliders[0].shape).field;
+        const DistanceField field = std::get<DistanceFieldCollider>(*scene.colliders[0].shape).field;
         setSteps(scene, 1 / 240.0, 1);
         Simulation simulation = test::hardSimulation(scene);
         for (int i = 0; i < 40; ++i) {
@@ -85,7 +86,7 @@ TEST_CASE("hard: a distance field of a mesh with holes", "[hard][contact][distan
         Scene scene = test::sceneOf(test::point(1), solver.kind, items);
         scene.gravity = {0, -g, 0};
         scene.colliders = {fieldOf(crate, 32)};
-        const DistanceField field = std::get<DistanceFieldCollider>(scene.colliders[0].shape).field;
+        const DistanceField field = std::get<DistanceFieldCollider>(*scene.colliders[0].shape).field;
         setSteps(scene, 1 / 60.0, 4);
         Simulation simulation = test::hardSimulation(scene);
         for (int i = 0; i < 36; ++i) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hard/outcome.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 
 namespace shoal {

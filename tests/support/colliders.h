@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "scene/scene.h"
+#include "scene/collider_kinds.h"
 
 namespace shoal::test {
 

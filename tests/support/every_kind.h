@@ -1,5 +1,6 @@
-// One of every kind of field and force, with what is known of it, for the tests that go through all kinds:
-// files, generated text, both execution paths against the reference, and the reference against closed forms.
+// One of every kind of field, force and collider, with what is known of it, for the tests that go through all
+// kinds: files, generated text, both execution paths against the reference, and the reference against closed
+// forms.
 #pragma once
 
 #include <optional>
@@ -7,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "reference/problem.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "support/shapes.h"
@@ -115,6 +118,32 @@ inline std::vector<Force> everyForce() {
     for (KindOfForce& kind : kindsOfForce())
         out.emplace_back().shape = std::move(kind.shape);
     return out;
+}
+
+struct KindOfCollider {
+    ColliderShape shape;
+    glm::dvec3 x{0}, normal{0};  // a place, and the closed form there
+    double distance = 0;         // m
+};
+
+inline std::vector<KindOfCollider> kindsOfCollider() {
+    HeightFieldCollider stored;
+    stored.columns = stored.rows = 2;
+    stored.high = {1, 1};
+    stored.heights.resize(4);
+    HeightFieldCollider sampled = stored;
+    sampled.sampledNormals = true;
+    DistanceFieldCollider wall;  // x = 0.5, solid below it
+    wall.field.grid.size = {2, 2, 2};
+    wall.field.distances = {-0.5f, 0.5f, -0.5f, 0.5f, -0.5f, 0.5f, -0.5f, 0.5f};
+    return {{PlaneCollider{{0, 1, 0}, {0, 0, 2}}, {5, 5, 3}, {0, 0, 1}, 3},
+            {SphereCollider{}, {0, 0, 2.5}, {0, 0, 1}, 1.5},
+            {stored, {0.5, 0.25, 0.4}, {0, 1, 0}, 0.25},
+            {sampled, {0.5, -0.25, 0.4}, {0, 1, 0}, -0.25},
+            {BoxCollider{}, {0.4, 0, 0}, {1, 0, 0}, -0.1},
+            {BoxCollider{{0, 0, 0}, {1, 2, 3}, {0.5, 0.5, 0.5, 0.5}}, {0, 0, 1.5}, {0, 0, 1}, 0.5},
+            {CapsuleCollider{{0, 0, 0}, {2, 0, 0}, 0.5}, {1, 0, 2}, {0, 0, 1}, 1.5},
+            {wall, {0.75, 0.5, 0.5}, {1, 0, 0}, 0.25}};
 }
 
 inline reference::Problem fallInShear(const Molecule& molecule) {

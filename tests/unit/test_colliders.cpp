@@ -1,4 +1,6 @@
-// Boxes and capsules: distance and normal as the GPU has them, against the definition and the reference.
+// Colliders: the reference against closed forms; boxes and capsules: distance and normal as the GPU has them,
+// against the definition and the reference.
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -6,6 +8,7 @@
 #include "reference/colliders.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
+#include "support/every_kind.h"
 #include "support/message_of.h"
 #include "support/shader_physics.h"
 #include "support/small_scene.h"
@@ -50,6 +53,20 @@ void checkSurface(const Shape& shape, const dvec3& x) {
 }
 
 }  // namespace
+
+TEST_CASE("every kind of collider is there, and as its closed form says", "[colliders][reference]") {
+    std::vector<bool> there(std::variant_size_v<ColliderShape::variant>);
+    for (const test::KindOfCollider& kind : test::kindsOfCollider()) {
+        there[kind.shape.index()] = true;
+        INFO(kindName(kind.shape));
+        const reference::Surface found = reference::surfaceAt(kind.shape, kind.x);
+        CHECK(glm::length(found.normal - kind.normal) < 1e-6);
+        CHECK(found.distance == Approx(kind.distance).margin(1e-12));
+        const std::optional<double> reach = reachOf(kind.shape);
+        if (reach) CHECK(glm::length(kind.x - found.distance * found.normal) <= *reach);
+    }
+    CHECK(std::find(there.begin(), there.end(), false) == there.end());
+}
 
 TEST_CASE("boxes: exact distance inside and outside", "[colliders][contact]") {
     const BoxCollider box{

@@ -6,6 +6,7 @@
 #include "core/describe.h"
 #include "core/file.h"
 #include "molecule/molecule_json.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_files/field_file.h"
 #include "scene/field_kinds.h"
 #include "scene/scene.h"

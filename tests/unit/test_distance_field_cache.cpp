@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "geometry/distance_field.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"
@@ -138,7 +139,7 @@ TEST_CASE("a scene's distance field", "[distanceField][scene]") {
     const Scene scene =
         readWith(scratch, R"("model": "crate", "resolution": 8, "thickness": 0.1, "friction": 1)");
     REQUIRE(scene.colliders.size() == 1);
-    const auto& collider = std::get<DistanceFieldCollider>(scene.colliders[0].shape);
+    const auto& collider = std::get<DistanceFieldCollider>(*scene.colliders[0].shape);
     CHECK(collider.model == "crate");
     CHECK(collider.field.resolution == 8);
     CHECK(collider.field.grid.cell == 0.125);
@@ -146,7 +147,7 @@ TEST_CASE("a scene's distance field", "[distanceField][scene]") {
     CHECK(scene.colliders[0].friction == 1);
     CHECK(scene.warnings.empty());
     // the default
-    CHECK(std::get<DistanceFieldCollider>(readWith(scratch, R"("model": "crate")").colliders[0].shape)
+    CHECK(std::get<DistanceFieldCollider>(*readWith(scratch, R"("model": "crate")").colliders[0].shape)
               .field.resolution == defaultResolution);
 
     // open: half of a face is missing
@@ -158,7 +159,7 @@ TEST_CASE("a scene's distance field", "[distanceField][scene]") {
     CHECK(warning.find("$.colliders[0].model") != std::string::npos);
     CHECK(warning.find("model \"crate\" is not closed (4 border edges, the first at (") != std::string::npos);
     CHECK(warning.find("of \"crate\"") != std::string::npos);
-    CHECK(std::get<DistanceFieldCollider>(shell.colliders[0].shape).field.shell == 0.3);
+    CHECK(std::get<DistanceFieldCollider>(*shell.colliders[0].shape).field.shell == 0.3);
 }
 
 TEST_CASE("mistakes in a distance field are located", "[distanceField][scene]") {

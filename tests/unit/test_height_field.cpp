@@ -1,6 +1,7 @@
 #include <cmath>
 
-#include "scene/height_field.h"
+#include "core/image.h"
+#include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/meshes.h"
 

@@ -246,7 +246,7 @@ TEST_CASE("no slider changes a kernel's text", "[kernel]") {
         std::get<GustField>(*moved.fields[0].shape).speed = 11;
         moved.fields[1].weight = 0.25;
         moved.colliders[0].friction = 0.9;
-        std::get<SphereCollider>(moved.colliders[1].shape).radius = 0.3;
+        std::get<SphereCollider>(*moved.colliders[1].shape).radius = 0.3;
         moved.seed = 12;
         group.count = 2000;
         CHECK(kernelOf(moved, options) == text);

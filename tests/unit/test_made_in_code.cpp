@@ -5,6 +5,7 @@
 
 #include "compile/plan.h"
 #include "molecule/molecule_file.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
 #include "scene/json/scene_file.h"
@@ -124,7 +125,7 @@ F& force(Scene& scene, size_t i) {
 }
 template <typename C>
 C& collider(Scene& scene, size_t i) {
-    return std::get<C>(scene.colliders[i].shape);
+    return std::get<C>(*scene.colliders[i].shape);
 }
 
 const Mistake mistakes[] = {

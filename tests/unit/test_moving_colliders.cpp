@@ -4,6 +4,7 @@
 
 #include "compile/generate.h"
 #include "compile/plan.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
 #include "support/message_of.h"

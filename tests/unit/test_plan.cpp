@@ -7,6 +7,7 @@
 #include "compile/plan.h"
 #include "molecule/analysis.h"
 #include "molecule/molecule_file.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "support/catch.h"
 #include "support/message_of.h"

@@ -1,6 +1,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "scene/json/scene_file.h"
 #include "support/catch.h"
@@ -99,12 +100,12 @@ TEST_CASE("a scene's models and colliders", "[scene]") {
     CHECK(mesh.objects.size() == 2);
 
     REQUIRE(scene.colliders.size() == 3);
-    CHECK(std::get<PlaneCollider>(scene.colliders[0].shape).normal == glm::dvec3(0, 1, 0));
+    CHECK(std::get<PlaneCollider>(*scene.colliders[0].shape).normal == glm::dvec3(0, 1, 0));
     CHECK(scene.colliders[0].restitution == 0.9);
     CHECK_FALSE(scene.colliders[0].draw);
-    CHECK(std::get<SphereCollider>(scene.colliders[1].shape).radius == 0.5);
+    CHECK(std::get<SphereCollider>(*scene.colliders[1].shape).radius == 0.5);
     CHECK(scene.colliders[1].thickness == 0.01);
-    const auto& heights = std::get<HeightFieldCollider>(scene.colliders[2].shape);
+    const auto& heights = std::get<HeightFieldCollider>(*scene.colliders[2].shape);
     CHECK(heights.sampledNormals);
     CHECK(heights.columns == 5);
     // The slope rises along -X now: 2 m at the left edge, 0 at the right one.

@@ -142,20 +142,9 @@ std::vector<Field> everyField() {
 }
 
 std::vector<Collider> everyCollider() {
-    HeightFieldCollider stored;
-    stored.columns = stored.rows = 2;
-    stored.high = {1, 1};
-    stored.heights.resize(4);
-    HeightFieldCollider sampled = stored;
-    sampled.sampledNormals = true;
-    std::vector<Collider> out(7);
-    out[0].shape = PlaneCollider{};
-    out[1].shape = SphereCollider{};
-    out[2].shape = std::move(stored);
-    out[3].shape = std::move(sampled);
-    out[4].shape = BoxCollider{};
-    out[5].shape = BoxCollider{{0, 0, 0}, {1, 1, 1}, {0.5, 0.5, 0.5, 0.5}};
-    out[6].shape = CapsuleCollider{};
+    std::vector<Collider> out;
+    for (test::KindOfCollider& kind : test::kindsOfCollider())
+        out.emplace_back().shape = std::move(kind.shape);
     return out;
 }
 

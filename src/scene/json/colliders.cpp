@@ -4,8 +4,8 @@
 #include <span>
 
 #include "core/describe.h"
-#include "geometry/distance_field.h"
-#include "scene/height_field.h"
+#include "core/image.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/reader.h"
 
 namespace shoal {

@@ -8,6 +8,7 @@
 #include "gpu/gl.h"
 #include "molecule/molecule_json.h"
 #include "run/data_paths.h"
+#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 
 namespace shoal::window {
