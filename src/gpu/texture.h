@@ -20,6 +20,7 @@ enum class Format { rgba32f, rgba16f, rgba8, srgb8a8, rgba32ui, rg32ui, r32ui, r
 size_t texelBytes(Format format);  // of the data, as above
 bool isDepth(Format format);
 GLenum internalFormat(Format format);
+const char* name(Format format);
 
 class Texture {
   public:

@@ -201,7 +201,7 @@ void SlabDraws::update(const DrawOrder& order, const DepthSlabs& slabs) {
     program_.set("batch", stream_.batch);
     program_.storage("Draws", 0, draws_, 0, draws_.bytes());
     program_.dispatch((slabs_ + lanes - 1) / lanes);
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::draw});
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::command});
 }
 
 void SlabDraws::bind(const gpu::Program& program) const {
