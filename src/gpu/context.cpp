@@ -25,6 +25,11 @@ struct Context::State {
 static Context::State* currentState = nullptr;
 static Loader glewLoader = nullptr;  // whose functions GLEW's pointers are
 
+static void setCurrentLoader(Loader load, bool isWindow) {
+    if (load == currentLoader.load && isWindow == currentLoader.isWindow) return;
+    currentLoader = {load, isWindow, currentLoader.generation + 1};
+}
+
 static void leaveCurrent() {
     if (currentState != nullptr) currentState->platform->release();
     currentState = nullptr;
@@ -61,6 +66,13 @@ static void enter(Context::State& state, bool fresh) {
     const Loader loader = state.platform->loader();
     setCurrentLoader(loader, state.platform->window() != nullptr);
     if (fresh || glewLoader != loader) initGlew(loader);
+}
+
+static void restore(Context::State* state) {
+    if (state == nullptr)
+        leaveCurrent();
+    else if (state != currentState)
+        enter(*state, false);
 }
 
 bool isSoftwareRenderer(const std::string& renderer) {
@@ -147,20 +159,42 @@ static void GLAPIENTRY printMessage(GLenum, GLenum, GLuint, GLenum severity, GLs
         std::fprintf(stderr, "OpenGL: %s\n", printableLines(indented(text)).c_str());
 }
 
-static std::unique_ptr<Platform> createPlatform(ContextKind kind, const ContextOptions& options) {
-    switch (kind) {
-    case ContextKind::window:
-        return createWindowPlatform(options);
-    case ContextKind::egl:
-        return createEglPlatform(options);
-    default:
-        return createOsmesaPlatform(options);
-    }
+// ---- The kinds of contexts
+
+struct KindRow {
+    ContextKind kind;
+    const char* name;
+    std::unique_ptr<Platform> (*create)(const ContextOptions& options);
+    const char* advice;
+};
+static constexpr KindRow kindTable[] = {
+    {ContextKind::automatic, "auto", nullptr, ""},
+    {ContextKind::window, "window", createWindowPlatform,
+     "for a window: start it from a graphical session (or under xvfb-run), and install "
+     "libgl1-mesa-dri or the driver of your GPU"},
+    {ContextKind::egl, "egl", createEglPlatform,
+     "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU"},
+    {ContextKind::osmesa, "osmesa", createOsmesaPlatform,
+     "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)"},
+};
+
+static const KindRow& rowOf(ContextKind kind) {
+    return kindTable[static_cast<size_t>(kind)];
+}
+
+const char* name(ContextKind kind) {
+    return rowOf(kind).name;
+}
+
+ContextKind contextKind(const std::string& word) {
+    for (const KindRow& row : kindTable)
+        if (word == row.name) return row.kind;
+    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
 }
 
 static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptions& options) {
     auto state = std::make_unique<Context::State>();
-    state->platform = createPlatform(kind, options);
+    state->platform = rowOf(kind).create(options);
     enter(*state, true);
     state->info = readInfo(kind, *state->platform);
     if (options.debug && state->info.atLeast(4, 3)) {
@@ -177,39 +211,6 @@ static std::vector<ContextKind> kindsToTry(const ContextOptions& options) {
     return {ContextKind::egl, ContextKind::osmesa};
 }
 
-static const char* advice(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::window:
-        return "for a window: start it from a graphical session (or under xvfb-run), and install "
-               "libgl1-mesa-dri or the driver of your GPU";
-    case ContextKind::egl:
-        return "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU";
-    default:
-        return "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)";
-    }
-}
-
-ContextKind contextKind(const std::string& word) {
-    for (const ContextKind kind :
-         {ContextKind::automatic, ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
-        if (word == name(kind)) return kind;
-    }
-    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
-}
-
-const char* name(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::window:
-        return "window";
-    case ContextKind::egl:
-        return "egl";
-    case ContextKind::osmesa:
-        return "osmesa";
-    default:
-        return "auto";
-    }
-}
-
 Context::Context(const ContextOptions& options) {
     State* before = currentState;
     std::string tried, help;
@@ -220,7 +221,7 @@ Context::Context(const ContextOptions& options) {
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());
-            help += concat("\n    ", advice(kind));
+            help += concat("\n    ", rowOf(kind).advice);
         }
     }
     restore(before);
@@ -269,16 +270,24 @@ void Context::checkErrors(const char* where) {
     if (!found.empty()) throw Error(concat("OpenGL reports ", found, " (", where, ")"));
 }
 
-Context::State* Context::current() {
-    return currentState;
-}
-
-void Context::restore(State* state) {
-    if (state == nullptr) {
-        leaveCurrent();
-    } else if (state != currentState) {
-        enter(*state, false);
+std::vector<ContextProbe> probeContexts() {
+    Context::State* before = currentState;
+    std::vector<ContextProbe> out;
+    for (const ContextKind kind : {ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
+        ContextProbe& result = out.emplace_back();
+        result.kind = kind;
+        try {
+            ContextOptions options;
+            options.kind = kind;
+            options.width = options.height = 64;
+            options.visible = false;
+            result.info = Context(options).info();
+        } catch (const std::exception& error) {
+            result.reason = error.what();
+        }
     }
+    restore(before);
+    return out;
 }
 
 }  // namespace shoal::gpu

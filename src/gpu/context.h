@@ -119,15 +119,12 @@ class Context {
     void checkErrors(const char* where);
 
     struct State;
-    // Returns the state of the context that is current in this process, or null.
-    static State* current();
-    static void restore(State* state);
 
   private:
     std::unique_ptr<State> state_;
 };
 
-// Which contexts this machine offers, for `shoal info` (probe.cpp).
+// Which contexts this machine offers, for `shoal info`.
 struct ContextProbe {
     ContextKind kind = ContextKind::automatic;
     std::optional<ContextInfo> info;  // empty when the context cannot be had

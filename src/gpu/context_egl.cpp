@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -88,25 +89,17 @@ bool displayHas(EGLDisplay display, const char* extension) {
 }
 
 std::string errorText() {
+    static constexpr std::pair<EGLint, const char*> words[] = {{EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
+                                                               {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},
+                                                               {EGL_BAD_ALLOC, "EGL_BAD_ALLOC"},
+                                                               {EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE"},
+                                                               {EGL_BAD_CONFIG, "EGL_BAD_CONFIG"},
+                                                               {EGL_BAD_MATCH, "EGL_BAD_MATCH"},
+                                                               {EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER"}};
     const EGLint code = egl().getError();
-    switch (code) {
-    case EGL_NOT_INITIALIZED:
-        return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS:
-        return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC:
-        return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE:
-        return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG:
-        return "EGL_BAD_CONFIG";
-    case EGL_BAD_MATCH:
-        return "EGL_BAD_MATCH";
-    case EGL_BAD_PARAMETER:
-        return "EGL_BAD_PARAMETER";
-    default:
-        return concat("EGL error ", code);
-    }
+    for (const auto& [known, word] : words)
+        if (code == known) return word;
+    return concat("EGL error ", code);
 }
 
 // A display is the same object for all who ask for it, and eglTerminate would end it for all of them. So it
