@@ -78,11 +78,10 @@ EXPORTED Procedure glXGetProcAddressARB(const GLubyte* name);
 EXPORTED Procedure glXGetProcAddressARB(const GLubyte* name) {
     const char* word = reinterpret_cast<const char*>(name);
     const bool isGlx = std::strncmp(word, "glX", 3) == 0;
-    const auto& loader = currentLoader;
     // Loaders may answer any name with a stub, so GLX must not be asked for where there is none: GLEW would
     // call it.
-    if (isGlx && loader.load != nullptr && !loader.isWindow) return nullptr;
-    if (!isGlx && loader.load != nullptr) return loader.load(word);
+    if (isGlx && currentLoader.load != nullptr && !currentLoader.isWindow) return nullptr;
+    if (!isGlx && currentLoader.load != nullptr) return currentLoader.load(word);
     using Self = Procedure (*)(const GLubyte*);
     const auto real = reinterpret_cast<Self>(systemProcedure("glXGetProcAddressARB"));
     return real != nullptr && real != &glXGetProcAddressARB ? real(name) : nullptr;

@@ -147,8 +147,8 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     }
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
-        declared_.merge(declaredUniforms(stage.source.text));
-        for (const std::string& block : declaredBuffers(stage.source.text))
+        declared_.merge(declared(stage.source.text, "uniform"));
+        for (const std::string& block : declared(stage.source.text, "buffer"))
             storageBindings_.emplace(block, storageBinding(id(), block));
     }
     labelObject(context, GL_PROGRAM, id(), label_.c_str());

@@ -8,11 +8,12 @@
 #include "core/file.h"
 
 namespace shoal::gpu {
-namespace {
 
 bool isIdentifier(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
+
+namespace {
 
 std::string_view withoutSpaces(std::string_view text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
@@ -232,19 +233,7 @@ const char* header430() {
     return "#version 430 core\n";
 }
 
-const char* header300es() {
-    return "#version 300 es\n"
-           "precision highp float;\n"
-           "precision highp int;\n"
-           "precision highp sampler2D;\n"
-           "precision highp sampler2DShadow;\n"
-           "precision highp sampler2DArray;\n"
-           "precision highp usampler2D;\n"
-           "precision highp usampler2DArray;\n";
-}
-
-// Every word between `keyword` and the end of its declaration.
-static std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword) {
+std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword) {
     std::set<std::string, std::less<>> out;
     bool inDeclaration = false;
     int depth = 0;  // of braces, inside a block
@@ -272,14 +261,6 @@ static std::set<std::string, std::less<>> declared(std::string_view text, std::s
         }
     }
     return out;
-}
-
-std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
-    return declared(text, "uniform");
-}
-
-std::set<std::string, std::less<>> declaredBuffers(std::string_view text) {
-    return declared(text, "buffer");
 }
 
 }  // namespace shoal::gpu
