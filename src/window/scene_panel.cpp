@@ -74,11 +74,7 @@ void ScenePanel::follow(const Scene& scene) {
     for (size_t g = 0; g < scene.groups.size(); ++g) {
         const Group& group = scene.groups[g];
         lives_ |= group.life || group.particle || group.school;
-        Edited& edited = groups_.emplace_back();
-        edited.group = g;
-        if (group.life) edited.life.emplace(g);
-        if (group.particle) edited.looks.emplace();
-        if (group.school) edited.school.emplace();
+        groups_.emplace_back().group = g;
     }
 }
 
@@ -131,29 +127,29 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
     if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
     const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
     bool life = false, looks = false, mass = false;
-    if (edited.life) {
+    if (group.life) {
         if (planGroup) drawCounts(edited, simulation, *planGroup);
-        life = edited.life->drawEmitters(scene);
+        life = drawEmitters(scene, edited.group, edited.rows);
         if (ImGui::TreeNodeEx("Life and death", open)) {
-            life |= edited.life->drawLife(scene);
+            life |= drawLife(scene, edited.group, edited.rows);
             ImGui::TreePop();
         }
     }
-    if (edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+    if (group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
         const double before = group.particle->mass;
-        looks = edited.looks->draw(*group.particle, group.life.has_value());
+        looks = drawParticles(*group.particle, group.life.has_value(), edited.rows);
         mass = group.particle->mass != before;  // the plan has it
         ImGui::TreePop();
     }
-    if (edited.school && ImGui::TreeNodeEx("School", open)) {
-        if (edited.school->draw(*group.school)) {
+    if (group.school && ImGui::TreeNodeEx("School", open)) {
+        if (edited.rows.draw(*group.school)) {
             pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
             changed_ = true;
             said_.clear();
         }
         ImGui::TreePop();
     }
-    if (!edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+    if (!group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
         const bool material = drawMaterial(group, running.choices.groups[group.name]);
         if (material && planGroup) renderer.changeLooks(*planGroup, group);
         if (material) said_.clear();
