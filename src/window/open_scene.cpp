@@ -128,12 +128,9 @@ void row(const char* label) {
     ImGui::SameLine(points(96));
 }
 
-enum class MoleculeAction { none, follow, close };
-
-// At the bottom, from `left` on. `follows`: the camera does.
-MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
-                            const MoleculeNumbers& numbers, bool follows, float left) {
-    MoleculeAction action = MoleculeAction::none;
+// At the bottom, from `left` on. `follows`: the camera does. False: the user closed it.
+bool showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
+                  const MoleculeNumbers& numbers, bool& follows, float left) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = points(300);
     ImGui::SetNextWindowPos(
@@ -173,9 +170,9 @@ MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& gro
                 !shape.hasPins()   ? ""
                 : numbers.released ? ", its pins have let go"
                                    : ", held by its pins");
-    if (ImGui::Button(follows ? "Stop following" : "Follow")) action = MoleculeAction::follow;
+    if (ImGui::Button(follows ? "Stop following" : "Follow")) follows = !follows;
     ImGui::End();
-    return open ? action : MoleculeAction::close;
+    return open;
 }
 
 // A ring around it.
@@ -193,9 +190,7 @@ void OpenScene::drawPicked(float left) {
         markMolecule(*at, points(14));
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
-    const MoleculeAction action = showMolecule(picked, group.name, group.molecule, *numbers, follows, left);
-    if (action == MoleculeAction::follow) follows = !follows;
-    if (action == MoleculeAction::close) forget();
+    if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left)) forget();
 }
 
 }  // namespace shoal::window

@@ -9,6 +9,7 @@
 #include "molecule/molecule_json.h"
 #include "run/data_paths.h"
 #include "scene/field_kinds.h"
+#include "window/editor/overlay.h"
 
 namespace shoal::window {
 
@@ -16,13 +17,6 @@ namespace {
 
 constexpr double frameRate = 60;
 constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
-
-double lowest(const Molecule& molecule) {
-    double out = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        out = &vertex == molecule.vertices.data() ? vertex.position.y : std::min(out, vertex.position.y);
-    return out;
-}
 
 // Whether the same programs run both: their text holds all but the springs' numbers and the start.
 bool sameProgram(const Plan& a, const Plan& b) {
@@ -96,20 +90,19 @@ Scene EditorStage::sceneOf(const Molecule& molecule, const StageSettings& settin
     floor.shape = PlaneCollider{{0, floor_, 0}, {0, 1, 0}};
     floor.thickness = 0.002 * molecule.size();
     floor.color = {0.045, 0.05, 0.05};
-    floor.draw = settings.floorShows;
     scene.colliders.push_back(floor);
     scene.light.direction = {-0.45, -1, -0.5};
     scene.sky.zenith = {0.10, 0.12, 0.15};
     scene.sky.horizon = {0.24, 0.27, 0.30};
-    scene.sky.ground = settings.floorShows ? glm::dvec3(0.10, 0.11, 0.11) : scene.sky.horizon * 0.6;
+    scene.sky.ground = {0.10, 0.11, 0.11};
     return scene;
 }
 
 void EditorStage::show(const Molecule& molecule, const StageSettings& settings) {
     const bool other = !simulation_ || scene_.groups[0].molecule.vertices.size() != molecule.vertices.size();
-    const double size = molecule.size();
-    if (!simulation_ || settings.around != settings_.around || lowest(molecule) < floor_ + 0.2 * size)
-        floor_ = lowest(molecule) - (settings.around == StageSettings::Around::drop ? 1.2 : 0.6) * size;
+    const double size = molecule.size(), lowest = boxAround(molecule).low.y;
+    if (!simulation_ || settings.around != settings_.around || lowest < floor_ + 0.2 * size)
+        floor_ = lowest - (settings.around == StageSettings::Around::drop ? 1.2 : 0.6) * size;
     const Scene scene = sceneOf(molecule, settings);
     Plan plan = compile(scene, {.liveSprings = true});
     const bool same = simulation_ && sameProgram(plan, simulation_->plan());
@@ -248,12 +241,6 @@ void EditorStage::draw(const View& view, int width, int height) {
     if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);
     renderer_->present(width, height);
-}
-
-Image EditorStage::picture(const View& view, int width, int height) {
-    if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
-    renderer_->draw(simulation_->state(), view);
-    return renderer_->capture();
 }
 
 MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule,

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "core/image.h"
 #include "gpu/program_cache.h"
 #include "molecule/analysis.h"
 #include "render/renderer.h"
@@ -22,7 +21,6 @@ struct StageSettings {
     double gravity = 9.81;  // m/s^2, but for still
     double drag = 6;        // 1/s, across the surface; along it a fifth
     bool pinsHold = true;
-    bool floorShows = true;
     int substeps = 8;                  // of a frame of 1/60 s
     std::optional<SolverKind> solver;  // nothing: chosen by the stiffness
     bool operator==(const StageSettings&) const = default;
@@ -46,9 +44,7 @@ class EditorStage {
     int frame() const { return frame_; }
     int frames() const { return int(played_.size()); }  // that were played, the rest shape with them
     double time() const { return frame_ / 60.0; }       // s
-    bool moved() const {
-        return ready() && (playing || frame_ > 0);
-    }  // or it moves: the molecule is not as edited
+    bool moved() const { return ready() && (playing || frame_ > 0); }  // or it moves: it is not as edited
 
     // A vertex that the pointer holds follows it. Nothing: none is held.
     struct Pull {
@@ -61,7 +57,6 @@ class EditorStage {
     void rest();  // back to what was played
 
     void draw(const View& view, int width, int height);  // into the window
-    Image picture(const View& view, int width, int height);
     // Positions of the vertices as they are drawn, m.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
 
