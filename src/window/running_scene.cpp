@@ -127,6 +127,13 @@ Plan RunningScene::compileStably(Scene& next) const {
     return compile(next);
 }
 
+std::vector<std::string> RunningScene::build(Scene next, bool warns) {
+    settleParticles(next);
+    const Plan plan = compileStably(next);
+    if (warns) tellWarnings(plan.warnings);
+    return build(std::move(next), plan, path_);
+}
+
 void RunningScene::applyChoices(Scene& next, const Scene& from) const {
     next.solver.kind = choices.solver.value_or(from.solver.kind);
     next.solver.substeps = from.solver.substeps;
@@ -149,10 +156,8 @@ void RunningScene::applyChoices(Scene& next, const Scene& from) const {
 void RunningScene::edit() {
     try {
         Scene next = scene;
-        settleParticles(next);
         next.solver.substeps = original_.solver.substeps;
-        const Plan plan = compileStably(next);
-        build(std::move(next), plan, path_);
+        build(std::move(next));
     } catch (const Error&) {
         copyEdits(accepted_, scene.groups);
         settleParticles(scene);
@@ -164,9 +169,7 @@ void RunningScene::choose() {
     try {
         Scene next = scene;
         applyChoices(next, original_);
-        settleParticles(next);
-        const Plan plan = compileStably(next);
-        build(std::move(next), plan, path_);
+        build(std::move(next));
     } catch (const Error&) {
         choices = acceptedChoices_;
         throw;
@@ -245,10 +248,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
         Scene next = theirs;
         next.groups = std::move(merged.groups);
         applyChoices(next, theirs);
-        settleParticles(next);
-        const Plan plan = compileStably(next);
-        tellWarnings(plan.warnings);
-        out.restarted = build(std::move(next), plan, path_);
+        out.restarted = build(std::move(next), true);
     } catch (const Error&) {
         choices = before;
         throw;

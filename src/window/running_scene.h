@@ -76,6 +76,7 @@ class RunningScene {
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);
+    std::vector<std::string> build(Scene next, bool warns = false);  // compiled; `warns`: of the plan
     Plan compileStably(Scene& next) const;
     void applyChoices(Scene& next, const Scene& from) const;
     std::vector<std::string> changedChoices(const Scene& theirs) const;

@@ -103,9 +103,9 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     if (ImGui::Button("Save")) action = Action::save;
     tip("Into the scene's file (Ctrl+S).");
     ImGui::SameLine();
-    if (!unsaved) ImGui::BeginDisabled();
+    ImGui::BeginDisabled(!unsaved);
     if (ImGui::Button("Revert")) action = Action::revert;
-    if (!unsaved) ImGui::EndDisabled();
+    ImGui::EndDisabled();
     tip("Back to what was saved last.");
     ImGui::SameLine();
     const std::string file = std::filesystem::path(scene.file).filename().string();
@@ -126,7 +126,7 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
     const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
     if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
     const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
-    bool life = false, looks = false, mass = false;
+    bool life = false, looks = false, mass = false, school = false, material = false;
     if (group.life) {
         if (planGroup) drawCounts(edited, simulation, *planGroup);
         life = drawEmitters(scene, edited.group, edited.rows);
@@ -142,22 +142,18 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
         ImGui::TreePop();
     }
     if (group.school && ImGui::TreeNodeEx("School", open)) {
-        if (edited.rows.draw(*group.school)) {
-            pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
-            changed_ = true;
-            said_.clear();
-        }
+        school = edited.rows.draw(*group.school);
         ImGui::TreePop();
     }
     if (!group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
-        const bool material = drawMaterial(group, running.choices.groups[group.name]);
-        if (material && planGroup) renderer.changeLooks(*planGroup, group);
-        if (material) said_.clear();
-        changed_ |= material;
+        material = drawMaterial(group, running.choices.groups[group.name]);
         ImGui::TreePop();
     }
-    changed_ |= life || looks;
-    if (life || looks) said_.clear();
+    if (!life && !looks && !school && !material) return;
+    changed_ = true;
+    said_.clear();
+    if (material && planGroup) renderer.changeLooks(*planGroup, group);
+    if (school) pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
     if (life) pending_ |= !planGroup || !simulation.changeLife(*planGroup, *group.life);
     if (looks) pending_ |= mass || !planGroup || !renderer.changeParticle(*planGroup, *group.particle);
 }
