@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/gl.h"
+#include "render/picture.h"
 
 namespace shoal {
 
@@ -168,15 +169,10 @@ void Renderer::present(int width, int height) const {
 }
 
 Image Renderer::capture() const {
-    const size_t row = size_t(width()) * 4;
-    std::vector<uint8_t> upsideDown(row * size_t(height()));
-    picture_.download(gpu::Traffic::Kind::parameters, 0, 0, width(), height(), upsideDown.data(),
-                      upsideDown.size());
-    Image image{width(), height(), 4, std::vector<uint8_t>(upsideDown.size())};
-    for (size_t y = 0; y < size_t(height()); ++y) {
-        std::copy_n(upsideDown.end() - std::ptrdiff_t((y + 1) * row), row,
-                    image.pixels.begin() + std::ptrdiff_t(y * row));
-    }
+    Image image{width(), height(), 4, std::vector<uint8_t>(picture_.bytes())};
+    picture_.download(gpu::Traffic::Kind::parameters, 0, 0, width(), height(), image.pixels.data(),
+                      image.pixels.size());
+    turnOver(image);
     return image;
 }
 

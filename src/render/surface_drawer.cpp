@@ -42,10 +42,8 @@ SurfaceMesh meshOf(const Mesh& mesh) {
         out.corners.push_back(corner);
     }
     out.indices.reserve(mesh.triangles.size() * 3);
-    for (const glm::ivec3& t : mesh.triangles) {
-        for (int k = 0; k < 3; ++k)
-            out.indices.push_back(uint32_t(t[k]));
-    }
+    for (const glm::ivec3& t : mesh.triangles)
+        out.indices.insert(out.indices.end(), {uint32_t(t[0]), uint32_t(t[1]), uint32_t(t[2])});
     return out;
 }
 
@@ -91,8 +89,7 @@ SurfaceMesh boxMesh(const BoxCollider& box) {
                 const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
                 out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n), glm::vec3(1)});
             }
-            for (const uint32_t corner : {0, 1, 2, 0, 2, 3})
-                out.indices.push_back(first + corner);
+            out.indices.insert(out.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
         }
     }
     return out;
@@ -160,22 +157,24 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         Drawn drawn;
         drawn.color = glm::vec3(collider.color);
         drawn.path = collider.path;
+        SurfaceMesh mesh;
         if (const auto* sphere = std::get_if<SphereCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, sphereMesh(*sphere), std::move(drawn), collider.name.c_str());
+            mesh = sphereMesh(*sphere);
         } else if (const auto* box = std::get_if<BoxCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, boxMesh(*box), std::move(drawn), collider.name.c_str());
+            mesh = boxMesh(*box);
         } else if (const auto* capsule = std::get_if<CapsuleCollider>(&collider.shape)) {
-            drawn.roughness = 0.5f;
-            add(context, capsuleMesh(*capsule), std::move(drawn), collider.name.c_str());
+            mesh = capsuleMesh(*capsule);
         } else if (const auto* plane = std::get_if<PlaneCollider>(&collider.shape)) {
+            mesh = discMesh(glm::normalize(plane->normal));
             drawn.plane = *plane;
             drawn.casts = false;
             drawn.detail = grid ? 0.35f : 0.9f;
             planes = true;
-            add(context, discMesh(glm::normalize(plane->normal)), std::move(drawn), collider.name.c_str());
+        } else {
+            continue;
         }
+        if (!drawn.plane) drawn.roughness = 0.5f;
+        add(context, mesh, std::move(drawn), collider.name.c_str());
     }
     if (surfaces_.empty()) return;
 
