@@ -41,9 +41,6 @@ class VideoWriter {
     void finish();
 
   private:
-    void start(double frameRate);
-    void closePipe();
-    void closeLog();
     int wait();  // exit status of ffmpeg, -1 when a signal ended it
     [[noreturn]] void fail(const std::string& what);
     std::string complaint() const;  // the end of what ffmpeg said

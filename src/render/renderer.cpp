@@ -104,10 +104,17 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         overlay->draw(state, inputs);
     }
     drawSky(eye);
-    if (sceneDepth_) copyDepth();
+    if (sceneDepth_) {
+        const auto timer = timers_.time("depth");
+        samples_.blitDepthTo(sceneDepthTarget_);
+        samples_.bind();
+    }
     if (groups_.blends()) drawBlended(state, inputs);
     samples_.blitTo(lightTarget_);
-    if (beams_) drawBeams(eye);
+    if (beams_) {
+        const auto timer = timers_.time("beams");
+        beams_.draw(eye, lighting_, sceneDepth_);
+    }
     drawPicture(view.exposure);
 }
 
@@ -133,12 +140,6 @@ void Renderer::drawSky(const Eye& eye) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::copyDepth() {
-    const auto timer = timers_.time("depth");
-    samples_.blitDepthTo(sceneDepthTarget_);
-    samples_.bind();
-}
-
 void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     const auto timer = timers_.time("blended");
     glEnable(GL_DEPTH_TEST);
@@ -146,11 +147,6 @@ void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     groups_.drawBlended(state, inputs);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
-}
-
-void Renderer::drawBeams(const Eye& eye) {
-    const auto timer = timers_.time("beams");
-    beams_.draw(eye, lighting_, sceneDepth_);
 }
 
 void Renderer::drawPicture(double exposure) {

@@ -78,8 +78,6 @@ class Renderer {
   private:
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
-    void copyDepth();
-    void drawBeams(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
     void drawPicture(double exposure);
 

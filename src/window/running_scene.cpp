@@ -62,10 +62,6 @@ RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, gpu
     build(std::move(loaded.scene), loaded.plan, path_);
 }
 
-View RunningScene::view() const {
-    return View::of(scene.camera, simulation_ ? simulation_->time() : 0);
-}
-
 std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
     SimulationOptions wanted;
     wanted.timing = gpu::PassTimers::suitedTo(context_->info());
@@ -103,7 +99,7 @@ std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path 
         GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());
         simulation->load(gone.state);
         simulation->parameters = carriedParameters(simulation_->parameters, simulation->parameters);
-        renderer->draw(simulation->state(), view());
+        renderer->draw(simulation->state(), View::of(scene.camera, simulation_->time()));
         restarted = std::move(gone.restarted);
     }
     renderer_ = std::move(renderer);

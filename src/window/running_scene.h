@@ -80,7 +80,6 @@ class RunningScene {
     Plan compileStably(Scene& next) const;
     void applyChoices(Scene& next, const Scene& from) const;
     std::vector<std::string> changedChoices(const Scene& theirs) const;
-    View view() const;
 
     const RunRequest& request_;
     gpu::Context* context_;
@@ -119,8 +118,6 @@ class HotReload {
   private:
     bool reload(RunningScene& running, std::optional<Prefer> prefer);
     void tell(const RunningScene::Reloaded& reloaded);
-    void tellConflicts(const RunningScene& running) const;
-    void fail(const Error& error);
 
     FileWatch watch_;
     std::vector<std::string> changed_;  // that led to what is reloaded
