@@ -132,11 +132,6 @@ VertexArray::VertexArray(Context& context, const char* label) : handle_(glGenVer
     labelObject(context, GL_VERTEX_ARRAY, id(), label);
 }
 
-// OpenGL takes an offset as a pointer, for reasons of history.
-static const void* asPointer(int offset) {
-    return reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
-}
-
 void VertexArray::attribute(int location, const Buffer& buffer, int components, int stride, int offset,
                             int divisor) {
     EXPECTS(buffer.use() == Buffer::Use::vertex && components >= 1 && components <= 4);
@@ -144,7 +139,9 @@ void VertexArray::attribute(int location, const Buffer& buffer, int components, 
     bind();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, asPointer(offset));
+    // OpenGL takes an offset as a pointer, for reasons of history.
+    const auto* at = reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
+    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, at);
     glVertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
@@ -152,10 +149,6 @@ void VertexArray::indices(const Buffer& buffer) {
     EXPECTS(buffer.use() == Buffer::Use::index);
     bind();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
-}
-
-void VertexArray::bind() const {
-    glBindVertexArray(id());
 }
 
 }  // namespace shoal::gpu

@@ -110,7 +110,7 @@ class VertexArray {
     void attribute(int location, const Buffer& buffer, int components, int stride, int offset,
                    int divisor = 0);
     void indices(const Buffer& buffer);
-    void bind() const;
+    void bind() const { glBindVertexArray(id()); }
 
     GLuint id() const { return handle_.id(); }
     explicit operator bool() const { return bool(handle_); }

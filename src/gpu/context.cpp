@@ -12,15 +12,6 @@
 
 namespace shoal::gpu {
 
-// On the heap, so that whoever borrows it need not care where the Context has moved.
-struct Context::State {
-    std::unique_ptr<Platform> platform;
-    ContextInfo info;
-    Traffic traffic;
-    std::set<std::string> shaderFiles;
-    ~State();
-};
-
 // Globals, because OpenGL's current context and GLEW's function pointers are.
 static Context::State* currentState = nullptr;
 static Loader glewLoader = nullptr;  // whose functions GLEW's pointers are
@@ -36,6 +27,7 @@ static void leaveCurrent() {
     setCurrentLoader(nullptr, false);
 }
 
+Context::State::State() = default;
 Context::State::~State() {
     if (currentState == this) leaveCurrent();
 }
@@ -228,27 +220,11 @@ Context::Context(const ContextOptions& options) {
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
 }
 
-Context::~Context() = default;
-Context::Context(Context&&) noexcept = default;
-Context& Context::operator=(Context&&) noexcept = default;
-
 void Context::makeCurrent() {
     if (currentState != state_.get()) enter(*state_, false);
 }
 bool Context::isCurrent() const {
     return state_ != nullptr && currentState == state_.get();
-}
-const ContextInfo& Context::info() const {
-    return state_->info;
-}
-Traffic& Context::traffic() {
-    return state_->traffic;
-}
-const std::set<std::string>& Context::shaderFiles() const {
-    return state_->shaderFiles;
-}
-void Context::noteShaderFile(const std::string& file) {
-    state_->shaderFiles.insert(file);
 }
 GLFWwindow* Context::window() const {
     return state_->platform->window();

@@ -103,10 +103,6 @@ void Framebuffer::checkComplete(const std::string& attachments) const {
                                                           : "an incomplete framebuffer"));
 }
 
-void Framebuffer::bind() const {
-    bind(0, 0, width_, height_);
-}
-
 void Framebuffer::bind(int x, int y, int width, int height) const {
     EXPECTS(x >= 0 && y >= 0 && x + width <= width_ && y + height <= height_);
     glBindFramebuffer(GL_FRAMEBUFFER, id());

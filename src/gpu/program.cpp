@@ -159,10 +159,6 @@ void Program::use() const {
     lastUsed = id();
 }
 
-bool Program::uses(const char* name) const {
-    return locations_.find(std::string_view(name)) != locations_.end();
-}
-
 bool Program::inUse() const {
     return id() != 0 && lastUsed == id();
 }

@@ -62,10 +62,6 @@ const char* name(Format format) {
     return row(format).name;
 }
 
-GLenum Texture::target() const {
-    return layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
-}
-
 Texture::Texture(Context& context, Format format, int width, int height, const char* label, int layers)
     : traffic_(&context.traffic()),
       format_(format),

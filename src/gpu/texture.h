@@ -55,7 +55,7 @@ class Texture {
     explicit operator bool() const { return bool(handle_); }
 
   private:
-    GLenum target() const;
+    GLenum target() const { return layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D; }
 
     Handle<deleteTexture> handle_;
     Traffic* traffic_ = nullptr;  // the context's, which outlives the texture and does not move

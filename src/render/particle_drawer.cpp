@@ -10,10 +10,6 @@ namespace {
 
 constexpr int batch = 64;  // particles an instance
 
-bool spreads(const glm::dvec2& span) {
-    return span.x != span.y;
-}
-
 bool turns(const ParticleType& type) {
     const bool any = type.turn != glm::dvec2(0) || type.spin != glm::dvec2(0);
     // A dot looks the same however it is turned about the line of sight.
@@ -101,7 +97,7 @@ std::vector<std::string> ParticleDrawer::defines() const {
     add(type_.shape == ParticleShape::points, "POINTS");
     add(type_.shape == ParticleShape::sprites, "SPRITES");
     out.push_back(concat("FACING ", name(type_.facing), "Facing"));
-    add(spreads(type_.size), "SIZES");
+    add(type_.size.x != type_.size.y, "SIZES");
     add(ages_ && type_.growth != glm::dvec2(1), "GROWS");
     add(turns(type_), "TURNS");
     add(ages_ && type_.colors.size() > 1, "COLORS");

@@ -45,7 +45,8 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
               pixelsPerMeterAt(scene.camera, options.height)),
       beams_(context, shaderRoot, water_.get()),
-      sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", lighting_.skyDefines(), {}, "sky"}),
+      sky_(context, shaderRoot,
+           {"render/screen.vert", "render/sky.frag", lighting_.defines(false), {}, "sky"}),
       tone_(context, shaderRoot,
             {"render/screen.vert", "render/picture.frag", pictureDefines(lighting_, beams_), {}, "picture"}),
       empty_(context, "no corners"),
@@ -158,10 +159,6 @@ void Renderer::drawPicture(double exposure) {
     tone_.set("exposure", float(exposure));
     empty_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
-}
-
-void Renderer::present(int width, int height) const {
-    pictureTarget_.blitToDefault(width, height);
 }
 
 Image Renderer::capture() const {

@@ -175,19 +175,15 @@ bool showMolecule(const PickedMolecule& picked, const std::string& group, const 
     return open;
 }
 
-// A ring around it.
-void markMolecule(const ImVec2& at, float radius) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddCircle(at, radius + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
-    list.AddCircle(at, radius, IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
-}
-
 }  // namespace
 
 void OpenScene::drawPicked(float left) {
     if (!explanations->picked || !numbers) return;
-    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle))
-        markMolecule(*at, points(14));
+    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle)) {  // a ring
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.AddCircle(*at, points(14) + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
+        list.AddCircle(*at, points(14), IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
+    }
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
     if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left)) forget();

@@ -98,7 +98,7 @@ class ScenePanel {
   public:
     enum class Action { none, save, revert, rebuild };
 
-    explicit ScenePanel(const Scene& scene);
+    explicit ScenePanel(const Scene& scene) { follow(scene); }
 
     bool changed() const { return changed_; }  // in the last draw
     bool pending() const { return pending_; }  // something was edited that does not run yet

@@ -177,11 +177,6 @@ void RunningScene::switchPath(Path path) {
     path_ = path;
 }
 
-// The path as it is: one that takes another when a program is refused would hide the mistake.
-void RunningScene::remakePrograms() {
-    build(scene, simulation_->plan(), simulation_->path().path);
-}
-
 bool RunningScene::unsaved() const {
     return differ(original_, scene);
 }

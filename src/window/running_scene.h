@@ -54,7 +54,8 @@ class RunningScene {
     void switchPath(Path path);
     void save();    // into the file
     void revert();  // to what the file said when it was read or saved last
-    void remakePrograms();
+    // The path as it is: one that takes another when a program is refused would hide the mistake.
+    void remakePrograms() { build(scene, simulation_->plan(), simulation_->path().path); }
 
     bool unsaved() const;  // differs from the file
     // Accepts the groups as they are now: a later edit that fails goes back to them.

@@ -64,10 +64,6 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 
 }  // namespace
 
-ScenePanel::ScenePanel(const Scene& scene) {
-    follow(scene);
-}
-
 void ScenePanel::follow(const Scene& scene) {
     pending_ = lives_ = false;
     groups_.clear();

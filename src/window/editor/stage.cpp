@@ -229,14 +229,6 @@ void EditorStage::wobble(const Mode& mode, double reach) {
     takePositions();
 }
 
-void EditorStage::rest() {
-    if (wobbling_) seek(frame_);
-}
-
-void EditorStage::takePositions() {
-    positions_ = simulation_->snapshot(0).positions;
-}
-
 void EditorStage::draw(const View& view, int width, int height) {
     if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);

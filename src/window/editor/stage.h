@@ -54,7 +54,9 @@ class EditorStage {
     std::optional<Pull> pull;
     // Shows a motion instead of playing: rest shape + shape * reach (m).
     void wobble(const Mode& mode, double reach);
-    void rest();  // back to what was played
+    void rest() {  // back to what was played
+        if (wobbling_) seek(frame_);
+    }
 
     void draw(const View& view, int width, int height);  // into the window
     // Positions of the vertices as they are drawn, m.
@@ -66,7 +68,7 @@ class EditorStage {
   private:
     Scene sceneOf(const Molecule& molecule, const StageSettings& settings) const;
     void rebuild(Plan plan, bool goOn);
-    void takePositions();
+    void takePositions() { positions_ = simulation_->snapshot(0).positions; }
     void applyPull();
 
     gpu::Context* context_;
