@@ -23,10 +23,9 @@ Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const 
     handle_ = Handle<deleteBuffer>(glGenBuffers);
     // Not GL_ELEMENT_ARRAY_BUFFER for indices: that binding belongs to the vertex array that is bound.
     glBindBuffer(GL_ARRAY_BUFFER, id());
-    if (!allocate(use, data, bytes)) {
+    if (!allocate(use, data, bytes))
         throw OutOfMemory(
             concat("buffer \"", label, "\" does not fit into memory: it takes ", bytes >> 20, " MiB"));
-    }
     if (data != nullptr) traffic_->countUpload(Traffic::Kind::parameters, bytes);
     labelObject(context, GL_BUFFER, id(), label);
 }

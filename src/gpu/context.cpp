@@ -125,11 +125,10 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.version = getString(GL_VERSION);
     info.glslVersion = getString(GL_SHADING_LANGUAGE_VERSION);
     info.software = isSoftwareRenderer(info.renderer);
-    if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3)) {
+    if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3))
         throw Error(concat("found OpenGL ",
                            info.version.empty() ? "of unknown version" : info.version.c_str(), " (",
                            info.renderer, "), 3.3 or newer is needed"));
-    }
     info.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
     info.maxColorAttachments = getInteger(GL_MAX_COLOR_ATTACHMENTS);
     info.maxSamples = getInteger(GL_MAX_SAMPLES);

@@ -14,10 +14,9 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
     int drawn = 0;
     for (const Texture* color : colors)
         drawn += std::max(color->layers(), 1);
-    if (drawn > context.info().maxColorAttachments) {
+    if (drawn > context.info().maxColorAttachments)
         throw Error(concat("framebuffer \"", label, "\" draws into ", drawn,
                            " textures at once: this context allows ", context.info().maxColorAttachments));
-    }
     const Texture& first = colors.empty() ? *depth : *colors.front();
     width_ = first.width();
     height_ = first.height();
@@ -65,10 +64,9 @@ Framebuffer Framebuffer::multisampled(Context& context, Format color, bool depth
                                       int height, const char* label) {
     EXPECTS(width > 0 && height > 0 && samples > 0 && !isDepth(color));
     const int largest = context.info().maxTextureSize;
-    if (width > largest || height > largest) {
+    if (width > largest || height > largest)
         throw Error(concat("a picture of ", width, " x ", height, " is too large: this context allows ",
                            largest, " x ", largest));
-    }
     context.checkErrors("before a framebuffer is made");
     Framebuffer out;
     out.label_ = label;

@@ -123,10 +123,9 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
              : !options.compute.empty() ? options.compute
                                         : options.fragment) {
     const ContextInfo& info = context.info();
-    if (!options.compute.empty() && !info.computeShaders) {
+    if (!options.compute.empty() && !info.computeShaders)
         throw Error(
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
-    }
     const std::vector<Stage> stages = readStages(shaderRoot, options);
     for (const Stage& stage : stages)
         for (const std::string& file : stage.source.files)

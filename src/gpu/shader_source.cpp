@@ -113,9 +113,8 @@ class Resolver {
             rest.size() > 1 && rest.front() == '"' ? rest.find('"', 1) : std::string_view::npos;
         const std::string_view behind =
             end == std::string_view::npos ? std::string_view{} : withoutSpaces(rest.substr(end + 1));
-        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//")) {
+        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//"))
             throw Error(where, "expected #include \"folder/file.glsl\", from the root of the shaders");
-        }
         return std::string(rest.substr(1, end - 1));
     }
 

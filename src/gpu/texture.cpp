@@ -74,9 +74,8 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
     const std::string what =
         concat("texture \"", label, "\" of ", width, " x ", height, " texels (", mebibytes, " MiB)");
     const int largest = context.info().maxTextureSize;
-    if (width > largest || height > largest) {
+    if (width > largest || height > largest)
         throw Error(concat(what, " is too large: this context allows ", largest, " x ", largest));
-    }
     context.checkErrors("before a texture is made");
     handle_ = Handle<deleteTexture>(glGenTextures);
     glBindTexture(target(), id());
@@ -121,10 +120,9 @@ void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* dat
     else
         glFramebufferTexture2D(GL_READ_FRAMEBUFFER, attachment, GL_TEXTURE_2D, id(), 0);
     glReadBuffer(isDepth(format_) ? GL_NONE : GL_COLOR_ATTACHMENT0);
-    if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw Error("texture \"" + label_ +
                     "\" cannot be read back: this driver does not draw into its format");
-    }
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(x, y, w, h, storage.layout, storage.type, data);
     traffic_->countReadBack(kind, bytes);

@@ -188,11 +188,10 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         litPlane_.use();
         litPlane_.set("grid", int(grid));
     }
-    if (shadow != nullptr) {
+    if (shadow != nullptr)
         depth_ = gpu::Program(
             context, shaderRoot,
             {"render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"});
-    }
 }
 
 void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label) {

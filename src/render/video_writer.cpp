@@ -172,10 +172,9 @@ class BrokenPipeHeld {
 }  // namespace
 
 void VideoWriter::write(const Image& picture) {
-    if (picture.width != width_ || picture.height != height_ || picture.channels != 4) {
+    if (picture.width != width_ || picture.height != height_ || picture.channels != 4)
         throw Error(concat(file_.string(), ": expected pictures of ", width_, " x ", height_,
                            " RGBA, found one of ", picture.width, " x ", picture.height));
-    }
     size_t sent = 0;
     int error = 0;
     {

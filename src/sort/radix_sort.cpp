@@ -40,10 +40,9 @@ Program compute(gpu::Context& context, const std::string& root, const char* file
 }
 
 size_t checkedCapacity(const gpu::ContextInfo& info, size_t capacity) {
-    if (!info.computeShaders) {
+    if (!info.computeShaders)
         throw Error(concat("radix sort needs compute shaders, OpenGL 4.3; this context has ", info.major, ".",
                            info.minor));
-    }
     const size_t most = RadixSort::most(info);
     if (capacity <= most) return std::max<size_t>(capacity, 1);
     throw Error(concat("radix sort of ", capacity, " pairs is larger than this context can hold: ", most));
