@@ -127,7 +127,7 @@ class Viewer : public WindowLoop {
         }
         steps_ = false;
         Renderer& renderer = open.running.renderer();
-        if (width() != renderer.width() || height() != renderer.height()) renderer.resize(width(), height());
+        renderer.resize(width(), height());
         open.readPicked();
         try {
             open.drawPicture(1.5 * pixelsPerPoint());

@@ -90,11 +90,12 @@ Scene EditorStage::sceneOf(const Molecule& molecule, const StageSettings& settin
     floor.shape = PlaneCollider{{0, floor_, 0}, {0, 1, 0}};
     floor.thickness = 0.002 * molecule.size();
     floor.color = {0.045, 0.05, 0.05};
+    floor.draw = settings.floorShows;
     scene.colliders.push_back(floor);
     scene.light.direction = {-0.45, -1, -0.5};
     scene.sky.zenith = {0.10, 0.12, 0.15};
     scene.sky.horizon = {0.24, 0.27, 0.30};
-    scene.sky.ground = {0.10, 0.11, 0.11};
+    scene.sky.ground = settings.floorShows ? glm::dvec3(0.10, 0.11, 0.11) : scene.sky.horizon * 0.6;
     return scene;
 }
 
@@ -230,9 +231,15 @@ void EditorStage::wobble(const Mode& mode, double reach) {
 }
 
 void EditorStage::draw(const View& view, int width, int height) {
-    if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
+    renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);
     renderer_->present(width, height);
+}
+
+Image EditorStage::picture(const View& view, int width, int height) {
+    renderer_->resize(width, height);
+    renderer_->draw(simulation_->state(), view);
+    return renderer_->capture();
 }
 
 MoleculeCost measureCost(gpu::Context& context, gpu::ProgramCache& cache, const Molecule& molecule,

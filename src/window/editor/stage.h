@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/image.h"
 #include "gpu/program_cache.h"
 #include "molecule/analysis.h"
 #include "render/renderer.h"
@@ -21,6 +22,7 @@ struct StageSettings {
     double gravity = 9.81;  // m/s^2, but for still
     double drag = 6;        // 1/s, across the surface; along it a fifth
     bool pinsHold = true;
+    bool floorShows = true;
     int substeps = 8;                  // of a frame of 1/60 s
     std::optional<SolverKind> solver;  // nothing: chosen by the stiffness
     bool operator==(const StageSettings&) const = default;
@@ -59,6 +61,7 @@ class EditorStage {
     }
 
     void draw(const View& view, int width, int height);  // into the window
+    Image picture(const View& view, int width, int height);
     // Positions of the vertices as they are drawn, m.
     const std::vector<glm::dvec3>& positions() const { return positions_; }
 
