@@ -20,17 +20,14 @@ Buffer::Buffer(Context& context, Use use, const void* data, size_t bytes, const 
     : traffic_(&context.traffic()), info_(&context.info()), use_(use), bytes_(bytes) {
     EXPECTS(bytes > 0);
     context.checkErrors("before a buffer is made");
-    GLuint id = 0;
-    glGenBuffers(1, &id);
-    handle_ = Handle<deleteBuffer>(id);
+    handle_ = Handle<deleteBuffer>(glGenBuffers);
     // Not GL_ELEMENT_ARRAY_BUFFER for indices: that binding belongs to the vertex array that is bound.
-    glBindBuffer(GL_ARRAY_BUFFER, id);
-    if (!allocate(use, data, bytes)) {
+    glBindBuffer(GL_ARRAY_BUFFER, id());
+    if (!allocate(use, data, bytes))
         throw OutOfMemory(
             concat("buffer \"", label, "\" does not fit into memory: it takes ", bytes >> 20, " MiB"));
-    }
     if (data != nullptr) traffic_->countUpload(Traffic::Kind::parameters, bytes);
-    labelObject(context, GL_BUFFER, id, label);
+    labelObject(context, GL_BUFFER, id(), label);
 }
 
 // Only storage is ever written by shaders.
@@ -78,40 +75,60 @@ void Buffer::bindStorage(int binding, size_t offset, size_t bytes) const {
                       static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
 }
 
-static GLbitfield bit(Barrier reader) {
-    switch (reader) {
-    case Barrier::textureFetch:
-        return GL_TEXTURE_FETCH_BARRIER_BIT;
-    case Barrier::storage:
-        return GL_SHADER_STORAGE_BARRIER_BIT;
-    case Barrier::draw:
-        return GL_COMMAND_BARRIER_BIT;
-    case Barrier::command:
-        return GL_COMMAND_BARRIER_BIT;
-    default:
-        return GL_BUFFER_UPDATE_BARRIER_BIT;
-    }
-}
-
 void barrier(std::initializer_list<Barrier> readers) {
     GLbitfield bits = 0;
     for (const Barrier reader : readers)
-        bits |= bit(reader);
+        bits |= static_cast<GLbitfield>(reader);
     EXPECTS(glMemoryBarrier != nullptr && "needs OpenGL 4.3");
     glMemoryBarrier(bits);
 }
 
-VertexArray::VertexArray(Context& context, const char* label) {
-    GLuint id = 0;
-    glGenVertexArrays(1, &id);
-    handle_ = Handle<deleteVertexArray>(id);
-    glBindVertexArray(id);  // an object exists, and can be labelled, once it was bound
-    labelObject(context, GL_VERTEX_ARRAY, id, label);
+// ---- Buffer textures
+
+static std::pair<GLenum, size_t> formatAndBytes(Texel texel) {
+    static constexpr std::pair<GLenum, size_t> formats[] = {
+        {GL_RGBA32F, 16}, {GL_RGBA32UI, 16}, {GL_RG32UI, 8}, {GL_R32UI, 4}};
+    return formats[size_t(texel)];
 }
 
-// OpenGL takes an offset as a pointer, for reasons of history.
-static const void* asPointer(int offset) {
-    return reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
+BufferTexture::BufferTexture(Context& context, const Buffer& buffer, const char* label, size_t offset,
+                             size_t bytes, Texel texel) {
+    const auto [format, texelBytes] = formatAndBytes(texel);
+    EXPECTS(buffer && offset < buffer.bytes() && bytes <= buffer.bytes() - offset);
+    if (bytes == 0) bytes = buffer.bytes() - offset;
+    const bool whole = bytes == buffer.bytes();
+    EXPECTS(offset % texelBytes == 0 && bytes % texelBytes == 0);
+    EXPECTS((whole || context.info().atLeast(4, 3)) && "a part of a buffer needs OpenGL 4.3");
+    EXPECTS((whole || offset % size_t(context.info().textureBufferAlignment) == 0) && "see ContextInfo");
+    texels_ = bytes / texelBytes;
+    checkTexels(context.info(), texels_, label);
+    handle_ = Handle<deleteTexture>(glGenTextures);
+    glBindTexture(GL_TEXTURE_BUFFER, id());
+    if (whole)
+        glTexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+    else
+        glTexBufferRange(GL_TEXTURE_BUFFER, format, buffer.id(), static_cast<GLintptr>(offset),
+                         static_cast<GLsizeiptr>(bytes));
+    labelObject(context, GL_TEXTURE, id(), label);
+}
+
+void BufferTexture::checkTexels(const ContextInfo& info, size_t texels, const char* label) {
+    const auto most = static_cast<size_t>(info.maxBufferTexels);
+    if (texels <= most) return;
+    throw Error(concat("buffer texture \"", label, "\" of ", texels,
+                       " texels is too large: this context allows ", most));
+}
+
+void BufferTexture::bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_BUFFER, id());
+}
+
+// ---- Vertex arrays
+
+VertexArray::VertexArray(Context& context, const char* label) : handle_(glGenVertexArrays) {
+    bind();  // an object exists, and can be labelled, once it was bound
+    labelObject(context, GL_VERTEX_ARRAY, id(), label);
 }
 
 void VertexArray::attribute(int location, const Buffer& buffer, int components, int stride, int offset,
@@ -121,7 +138,9 @@ void VertexArray::attribute(int location, const Buffer& buffer, int components, 
     bind();
     glBindBuffer(GL_ARRAY_BUFFER, buffer.id());
     glEnableVertexAttribArray(index);
-    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, asPointer(offset));
+    // OpenGL takes an offset as a pointer, for reasons of history.
+    const auto* at = reinterpret_cast<const void*>(static_cast<intptr_t>(offset));
+    glVertexAttribPointer(index, components, GL_FLOAT, GL_FALSE, stride, at);
     glVertexAttribDivisor(index, static_cast<GLuint>(divisor));
 }
 
@@ -129,10 +148,6 @@ void VertexArray::indices(const Buffer& buffer) {
     EXPECTS(buffer.use() == Buffer::Use::index);
     bind();
     glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer.id());
-}
-
-void VertexArray::bind() const {
-    glBindVertexArray(id());
 }
 
 }  // namespace shoal::gpu

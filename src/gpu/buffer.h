@@ -58,12 +58,11 @@ class Buffer {
 
 // Makes what shaders wrote into storage buffers visible to later commands, which OpenGL does not do by
 // itself. Needs OpenGL 4.3, like the shaders that write.
-enum class Barrier {
-    textureFetch,  // reading through samplers, buffer textures among them
-    storage,       // reading and writing storage buffers
-    command,       // Program::dispatchIndirect
-    draw,          // indirect draws
-    bufferUpdate,  // Buffer::update, download and copyTo; these ask for it themselves
+enum class Barrier : GLbitfield {
+    textureFetch = GL_TEXTURE_FETCH_BARRIER_BIT,  // reading through samplers, buffer textures among them
+    storage = GL_SHADER_STORAGE_BARRIER_BIT,      // reading and writing storage buffers
+    command = GL_COMMAND_BARRIER_BIT,             // Program::dispatchIndirect and indirect draws
+    bufferUpdate = GL_BUFFER_UPDATE_BARRIER_BIT,  // what Buffer does itself, and asks for itself
 };
 
 // Before the command that reads, naming how it reads.
@@ -71,7 +70,7 @@ void barrier(std::initializer_list<Barrier> readers);
 
 // A buffer read as texels: texelFetch(samplerBuffer, i) is bytes 16 i to 16 i + 15 as four floats; with the
 // other formats a usamplerBuffer reads whole numbers. Where a shader cannot have a storage buffer, or reads
-// better through the texture cache (buffer_texture.cpp).
+// better through the texture cache.
 //
 // Names the format of a texel: samplerBuffer reads the first, usamplerBuffer the others.
 enum class Texel { float4, uint4, uint2, uint1 };
@@ -111,7 +110,7 @@ class VertexArray {
     void attribute(int location, const Buffer& buffer, int components, int stride, int offset,
                    int divisor = 0);
     void indices(const Buffer& buffer);
-    void bind() const;
+    void bind() const { glBindVertexArray(id()); }
 
     GLuint id() const { return handle_.id(); }
     explicit operator bool() const { return bool(handle_); }

@@ -11,13 +11,10 @@ namespace {
 std::vector<std::string> tokensOf(std::string_view text) {
     std::vector<std::string> out;
     for (size_t i = 0; i < text.size();) {
-        const auto isWord = [](char c) {
-            return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
-        };
         if (text.substr(i, 2) == "//") break;
-        if (isWord(text[i])) {
+        if (isIdentifier(text[i])) {
             size_t end = i;
-            while (end < text.size() && isWord(text[end]))
+            while (end < text.size() && isIdentifier(text[end]))
                 ++end;
             out.emplace_back(text.substr(i, end - i));
             i = end;

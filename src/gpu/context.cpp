@@ -12,18 +12,14 @@
 
 namespace shoal::gpu {
 
-// On the heap, so that whoever borrows it need not care where the Context has moved.
-struct Context::State {
-    std::unique_ptr<Platform> platform;
-    ContextInfo info;
-    Traffic traffic;
-    std::set<std::string> shaderFiles;
-    ~State();
-};
-
 // Globals, because OpenGL's current context and GLEW's function pointers are.
 static Context::State* currentState = nullptr;
 static Loader glewLoader = nullptr;  // whose functions GLEW's pointers are
+
+static void setCurrentLoader(Loader load, bool isWindow) {
+    if (load == currentLoader.load && isWindow == currentLoader.isWindow) return;
+    currentLoader = {load, isWindow, currentLoader.generation + 1};
+}
 
 static void leaveCurrent() {
     if (currentState != nullptr) currentState->platform->release();
@@ -31,6 +27,7 @@ static void leaveCurrent() {
     setCurrentLoader(nullptr, false);
 }
 
+Context::State::State() = default;
 Context::State::~State() {
     if (currentState == this) leaveCurrent();
 }
@@ -61,6 +58,13 @@ static void enter(Context::State& state, bool fresh) {
     const Loader loader = state.platform->loader();
     setCurrentLoader(loader, state.platform->window() != nullptr);
     if (fresh || glewLoader != loader) initGlew(loader);
+}
+
+static void restore(Context::State* state) {
+    if (state == nullptr)
+        leaveCurrent();
+    else if (state != currentState)
+        enter(*state, false);
 }
 
 bool isSoftwareRenderer(const std::string& renderer) {
@@ -121,11 +125,10 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.version = getString(GL_VERSION);
     info.glslVersion = getString(GL_SHADING_LANGUAGE_VERSION);
     info.software = isSoftwareRenderer(info.renderer);
-    if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3)) {
+    if (std::sscanf(info.version.c_str(), "%d.%d", &info.major, &info.minor) != 2 || !info.atLeast(3, 3))
         throw Error(concat("found OpenGL ",
                            info.version.empty() ? "of unknown version" : info.version.c_str(), " (",
                            info.renderer, "), 3.3 or newer is needed"));
-    }
     info.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
     info.maxColorAttachments = getInteger(GL_MAX_COLOR_ATTACHMENTS);
     info.maxSamples = getInteger(GL_MAX_SAMPLES);
@@ -147,20 +150,42 @@ static void GLAPIENTRY printMessage(GLenum, GLenum, GLuint, GLenum severity, GLs
         std::fprintf(stderr, "OpenGL: %s\n", printableLines(indented(text)).c_str());
 }
 
-static std::unique_ptr<Platform> createPlatform(ContextKind kind, const ContextOptions& options) {
-    switch (kind) {
-    case ContextKind::window:
-        return createWindowPlatform(options);
-    case ContextKind::egl:
-        return createEglPlatform(options);
-    default:
-        return createOsmesaPlatform(options);
-    }
+// ---- The kinds of contexts
+
+struct KindRow {
+    ContextKind kind;
+    const char* name;
+    std::unique_ptr<Platform> (*create)(const ContextOptions& options);
+    const char* advice;
+};
+static constexpr KindRow kindTable[] = {
+    {ContextKind::automatic, "auto", nullptr, ""},
+    {ContextKind::window, "window", createWindowPlatform,
+     "for a window: start it from a graphical session (or under xvfb-run), and install "
+     "libgl1-mesa-dri or the driver of your GPU"},
+    {ContextKind::egl, "egl", createEglPlatform,
+     "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU"},
+    {ContextKind::osmesa, "osmesa", createOsmesaPlatform,
+     "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)"},
+};
+
+static const KindRow& rowOf(ContextKind kind) {
+    return kindTable[static_cast<size_t>(kind)];
+}
+
+const char* name(ContextKind kind) {
+    return rowOf(kind).name;
+}
+
+ContextKind contextKind(const std::string& word) {
+    for (const KindRow& row : kindTable)
+        if (word == row.name) return row.kind;
+    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
 }
 
 static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptions& options) {
     auto state = std::make_unique<Context::State>();
-    state->platform = createPlatform(kind, options);
+    state->platform = rowOf(kind).create(options);
     enter(*state, true);
     state->info = readInfo(kind, *state->platform);
     if (options.debug && state->info.atLeast(4, 3)) {
@@ -177,39 +202,6 @@ static std::vector<ContextKind> kindsToTry(const ContextOptions& options) {
     return {ContextKind::egl, ContextKind::osmesa};
 }
 
-static const char* advice(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::window:
-        return "for a window: start it from a graphical session (or under xvfb-run), and install "
-               "libgl1-mesa-dri or the driver of your GPU";
-    case ContextKind::egl:
-        return "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU";
-    default:
-        return "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)";
-    }
-}
-
-ContextKind contextKind(const std::string& word) {
-    for (const ContextKind kind :
-         {ContextKind::automatic, ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
-        if (word == name(kind)) return kind;
-    }
-    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
-}
-
-const char* name(ContextKind kind) {
-    switch (kind) {
-    case ContextKind::window:
-        return "window";
-    case ContextKind::egl:
-        return "egl";
-    case ContextKind::osmesa:
-        return "osmesa";
-    default:
-        return "auto";
-    }
-}
-
 Context::Context(const ContextOptions& options) {
     State* before = currentState;
     std::string tried, help;
@@ -220,34 +212,18 @@ Context::Context(const ContextOptions& options) {
             return;
         } catch (const Error& error) {
             tried += concat("\n    ", name(kind), ": ", error.message());
-            help += concat("\n    ", advice(kind));
+            help += concat("\n    ", rowOf(kind).advice);
         }
     }
     restore(before);
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
 }
 
-Context::~Context() = default;
-Context::Context(Context&&) noexcept = default;
-Context& Context::operator=(Context&&) noexcept = default;
-
 void Context::makeCurrent() {
     if (currentState != state_.get()) enter(*state_, false);
 }
 bool Context::isCurrent() const {
     return state_ != nullptr && currentState == state_.get();
-}
-const ContextInfo& Context::info() const {
-    return state_->info;
-}
-Traffic& Context::traffic() {
-    return state_->traffic;
-}
-const std::set<std::string>& Context::shaderFiles() const {
-    return state_->shaderFiles;
-}
-void Context::noteShaderFile(const std::string& file) {
-    state_->shaderFiles.insert(file);
 }
 GLFWwindow* Context::window() const {
     return state_->platform->window();
@@ -269,16 +245,24 @@ void Context::checkErrors(const char* where) {
     if (!found.empty()) throw Error(concat("OpenGL reports ", found, " (", where, ")"));
 }
 
-Context::State* Context::current() {
-    return currentState;
-}
-
-void Context::restore(State* state) {
-    if (state == nullptr) {
-        leaveCurrent();
-    } else if (state != currentState) {
-        enter(*state, false);
+std::vector<ContextProbe> probeContexts() {
+    Context::State* before = currentState;
+    std::vector<ContextProbe> out;
+    for (const ContextKind kind : {ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
+        ContextProbe& result = out.emplace_back();
+        result.kind = kind;
+        try {
+            ContextOptions options;
+            options.kind = kind;
+            options.width = options.height = 64;
+            options.visible = false;
+            result.info = Context(options).info();
+        } catch (const std::exception& error) {
+            result.reason = error.what();
+        }
     }
+    restore(before);
+    return out;
 }
 
 }  // namespace shoal::gpu

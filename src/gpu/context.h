@@ -55,6 +55,8 @@ inline Traffic operator-(const Traffic& after, const Traffic& before) {
     return difference;
 }
 
+class Platform;
+
 enum class ContextKind { automatic, window, egl, osmesa };
 
 // "auto", "window", "egl" or "osmesa". Error: anything else, with the nearest of them.
@@ -103,31 +105,33 @@ class Context {
     // The context is current afterwards. Error: none to be had; says what was tried, why each way failed and
     // what to install.
     explicit Context(const ContextOptions& options = {});
-    ~Context();
-    Context(Context&&) noexcept;
-    Context& operator=(Context&&) noexcept;
 
     void makeCurrent();
     bool isCurrent() const;
-    const ContextInfo& info() const;
-    Traffic& traffic();
+    const ContextInfo& info() const { return state_->info; }
+    Traffic& traffic() { return state_->traffic; }
     // Files on disk that programs of this context were made of.
-    const std::set<std::string>& shaderFiles() const;
-    void noteShaderFile(const std::string& file);
+    const std::set<std::string>& shaderFiles() const { return state_->shaderFiles; }
+    void noteShaderFile(const std::string& file) { state_->shaderFiles.insert(file); }
     GLFWwindow* window() const;  // null unless this is a window
     // Error: OpenGL reports a mistake since the last call; `where` names the work that was done.
     void checkErrors(const char* where);
 
-    struct State;
-    // Returns the state of the context that is current in this process, or null.
-    static State* current();
-    static void restore(State* state);
+    // On the heap, so that whoever borrows it need not care where the Context has moved.
+    struct State {
+        std::unique_ptr<Platform> platform;
+        ContextInfo info;
+        Traffic traffic;
+        std::set<std::string> shaderFiles;
+        State();
+        ~State();
+    };
 
   private:
     std::unique_ptr<State> state_;
 };
 
-// Which contexts this machine offers, for `shoal info` (probe.cpp).
+// Which contexts this machine offers, for `shoal info`.
 struct ContextProbe {
     ContextKind kind = ContextKind::automatic;
     std::optional<ContextInfo> info;  // empty when the context cannot be had

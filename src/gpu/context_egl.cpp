@@ -12,6 +12,7 @@
 
 #include <cstdlib>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -88,33 +89,24 @@ bool displayHas(EGLDisplay display, const char* extension) {
 }
 
 std::string errorText() {
+    static constexpr std::pair<EGLint, const char*> words[] = {{EGL_NOT_INITIALIZED, "EGL_NOT_INITIALIZED"},
+                                                               {EGL_BAD_ACCESS, "EGL_BAD_ACCESS"},
+                                                               {EGL_BAD_ALLOC, "EGL_BAD_ALLOC"},
+                                                               {EGL_BAD_ATTRIBUTE, "EGL_BAD_ATTRIBUTE"},
+                                                               {EGL_BAD_CONFIG, "EGL_BAD_CONFIG"},
+                                                               {EGL_BAD_MATCH, "EGL_BAD_MATCH"},
+                                                               {EGL_BAD_PARAMETER, "EGL_BAD_PARAMETER"}};
     const EGLint code = egl().getError();
-    switch (code) {
-    case EGL_NOT_INITIALIZED:
-        return "EGL_NOT_INITIALIZED";
-    case EGL_BAD_ACCESS:
-        return "EGL_BAD_ACCESS";
-    case EGL_BAD_ALLOC:
-        return "EGL_BAD_ALLOC";
-    case EGL_BAD_ATTRIBUTE:
-        return "EGL_BAD_ATTRIBUTE";
-    case EGL_BAD_CONFIG:
-        return "EGL_BAD_CONFIG";
-    case EGL_BAD_MATCH:
-        return "EGL_BAD_MATCH";
-    case EGL_BAD_PARAMETER:
-        return "EGL_BAD_PARAMETER";
-    default:
-        return concat("EGL error ", code);
-    }
+    for (const auto& [known, word] : words)
+        if (code == known) return word;
+    return concat("EGL error ", code);
 }
 
 // A display is the same object for all who ask for it, and eglTerminate would end it for all of them. So it
 // is left to the end of the process, as the libraries are.
 EGLDisplay initialised(EGLDisplay display) {
-    if (egl().initialize(display, nullptr, nullptr) != EGL_TRUE) {
+    if (egl().initialize(display, nullptr, nullptr) != EGL_TRUE)
         throw Error("cannot be initialised, " + errorText());
-    }
     return display;
 }
 
@@ -144,9 +136,8 @@ class EglPlatform final : public Platform {
     void makeCurrent() override {
         // The bound API belongs to the thread, and others (such as a toolkit) may have changed it.
         egl().bindApi(EGL_OPENGL_API);
-        if (egl().makeCurrent(display_, surface_, surface_, context_) != EGL_TRUE) {
+        if (egl().makeCurrent(display_, surface_, surface_, context_) != EGL_TRUE)
             throw Error("the context cannot be made current, " + errorText());
-        }
     }
     void release() override { egl().makeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
     Loader loader() const override { return egl().getProcAddress; }
@@ -167,9 +158,8 @@ class EglPlatform final : public Platform {
                                          EGL_NONE};
             EGLConfig config = nullptr;
             EGLint count = 0;
-            if (egl().chooseConfig(display_, attributes, &config, 1, &count) == EGL_TRUE && count > 0) {
+            if (egl().chooseConfig(display_, attributes, &config, 1, &count) == EGL_TRUE && count > 0)
                 return config;
-            }
         }
         throw Error("has no configuration for desktop OpenGL");
     }
@@ -182,10 +172,9 @@ class EglPlatform final : public Platform {
                 attributes = {EGL_CONTEXT_MAJOR_VERSION_KHR,       version.major,
                               EGL_CONTEXT_MINOR_VERSION_KHR,       version.minor,
                               EGL_CONTEXT_OPENGL_PROFILE_MASK_KHR, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT_KHR};
-                if (debug) {
+                if (debug)
                     attributes.insert(attributes.end(),
                                       {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
-                }
             }
             attributes.push_back(EGL_NONE);
             context_ = egl().createContext(display_, config, EGL_NO_CONTEXT, attributes.data());
@@ -198,9 +187,8 @@ class EglPlatform final : public Platform {
     void createSurface(EGLConfig config) {
         const EGLint attributes[] = {EGL_WIDTH, 1, EGL_HEIGHT, 1, EGL_NONE};
         surface_ = egl().createPbufferSurface(display_, config, attributes);
-        if (surface_ == EGL_NO_SURFACE) {
+        if (surface_ == EGL_NO_SURFACE)
             throw Error("has neither contexts without a surface nor a pbuffer, " + errorText());
-        }
     }
 
     void destroy() {
@@ -222,9 +210,8 @@ std::vector<Candidate> candidates() {
         const EGLDisplay display = egl().getPlatformDisplay(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
         if (display != EGL_NO_DISPLAY) out.push_back({display, "EGL, surfaceless", false});
     }
-    if (egl().queryDevices == nullptr || !hasWord(egl().clientExtensions, "EGL_EXT_platform_device")) {
+    if (egl().queryDevices == nullptr || !hasWord(egl().clientExtensions, "EGL_EXT_platform_device"))
         return out;
-    }
     EGLDeviceEXT devices[32] = {};
     EGLint count = 0;
     if (egl().queryDevices(32, devices, &count) != EGL_TRUE) return out;

@@ -62,11 +62,10 @@ class OsmesaPlatform final : public Platform {
     OsmesaPlatform() {
         for (const AskedVersion version : askedVersions) {
             std::vector<int> attributes = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_DEPTH_BITS, 24};
-            if (!version.any()) {
+            if (!version.any())
                 attributes.insert(attributes.end(),
                                   {OSMESA_PROFILE, OSMESA_CORE_PROFILE, OSMESA_CONTEXT_MAJOR_VERSION,
                                    version.major, OSMESA_CONTEXT_MINOR_VERSION, version.minor});
-            }
             attributes.push_back(0);
             context_ = osmesa().createContextAttribs(attributes.data(), nullptr);
             if (context_ != nullptr) return;
@@ -76,9 +75,8 @@ class OsmesaPlatform final : public Platform {
     ~OsmesaPlatform() override { osmesa().destroyContext(context_); }
 
     void makeCurrent() override {
-        if (osmesa().makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0) {
+        if (osmesa().makeCurrent(context_, pixel_.data(), GL_UNSIGNED_BYTE, 1, 1) == 0)
             throw Error("OSMesa's context cannot be made current");
-        }
     }
     void release() override { osmesa().makeCurrent(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
     Loader loader() const override { return osmesa().getProcAddress; }

@@ -53,9 +53,8 @@ class WindowPlatform final : public Platform {
 
     void makeCurrent() override {
         glfwMakeContextCurrent(window_);
-        if (glfwGetCurrentContext() != window_) {
+        if (glfwGetCurrentContext() != window_)
             throw Error("the window's context cannot be made current: " + lastGlfwError());
-        }
     }
     void release() override { glfwMakeContextCurrent(nullptr); }
     Loader loader() const override { return &glfwGetProcAddress; }
@@ -88,9 +87,8 @@ bool isSet(const char* variable) {
 }  // namespace
 
 std::unique_ptr<Platform> createWindowPlatform(const ContextOptions& options) {
-    if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY")) {
+    if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY"))
         throw Error("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
-    }
     return std::make_unique<WindowPlatform>(options);
 }
 

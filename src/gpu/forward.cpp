@@ -39,7 +39,7 @@ Procedure systemProcedure(const char* name) {
 
 // `self` is the forwarder: a loader that answers with it would never return.
 Procedure findProcedure(const char* name, Procedure self) {
-    Procedure found = currentLoader().load != nullptr ? currentLoader().load(name) : nullptr;
+    Procedure found = currentLoader.load != nullptr ? currentLoader.load(name) : nullptr;
     if (found == nullptr || found == self) found = systemProcedure(name);
     if (found == nullptr || found == self) {
         std::fprintf(stderr, "shoal: no OpenGL library provides %s\n", name);
@@ -54,9 +54,9 @@ struct Forward {
     unsigned generation;  // of the loader that found it; 0: not looked for yet
 
     Function get(const char* name, Function self) {
-        if (generation != currentLoader().generation) {
+        if (generation != currentLoader.generation) {
             function = reinterpret_cast<Function>(findProcedure(name, reinterpret_cast<Procedure>(self)));
-            generation = currentLoader().generation;
+            generation = currentLoader.generation;
         }
         return function;
     }
@@ -78,11 +78,10 @@ EXPORTED Procedure glXGetProcAddressARB(const GLubyte* name);
 EXPORTED Procedure glXGetProcAddressARB(const GLubyte* name) {
     const char* word = reinterpret_cast<const char*>(name);
     const bool isGlx = std::strncmp(word, "glX", 3) == 0;
-    const auto& loader = currentLoader();
     // Loaders may answer any name with a stub, so GLX must not be asked for where there is none: GLEW would
     // call it.
-    if (isGlx && loader.load != nullptr && !loader.isWindow) return nullptr;
-    if (!isGlx && loader.load != nullptr) return loader.load(word);
+    if (isGlx && currentLoader.load != nullptr && !currentLoader.isWindow) return nullptr;
+    if (!isGlx && currentLoader.load != nullptr) return currentLoader.load(word);
     using Self = Procedure (*)(const GLubyte*);
     const auto real = reinterpret_cast<Self>(systemProcedure("glXGetProcAddressARB"));
     return real != nullptr && real != &glXGetProcAddressARB ? real(name) : nullptr;

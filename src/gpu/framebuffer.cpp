@@ -7,34 +7,6 @@
 
 namespace shoal::gpu {
 
-static const char* word(Format format) {
-    static constexpr const char* words[] = {"rgba32f", "rgba16f", "rgba8", "srgb8a8", "rgba32ui",
-                                            "rg32ui",  "r32ui",   "r32f",  "depth24", "depth32f"};
-    return words[static_cast<size_t>(format)];
-}
-
-static const char* statusWord(GLenum status) {
-    switch (status) {
-    case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
-        return "an attachment that cannot be drawn into";
-    case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
-        return "nothing to draw into";
-    case GL_FRAMEBUFFER_UNSUPPORTED:
-        return "a combination of formats that this driver does not support";
-    case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
-        return "different numbers of samples";
-    default:
-        return "an incomplete framebuffer";
-    }
-}
-
-static Handle<deleteFramebuffer> makeFramebuffer() {
-    GLuint id = 0;
-    glGenFramebuffers(1, &id);
-    glBindFramebuffer(GL_FRAMEBUFFER, id);
-    return Handle<deleteFramebuffer>(id);
-}
-
 Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth,
                          const char* label)
     : label_(label) {
@@ -42,14 +14,14 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
     int drawn = 0;
     for (const Texture* color : colors)
         drawn += std::max(color->layers(), 1);
-    if (drawn > context.info().maxColorAttachments) {
+    if (drawn > context.info().maxColorAttachments)
         throw Error(concat("framebuffer \"", label, "\" draws into ", drawn,
                            " textures at once: this context allows ", context.info().maxColorAttachments));
-    }
     const Texture& first = colors.empty() ? *depth : *colors.front();
     width_ = first.width();
     height_ = first.height();
-    handle_ = makeFramebuffer();
+    handle_ = Handle<deleteFramebuffer>(glGenFramebuffers);
+    glBindFramebuffer(GL_FRAMEBUFFER, id());
     std::string attachments;
     std::vector<GLenum> drawBuffers;
     for (const Texture* color : colors) {
@@ -62,12 +34,12 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
                 glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
             drawBuffers.push_back(attachment);
         }
-        attachments += concat(attachments.empty() ? "" : " + ", word(color->format()));
+        attachments += concat(attachments.empty() ? "" : " + ", name(color->format()));
     }
     if (depth != nullptr) {
         EXPECTS(depth->width() == width_ && depth->height() == height_ && isDepth(depth->format()));
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth->id(), 0);
-        attachments += concat(attachments.empty() ? "" : " + ", word(depth->format()));
+        attachments += concat(attachments.empty() ? "" : " + ", name(depth->format()));
     }
     if (drawBuffers.empty()) {
         glDrawBuffer(GL_NONE);
@@ -79,44 +51,40 @@ Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, c
     labelObject(context, GL_FRAMEBUFFER, id(), label);
 }
 
-static GLuint makeStorage(GLenum attachment, Format format, int samples, int width, int height) {
-    GLuint id = 0;
-    glGenRenderbuffers(1, &id);
-    glBindRenderbuffer(GL_RENDERBUFFER, id);
+static Handle<deleteRenderbuffer> makeStorage(GLenum attachment, Format format, int samples, int width,
+                                              int height) {
+    Handle<deleteRenderbuffer> out(glGenRenderbuffers);
+    glBindRenderbuffer(GL_RENDERBUFFER, out.id());
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, internalFormat(format), width, height);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, id);
-    return id;
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, out.id());
+    return out;
 }
 
 Framebuffer Framebuffer::multisampled(Context& context, Format color, bool depth, int samples, int width,
                                       int height, const char* label) {
     EXPECTS(width > 0 && height > 0 && samples > 0 && !isDepth(color));
     const int largest = context.info().maxTextureSize;
-    if (width > largest || height > largest) {
+    if (width > largest || height > largest)
         throw Error(concat("a picture of ", width, " x ", height, " is too large: this context allows ",
                            largest, " x ", largest));
-    }
     context.checkErrors("before a framebuffer is made");
     Framebuffer out;
     out.label_ = label;
     out.width_ = width;
     out.height_ = height;
     out.samples_ = std::clamp(samples, 1, std::max(1, context.info().maxSamples));
-    out.handle_ = makeFramebuffer();
+    out.handle_ = Handle<deleteFramebuffer>(glGenFramebuffers);
+    glBindFramebuffer(GL_FRAMEBUFFER, out.id());
     const int stored = out.samples_ > 1 ? out.samples_ : 0;  // 0 is OpenGL's word for not multisampled
-    out.colorStorage_ =
-        Handle<deleteRenderbuffer>(makeStorage(GL_COLOR_ATTACHMENT0, color, stored, width, height));
-    if (depth) {
-        out.depthStorage_ = Handle<deleteRenderbuffer>(
-            makeStorage(GL_DEPTH_ATTACHMENT, Format::depth24, stored, width, height));
-    }
+    out.colorStorage_ = makeStorage(GL_COLOR_ATTACHMENT0, color, stored, width, height);
+    if (depth) out.depthStorage_ = makeStorage(GL_DEPTH_ATTACHMENT, Format::depth24, stored, width, height);
     if (glGetError() == GL_OUT_OF_MEMORY) {
         const double bytes =
             double(width) * height * out.samples_ * double(texelBytes(color) + (depth ? 4 : 0));
         throw Error(concat("a picture of ", width, " x ", height, " with ", out.samples_,
                            " samples does not fit into memory: it takes ", bytes / (1 << 20), " MiB"));
     }
-    out.checkComplete(concat(word(color), depth ? " + depth24" : "", " with ", out.samples_, " samples"));
+    out.checkComplete(concat(name(color), depth ? " + depth24" : "", " with ", out.samples_, " samples"));
     labelObject(context, GL_FRAMEBUFFER, out.id(), label);
     return out;
 }
@@ -124,12 +92,13 @@ Framebuffer Framebuffer::multisampled(Context& context, Format color, bool depth
 void Framebuffer::checkComplete(const std::string& attachments) const {
     const GLenum status = glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return;
-    throw Error(concat("framebuffer \"", label_, "\" (", attachments, ", ", width_, " x ", height_,
-                       ") cannot be had: ", statusWord(status)));
-}
-
-void Framebuffer::bind() const {
-    bind(0, 0, width_, height_);
+    throw Error(concat(
+        "framebuffer \"", label_, "\" (", attachments, ", ", width_, " x ", height_, ") cannot be had: ",
+        status == GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT           ? "an attachment that cannot be drawn into"
+        : status == GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT ? "nothing to draw into"
+        : status == GL_FRAMEBUFFER_UNSUPPORTED ? "a combination of formats that this driver does not support"
+        : status == GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE ? "different numbers of samples"
+                                                          : "an incomplete framebuffer"));
 }
 
 void Framebuffer::bind(int x, int y, int width, int height) const {

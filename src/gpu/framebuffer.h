@@ -22,7 +22,7 @@ class Framebuffer {
     static Framebuffer multisampled(Context& context, Format color, bool depth, int samples, int width,
                                     int height, const char* label);
 
-    void bind() const;  // viewport: all of it
+    void bind() const { bind(0, 0, width_, height_); }  // viewport: all of it
     void bind(int x, int y, int width, int height) const;
     // The window's own framebuffer.
     static void bindDefault(int width, int height);

@@ -6,31 +6,6 @@
 
 namespace shoal::gpu {
 
-void deleteTexture(GLuint id) {
-    glDeleteTextures(1, &id);
-}
-void deleteFramebuffer(GLuint id) {
-    glDeleteFramebuffers(1, &id);
-}
-void deleteRenderbuffer(GLuint id) {
-    glDeleteRenderbuffers(1, &id);
-}
-void deleteBuffer(GLuint id) {
-    glDeleteBuffers(1, &id);
-}
-void deleteVertexArray(GLuint id) {
-    glDeleteVertexArrays(1, &id);
-}
-void deleteShader(GLuint id) {
-    glDeleteShader(id);
-}
-void deleteProgram(GLuint id) {
-    glDeleteProgram(id);
-}
-void deleteQuery(GLuint id) {
-    glDeleteQueries(1, &id);
-}
-
 // Any context takes labels of 255 bytes, and debug messages in practice: names come from files, and a longer
 // one would be an error of OpenGL.
 static GLsizei lengthOf(std::string_view text) {
@@ -50,8 +25,6 @@ static GLsizei lengthOf(std::string_view text) {
 DebugGroup::DebugGroup(const ContextInfo& info, const char* name) : open_(info.atLeast(4, 3)) {
     if (open_) glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, lengthOf(name), name);
 }
-
-DebugGroup::DebugGroup(const Context& context, const char* name) : DebugGroup(context.info(), name) {}
 
 DebugGroup::~DebugGroup() {
     if (open_) glPopDebugGroup();

@@ -11,14 +11,14 @@ namespace shoal::gpu {
 class Context;
 struct ContextInfo;
 
-void deleteTexture(GLuint id);
-void deleteFramebuffer(GLuint id);
-void deleteRenderbuffer(GLuint id);
-void deleteBuffer(GLuint id);
-void deleteVertexArray(GLuint id);
-void deleteShader(GLuint id);
-void deleteProgram(GLuint id);
-void deleteQuery(GLuint id);
+inline constexpr auto deleteTexture = [](GLuint id) { glDeleteTextures(1, &id); };
+inline constexpr auto deleteFramebuffer = [](GLuint id) { glDeleteFramebuffers(1, &id); };
+inline constexpr auto deleteRenderbuffer = [](GLuint id) { glDeleteRenderbuffers(1, &id); };
+inline constexpr auto deleteBuffer = [](GLuint id) { glDeleteBuffers(1, &id); };
+inline constexpr auto deleteVertexArray = [](GLuint id) { glDeleteVertexArrays(1, &id); };
+inline constexpr auto deleteShader = [](GLuint id) { glDeleteShader(id); };
+inline constexpr auto deleteProgram = [](GLuint id) { glDeleteProgram(id); };
+inline constexpr auto deleteQuery = [](GLuint id) { glDeleteQueries(1, &id); };
 
 // Owns an object: moves, never copies, deletes at the end.
 template <void (*remove)(GLuint)>
@@ -26,6 +26,7 @@ class Handle {
   public:
     Handle() = default;
     explicit Handle(GLuint id) : id_(id) {}
+    explicit Handle(PFNGLGENBUFFERSPROC generate) { generate(1, &id_); }  // such as glGenTextures
     ~Handle() { reset(); }
     Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, 0u)) {}
     Handle& operator=(Handle&& other) noexcept {
@@ -50,7 +51,6 @@ class Handle {
 class DebugGroup {
   public:
     DebugGroup(const ContextInfo& info, const char* name);
-    DebugGroup(const Context& context, const char* name);
     ~DebugGroup();
     DebugGroup(const DebugGroup&) = delete;
     DebugGroup& operator=(const DebugGroup&) = delete;

@@ -31,11 +31,7 @@ PassTimers::Scope::Scope(PassTimers& timers, const char* name)
         glFinish();
         start_ = std::chrono::steady_clock::now();
     } else if (timers.sampled(call_)) {
-        if (frame.used == static_cast<int>(frame.queries.size())) {
-            GLuint id = 0;
-            glGenQueries(1, &id);
-            frame.queries.emplace_back(id);
-        }
+        if (frame.used == static_cast<int>(frame.queries.size())) frame.queries.emplace_back(glGenQueries);
         frame.calls.back().query = frame.used++;
         glBeginQuery(GL_TIME_ELAPSED, frame.queries[static_cast<size_t>(frame.calls.back().query)].id());
     }

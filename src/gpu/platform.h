@@ -1,5 +1,5 @@
 // Declares the common interface of the three ways to a context, and where OpenGL's functions come from at the
-// moment (loader.cpp); used inside `gpu` only.
+// moment; used inside `gpu` only.
 #pragma once
 
 #include <memory>
@@ -18,8 +18,9 @@ struct CurrentLoader {
     unsigned generation = 1;  // counts the changes, so that pointers found earlier can be thrown away
 };
 
-const CurrentLoader& currentLoader();
-void setCurrentLoader(Loader load, bool isWindow);
+// A global, because OpenGL's "current context" is one, and because glXGetProcAddressARB and the OpenGL 1.1
+// functions (gpu/forward.cpp) have no argument that could carry it. context.cpp sets it.
+inline CurrentLoader currentLoader;
 
 class Platform {
   public:

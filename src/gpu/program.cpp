@@ -11,20 +11,12 @@
 namespace shoal::gpu {
 namespace {
 
-std::string shaderLog(GLuint shader) {
+std::string logOf(GLuint object, PFNGLGETSHADERIVPROC get, PFNGLGETSHADERINFOLOGPROC getLog) {
     GLint length = 0;
-    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    get(object, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<size_t>(length) + 1, '\0');
-    glGetShaderInfoLog(shader, length + 1, nullptr, log.data());
+    getLog(object, length + 1, nullptr, log.data());
     return log.c_str();  // up to the first zero, wherever the driver put it
-}
-
-std::string programLog(GLuint program) {
-    GLint length = 0;
-    glGetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-    std::string log(static_cast<size_t>(length) + 1, '\0');
-    glGetProgramInfoLog(program, length + 1, nullptr, log.data());
-    return log.c_str();
 }
 
 struct Stage {
@@ -59,7 +51,7 @@ Handle<deleteShader> compile(const Stage& stage, const std::string& label) {
     GLint compiled = GL_FALSE;
     glGetShaderiv(shader.id(), GL_COMPILE_STATUS, &compiled);
     if (compiled != GL_TRUE) {
-        const std::string log = shaderLog(shader.id());
+        const std::string log = logOf(shader.id(), glGetShaderiv, glGetShaderInfoLog);
         throw Error(source.firstLocation(log),
                     concat("the ", stage.name, " shader of program \"", label, "\" does not compile\n  ",
                            indented(source.rewriteLog(log))));
@@ -83,16 +75,8 @@ void compileAndLink(GLuint program, const std::vector<Stage>& stages, const Prog
     if (linked == GL_TRUE) return;
     const std::string files =
         options.compute.empty() ? options.vertex + " and " + options.fragment : options.compute;
-    throw Error(
-        concat("program \"", label, "\" (", files, ") does not link\n  ", indented(programLog(program))));
-}
-
-std::string keyOf(const ContextInfo& info, const std::vector<Stage>& stages) {
-    std::vector<std::string_view> texts;
-    texts.reserve(stages.size());
-    for (const Stage& stage : stages)
-        texts.emplace_back(stage.source.text);
-    return programKey(info, texts);
+    throw Error(concat("program \"", label, "\" (", files, ") does not link\n  ",
+                       indented(logOf(program, glGetProgramiv, glGetProgramInfoLog))));
 }
 
 // light[0] is asked for as light, light.color by its whole name.
@@ -139,10 +123,9 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
              : !options.compute.empty() ? options.compute
                                         : options.fragment) {
     const ContextInfo& info = context.info();
-    if (!options.compute.empty() && !info.computeShaders) {
+    if (!options.compute.empty() && !info.computeShaders)
         throw Error(
             concat("compute shaders need OpenGL 4.3; this context has ", info.major, ".", info.minor));
-    }
     const std::vector<Stage> stages = readStages(shaderRoot, options);
     for (const Stage& stage : stages)
         for (const std::string& file : stage.source.files)
@@ -152,7 +135,10 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
         compileAndLink(id(), stages, options, label_);
     } else {
         context.checkErrors("before a program is made");
-        const std::string key = keyOf(info, stages);
+        std::vector<std::string_view> texts;
+        for (const Stage& stage : stages)
+            texts.emplace_back(stage.source.text);
+        const std::string key = programKey(info, texts);
         if (!options.cache->load(key, id())) {
             compileAndLink(id(), stages, options, label_);
             options.cache->store(key, id());
@@ -160,8 +146,8 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     }
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
-        declared_.merge(declaredUniforms(stage.source.text));
-        for (const std::string& block : declaredBuffers(stage.source.text))
+        declared_.merge(declared(stage.source.text, "uniform"));
+        for (const std::string& block : declared(stage.source.text, "buffer"))
             storageBindings_.emplace(block, storageBinding(id(), block));
     }
     labelObject(context, GL_PROGRAM, id(), label_.c_str());
@@ -170,10 +156,6 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
 void Program::use() const {
     glUseProgram(id());
     lastUsed = id();
-}
-
-bool Program::uses(const char* name) const {
-    return locations_.find(std::string_view(name)) != locations_.end();
 }
 
 bool Program::inUse() const {
@@ -190,30 +172,6 @@ GLint Program::location(const char* name) const {
     return -1;  // which OpenGL ignores
 }
 
-void Program::set(const char* name, int value) const {
-    glUniform1i(location(name), value);
-}
-void Program::set(const char* name, uint32_t value) const {
-    glUniform1ui(location(name), value);
-}
-void Program::set(const char* name, float value) const {
-    glUniform1f(location(name), value);
-}
-void Program::set(const char* name, const glm::ivec2& value) const {
-    glUniform2iv(location(name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::ivec4& value) const {
-    glUniform4iv(location(name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec2& value) const {
-    glUniform2fv(location(name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec3& value) const {
-    glUniform3fv(location(name), 1, glm::value_ptr(value));
-}
-void Program::set(const char* name, const glm::vec4& value) const {
-    glUniform4fv(location(name), 1, glm::value_ptr(value));
-}
 void Program::set(const char* name, const glm::mat3& value) const {
     glUniformMatrix3fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
 }
@@ -228,16 +186,6 @@ void Program::set(const char* name, std::span<const glm::ivec4> values) const {
 void Program::set(const char* name, std::span<const glm::vec4> values) const {
     if (values.empty()) return;
     glUniform4fv(location(name), static_cast<GLsizei>(values.size()), glm::value_ptr(values.front()));
-}
-
-void Program::texture(const char* sampler, int unit, const Texture& texture) const {
-    texture.bind(unit);
-    set(sampler, unit);
-}
-
-void Program::texture(const char* sampler, int unit, const BufferTexture& texture) const {
-    texture.bind(unit);
-    set(sampler, unit);
 }
 
 void Program::uniformBlock(const char* block, int binding, const Buffer& buffer) const {
@@ -255,10 +203,6 @@ void Program::storage(const char* block, int binding, const Buffer& buffer, size
     EXPECTS((declared->second == binding || declared->second == dropped) &&
             "the shader's layout has another binding");
     buffer.bindStorage(binding, offset, bytes);
-}
-
-void Program::storage(const char* block, int binding, const Buffer& buffer) const {
-    storage(block, binding, buffer, 0, buffer.bytes());
 }
 
 void Program::dispatch(int groupsX) const {

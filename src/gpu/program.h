@@ -41,33 +41,38 @@ class Program {
 
     // The program must be in use. A name that the shader declares but that the compiler dropped is ignored; a
     // name that it does not declare is a mistake of ours (a contract). Arrays: the name without [0].
-    void set(const char* name, int value) const;
-    void set(const char* name, uint32_t value) const;
-    void set(const char* name, float value) const;
-    void set(const char* name, const glm::ivec2& value) const;
-    void set(const char* name, const glm::ivec4& value) const;
-    void set(const char* name, const glm::vec2& value) const;
-    void set(const char* name, const glm::vec3& value) const;
-    void set(const char* name, const glm::vec4& value) const;
+    void set(const char* name, int value) const { glUniform1i(location(name), value); }
+    void set(const char* name, uint32_t value) const { glUniform1ui(location(name), value); }
+    void set(const char* name, float value) const { glUniform1f(location(name), value); }
+    void set(const char* name, const glm::ivec2& value) const { glUniform2iv(location(name), 1, &value[0]); }
+    void set(const char* name, const glm::ivec4& value) const { glUniform4iv(location(name), 1, &value[0]); }
+    void set(const char* name, const glm::vec2& value) const { glUniform2fv(location(name), 1, &value[0]); }
+    void set(const char* name, const glm::vec3& value) const { glUniform3fv(location(name), 1, &value[0]); }
+    void set(const char* name, const glm::vec4& value) const { glUniform4fv(location(name), 1, &value[0]); }
     void set(const char* name, const glm::mat3& value) const;
     void set(const char* name, const glm::mat4& value) const;
     void set(const char* name, std::span<const glm::vec4> values) const;
     void set(const char* name, std::span<const glm::ivec4> values) const;
 
     // Binds the texture to the unit and the sampler to it.
-    void texture(const char* sampler, int unit, const Texture& texture) const;
-    void texture(const char* sampler, int unit, const BufferTexture& texture) const;
+    template <typename AnyTexture>
+    void texture(const char* sampler, int unit, const AnyTexture& texture) const {
+        texture.bind(unit);
+        set(sampler, unit);
+    }
     void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
     // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
     // layout(std430, binding = …), and differing from it, or no such block, is a mistake of ours (a
     // contract).
     void storage(const char* block, int binding, const Buffer& buffer, size_t offset, size_t bytes) const;
-    void storage(const char* block, int binding, const Buffer& buffer) const;  // all of it
+    void storage(const char* block, int binding, const Buffer& buffer) const {
+        storage(block, binding, buffer, 0, buffer.bytes());
+    }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
     void dispatch(int groupsX) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
     void dispatchIndirect(const Buffer& groups, size_t offset) const;
-    bool uses(const char* name) const;  // the compiler kept it
+    bool uses(const char* name) const { return locations_.contains(name); }  // the compiler kept it
 
     GLuint id() const { return handle_.id(); }
     const std::string& label() const { return label_; }

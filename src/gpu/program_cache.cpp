@@ -76,10 +76,6 @@ fs::path ProgramCache::file(const std::string& key) const {
     return folder_ / (key + extension);
 }
 
-std::vector<Warning> ProgramCache::takeWarnings() {
-    return std::exchange(warnings_, {});
-}
-
 bool ProgramCache::load(const std::string& key, GLuint program) {
     if (!active_) return false;
     if (fill(key, program)) {

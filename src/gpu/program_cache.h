@@ -14,6 +14,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "core/error.h"
@@ -42,7 +43,7 @@ class ProgramCache {
     bool active() const { return active_; }
     int hits() const { return hits_; }
     int misses() const { return misses_; }  // compiled; damaged files count
-    std::vector<Warning> takeWarnings();    // since the last call
+    std::vector<Warning> takeWarnings() { return std::exchange(warnings_, {}); }  // since the last call
 
   private:
     std::filesystem::path file(const std::string& key) const;

@@ -8,11 +8,12 @@
 #include "core/file.h"
 
 namespace shoal::gpu {
-namespace {
 
 bool isIdentifier(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
+
+namespace {
 
 std::string_view withoutSpaces(std::string_view text) {
     while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())))
@@ -112,9 +113,8 @@ class Resolver {
             rest.size() > 1 && rest.front() == '"' ? rest.find('"', 1) : std::string_view::npos;
         const std::string_view behind =
             end == std::string_view::npos ? std::string_view{} : withoutSpaces(rest.substr(end + 1));
-        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//")) {
+        if (end == std::string_view::npos || end == 1 || !(behind.empty() || behind.substr(0, 2) == "//"))
             throw Error(where, "expected #include \"folder/file.glsl\", from the root of the shaders");
-        }
         return std::string(rest.substr(1, end - 1));
     }
 
@@ -232,19 +232,7 @@ const char* header430() {
     return "#version 430 core\n";
 }
 
-const char* header300es() {
-    return "#version 300 es\n"
-           "precision highp float;\n"
-           "precision highp int;\n"
-           "precision highp sampler2D;\n"
-           "precision highp sampler2DShadow;\n"
-           "precision highp sampler2DArray;\n"
-           "precision highp usampler2D;\n"
-           "precision highp usampler2DArray;\n";
-}
-
-// Every word between `keyword` and the end of its declaration.
-static std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword) {
+std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword) {
     std::set<std::string, std::less<>> out;
     bool inDeclaration = false;
     int depth = 0;  // of braces, inside a block
@@ -272,14 +260,6 @@ static std::set<std::string, std::less<>> declared(std::string_view text, std::s
         }
     }
     return out;
-}
-
-std::set<std::string, std::less<>> declaredUniforms(std::string_view text) {
-    return declared(text, "uniform");
-}
-
-std::set<std::string, std::less<>> declaredBuffers(std::string_view text) {
-    return declared(text, "buffer");
 }
 
 }  // namespace shoal::gpu

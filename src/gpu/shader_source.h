@@ -40,15 +40,14 @@ ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
                            const std::map<std::string, std::string>& generated, const std::string& header);
 
-const char* header330();    // #version 330 core
-const char* header430();    // #version 430 core, the first with compute shaders
-const char* header300es();  // #version 300 es, and the precisions that it demands
+const char* header330();  // #version 330 core
+const char* header430();  // #version 430 core, the first with compute shaders
 
-// Names that the text declares as uniforms, whether or not the compiler will keep them. Blocks count with
-// their own name and those of their members.
-std::set<std::string, std::less<>> declaredUniforms(std::string_view text);
-// Returns the names of storage buffers likewise.
-std::set<std::string, std::less<>> declaredBuffers(std::string_view text);
+// Names that the text declares by a keyword, "uniform" or "buffer", whether or not the compiler will keep
+// them: every word up to the end of the declaration. Blocks count with their own name and those of their
+// members.
+std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword);
+bool isIdentifier(char c);  // a letter, a digit or _
 
 // Takes the branches that #if, #ifdef and #else leave out of a shader's text, so that people read, and
 // drivers compile, only what is used.

@@ -11,21 +11,22 @@ namespace {
 
 struct FormatRow {
     Format format;
+    const char* name;
     GLenum internal, layout, type;
     size_t bytes;
 };
 
 constexpr FormatRow formatTable[] = {
-    {Format::rgba32f, GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
-    {Format::rgba16f, GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
-    {Format::rgba8, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
-    {Format::srgb8a8, GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
-    {Format::rgba32ui, GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
-    {Format::rg32ui, GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
-    {Format::r32ui, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
-    {Format::r32f, GL_R32F, GL_RED, GL_FLOAT, 4},
-    {Format::depth24, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
-    {Format::depth32f, GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
+    {Format::rgba32f, "rgba32f", GL_RGBA32F, GL_RGBA, GL_FLOAT, 16},
+    {Format::rgba16f, "rgba16f", GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT, 8},
+    {Format::rgba8, "rgba8", GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {Format::srgb8a8, "srgb8a8", GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE, 4},
+    {Format::rgba32ui, "rgba32ui", GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT, 16},
+    {Format::rg32ui, "rg32ui", GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
+    {Format::r32ui, "r32ui", GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
+    {Format::r32f, "r32f", GL_R32F, GL_RED, GL_FLOAT, 4},
+    {Format::depth24, "depth24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
+    {Format::depth32f, "depth32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
 };
 
 const FormatRow& row(Format format) {
@@ -35,23 +36,15 @@ const FormatRow& row(Format format) {
 }
 
 // A framebuffer for one download; the one that was bound comes back.
-class ReadingFramebuffer {
-  public:
-    ReadingFramebuffer() {
-        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before_);
-        glGenFramebuffers(1, &id_);
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, id_);
-    }
-    ~ReadingFramebuffer() {
-        glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before_));
-        glDeleteFramebuffers(1, &id_);
-    }
-    ReadingFramebuffer(const ReadingFramebuffer&) = delete;
-    ReadingFramebuffer& operator=(const ReadingFramebuffer&) = delete;
+struct ReadingFramebuffer {
+    Handle<deleteFramebuffer> handle{glGenFramebuffers};
+    GLint before = 0;
 
-  private:
-    GLint before_ = 0;
-    GLuint id_ = 0;
+    ReadingFramebuffer() {
+        glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &before);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, handle.id());
+    }
+    ~ReadingFramebuffer() { glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(before)); }
 };
 
 }  // namespace
@@ -65,9 +58,8 @@ bool isDepth(Format format) {
 GLenum internalFormat(Format format) {
     return row(format).internal;
 }
-
-GLenum Texture::target() const {
-    return layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D;
+const char* name(Format format) {
+    return row(format).name;
 }
 
 Texture::Texture(Context& context, Format format, int width, int height, const char* label, int layers)
@@ -82,14 +74,11 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
     const std::string what =
         concat("texture \"", label, "\" of ", width, " x ", height, " texels (", mebibytes, " MiB)");
     const int largest = context.info().maxTextureSize;
-    if (width > largest || height > largest) {
+    if (width > largest || height > largest)
         throw Error(concat(what, " is too large: this context allows ", largest, " x ", largest));
-    }
     context.checkErrors("before a texture is made");
-    GLuint id = 0;
-    glGenTextures(1, &id);
-    handle_ = Handle<deleteTexture>(id);
-    glBindTexture(target(), id);
+    handle_ = Handle<deleteTexture>(glGenTextures);
+    glBindTexture(target(), id());
     const FormatRow& storage = row(format);
     const auto internal = static_cast<GLint>(storage.internal);
     if (layers > 0)
@@ -102,7 +91,7 @@ Texture::Texture(Context& context, Format format, int width, int height, const c
     glTexParameteri(target(), GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(target(), GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(target(), GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    labelObject(context, GL_TEXTURE, id, label);
+    labelObject(context, GL_TEXTURE, id(), label);
 }
 
 void Texture::upload(Traffic::Kind kind, int x, int y, int w, int h, const void* data, size_t bytes,
@@ -131,10 +120,9 @@ void Texture::download(Traffic::Kind kind, int x, int y, int w, int h, void* dat
     else
         glFramebufferTexture2D(GL_READ_FRAMEBUFFER, attachment, GL_TEXTURE_2D, id(), 0);
     glReadBuffer(isDepth(format_) ? GL_NONE : GL_COLOR_ATTACHMENT0);
-    if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    if (glCheckFramebufferStatus(GL_READ_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         throw Error("texture \"" + label_ +
                     "\" cannot be read back: this driver does not draw into its format");
-    }
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glReadPixels(x, y, w, h, storage.layout, storage.type, data);
     traffic_->countReadBack(kind, bytes);

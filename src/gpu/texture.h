@@ -20,6 +20,7 @@ enum class Format { rgba32f, rgba16f, rgba8, srgb8a8, rgba32ui, rg32ui, r32ui, r
 size_t texelBytes(Format format);  // of the data, as above
 bool isDepth(Format format);
 GLenum internalFormat(Format format);
+const char* name(Format format);
 
 class Texture {
   public:
@@ -54,7 +55,7 @@ class Texture {
     explicit operator bool() const { return bool(handle_); }
 
   private:
-    GLenum target() const;
+    GLenum target() const { return layers_ > 0 ? GL_TEXTURE_2D_ARRAY : GL_TEXTURE_2D; }
 
     Handle<deleteTexture> handle_;
     Traffic* traffic_ = nullptr;  // the context's, which outlives the texture and does not move

@@ -119,7 +119,7 @@ void DrawOrder::setKeys(const StateView& state, const Eye& eye, bool keepOrder) 
         return;
     }
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});  // the last picture has read the order
-    program.storage("Pairs", 0, pairs_, 0, pairs_.bytes());
+    program.storage("Pairs", 0, pairs_);
     program.dispatch((count_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
 }
@@ -199,9 +199,9 @@ void SlabDraws::update(const DrawOrder& order, const DepthSlabs& slabs) {
     program_.set("moleculeCount", order.count());
     program_.set("corners", stream_.corners);
     program_.set("batch", stream_.batch);
-    program_.storage("Draws", 0, draws_, 0, draws_.bytes());
+    program_.storage("Draws", 0, draws_);
     program_.dispatch((slabs_ + lanes - 1) / lanes);
-    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::draw});
+    gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::command});
 }
 
 void SlabDraws::bind(const gpu::Program& program) const {

@@ -156,21 +156,16 @@ void DrawnGroups::drawBlended(const StateView& state, const DrawInputs& inputs) 
             setBlend(group.blend);
             const gpu::Program& program = group.drawer->useLit(state, inputs);
             if (group.order) group.order->bind(program);
-            if (slabs_)
-                drawSlab(group, program, state, slab);
-            else
-                group.drawer->submit(program, state);
+            if (slabs_) program.set("slab", slab);
+            if (group.slabDraws) {
+                group.drawer->submitSlab(program, state, *group.slabDraws, slab);
+                continue;
+            }
+            if (slabs_) slabs_->bind(program);
+            group.drawer->submit(program, state);
         }
     }
     setBlend(Blend::none);
-}
-
-void DrawnGroups::drawSlab(const Drawn& group, const gpu::Program& program, const StateView& state,
-                           int slab) const {
-    program.set("slab", slab);
-    if (group.slabDraws) return group.drawer->submitSlab(program, state, *group.slabDraws, slab);
-    slabs_->bind(program);
-    group.drawer->submit(program, state);
 }
 
 }  // namespace shoal

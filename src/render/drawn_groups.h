@@ -48,7 +48,6 @@ class DrawnGroups {
     };
 
     void makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, int slabs);
-    void drawSlab(const Drawn& group, const gpu::Program& program, const StateView& state, int slab) const;
 
     std::unique_ptr<gpu::Programs> programs_ = std::make_unique<gpu::Programs>();  // drawers point at it
     std::vector<Drawn> groups_;

@@ -108,7 +108,7 @@ class MoleculeDrawer : public GroupDrawer {
     void makeSkinCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);
     bool grows() const { return grow_ > 0 || shrink_ > 0; }
-    void setShape(const gpu::Program& program) const;
+    void setShape(const gpu::Program& program, float pixelsPerMeter) const;
 
     Material material_;
     glm::vec3 color_{0}, secondColor_{0};
@@ -147,7 +147,8 @@ class ParticleDrawer : public GroupDrawer {
     void chooseShaders(const Lighting& lighting);
     std::vector<std::string> defines() const;
     void setType(const gpu::Program& program) const;
-    void setTime(const gpu::Program& program, double time) const;
+    void setView(const gpu::Program& program, const glm::mat3& viewToScene, const glm::vec4& eyeAt,
+                 const glm::vec2& pictureSize, float pixelsPerMeter, double time) const;
     void setColors(const gpu::Program& program) const;
 
     ParticleType type_;

@@ -5,6 +5,7 @@
 #include "core/image.h"
 #include "molecule/molecule_file.h"
 #include "render/group_drawer.h"
+#include "render/picture.h"
 
 namespace shoal {
 
@@ -20,13 +21,8 @@ static void neighbours(const Image& image, size_t pixel, Visit&& visit) {
 
 // Returns the image as RGBA, rows bottom first. Colour is spread from inside the shape, where alpha is at
 // least `inside`, over what is cut away.
-static Image bledImage(const Image& image, int inside) {
-    Image out = image;
-    const size_t row = size_t(image.width) * 4;
-    for (int y = 0; y < image.height; ++y) {
-        std::copy_n(image.pixels.begin() + std::ptrdiff_t(size_t(y) * row), row,
-                    out.pixels.begin() + std::ptrdiff_t(size_t(image.height - 1 - y) * row));
-    }
+static Image bledImage(Image out, int inside) {
+    turnOver(out);
     // Breadth first from the rim of what is inside, each pixel taking the colour that reached it.
     std::vector<bool> known(out.pixels.size() / 4);
     for (size_t i = 0; i < known.size(); ++i)

@@ -26,15 +26,9 @@ Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadow
       water_(water),
       blends_(blends) {}
 
-std::vector<std::string> Lighting::defines() const {
+std::vector<std::string> Lighting::defines(bool shadows) const {
     std::vector<std::string> out = toneDefines();
-    if (shadow_ != nullptr) out.emplace_back("SHADOWS");
-    if (water_ != nullptr) out.emplace_back("WATER");
-    return out;
-}
-
-std::vector<std::string> Lighting::skyDefines() const {
-    std::vector<std::string> out = toneDefines();
+    if (shadows && shadow_ != nullptr) out.emplace_back("SHADOWS");
     if (water_ != nullptr) out.emplace_back("WATER");
     return out;
 }
@@ -70,8 +64,7 @@ void Lighting::applyBeams(const gpu::Program& program, const Eye& eye) const {
 }
 
 void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
-    applySun(program);
-    applyMedium(program, eye);
+    applyBeams(program, eye);
     program.set("crown", glm::vec4(glm::vec3(crown_.center - eye.origin.exact), float(crown_.radius)));
     if (shadow_ == nullptr) return;
     program.texture("shadowMap", unit::shadowMap, shadow_->depth());

@@ -73,10 +73,9 @@ class Lighting {
     Lighting(const Scene& scene, const BoundingSphere& crown, const ShadowMap* shadow,
              const WaterLight* water, bool blends);
 
-    // Returns the defines of programs that light surfaces.
-    std::vector<std::string> defines() const;
+    // Returns the defines of programs that light surfaces; without `shadows`, of the sky's.
+    std::vector<std::string> defines(bool shadows = true) const;
     std::vector<std::string> toneDefines() const;  // those of the picture
-    std::vector<std::string> skyDefines() const;
     void applySky(const gpu::Program& program, const Eye& eye) const;
     void applyBeams(const gpu::Program& program, const Eye& eye) const;  // only with water
     void apply(const gpu::Program& program, const Eye& eye) const;

@@ -103,28 +103,26 @@ void MoleculeDrawer::chooseShaders(const Lighting& lighting) {
     depth.label = name_ + " (shadow)";
 }
 
-void MoleculeDrawer::setShape(const gpu::Program& program) const {
+void MoleculeDrawer::setShape(const gpu::Program& program, float pixelsPerMeter) const {
     if (image_) {
         program.texture("image", unit::image, image_);
         program.set("alphaCut", float(material_.alphaCut));
     }
     constexpr float atOnce = 1e-6f;  // s
     if (grows()) program.set("growTimes", glm::max(glm::vec2(grow_, shrink_), glm::vec2(atOnce)));
+    if (!points_) return;
+    program.set("pointSize", float(material_.pointSize));
+    program.set("pixelsPerMeter", pixelsPerMeter);
 }
 
 const gpu::Program& MoleculeDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double) {
     const gpu::Program& program = beginDepth(state, shadow);
-    setShape(program);
-    if (points_) {
-        program.set("pointSize", float(material_.pointSize));
-        program.set("pixelsPerMeter", shadow.pixelsPerMeter());
-    }
+    setShape(program, shadow.pixelsPerMeter());
     return program;
 }
 
 const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& program = beginLit(state, inputs);
-    const Eye& eye = inputs.eye;
     if (!scale_) {
         program.set("firstColor", color_);
         program.set("secondColor", secondColor_);
@@ -132,14 +130,11 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
     program.set("roughness", float(material_.roughness));
     program.set("metallic", float(material_.metallic));
     program.set("opacity", float(material_.opacity));
-    setShape(program);
-    if (points_) {
-        program.set("pointSize", float(material_.pointSize));
-        program.set("pixelsPerMeter", eye.pixelsPerMeter);
-        program.set("viewToScene", eye.viewToScene);
-    } else {
+    setShape(program, inputs.eye.pixelsPerMeter);
+    if (points_)
+        program.set("viewToScene", inputs.eye.viewToScene);
+    else
         program.set("translucency", float(material_.translucency));
-    }
     return program;
 }
 

@@ -10,10 +10,6 @@ namespace {
 
 constexpr int batch = 64;  // particles an instance
 
-bool spreads(const glm::dvec2& span) {
-    return span.x != span.y;
-}
-
 bool turns(const ParticleType& type) {
     const bool any = type.turn != glm::dvec2(0) || type.spin != glm::dvec2(0);
     // A dot looks the same however it is turned about the line of sight.
@@ -101,7 +97,7 @@ std::vector<std::string> ParticleDrawer::defines() const {
     add(type_.shape == ParticleShape::points, "POINTS");
     add(type_.shape == ParticleShape::sprites, "SPRITES");
     out.push_back(concat("FACING ", name(type_.facing), "Facing"));
-    add(spreads(type_.size), "SIZES");
+    add(type_.size.x != type_.size.y, "SIZES");
     add(ages_ && type_.growth != glm::dvec2(1), "GROWS");
     add(turns(type_), "TURNS");
     add(ages_ && type_.colors.size() > 1, "COLORS");
@@ -171,8 +167,14 @@ void ParticleDrawer::setType(const gpu::Program& program) const {
     program.set("frameRate", float(type_.image->frameRate));
 }
 
-// In parts that a float holds, however long it has been.
-void ParticleDrawer::setTime(const gpu::Program& program, double time) const {
+void ParticleDrawer::setView(const gpu::Program& program, const glm::mat3& viewToScene,
+                             const glm::vec4& eyeAt, const glm::vec2& pictureSize, float pixelsPerMeter,
+                             double time) const {
+    program.set("viewToScene", viewToScene);
+    program.set("eyeAt", eyeAt);
+    program.set("pictureSize", pictureSize);
+    program.set("pixelsPerMeter", pixelsPerMeter);
+    // The time in parts that a float holds, however long it has been.
     constexpr double block = 64;  // s
     const double blocks = std::floor(time / block);
     program.set("timeBlocks", uint32_t(int64_t(std::fmod(blocks, 4294967296.0))));
@@ -183,25 +185,18 @@ void ParticleDrawer::setTime(const gpu::Program& program, double time) const {
 
 const gpu::Program& ParticleDrawer::useDepth(const StateView& state, const ShadowMap& shadow, double time) {
     const gpu::Program& program = beginDepth(state, shadow);
-    program.set("viewToScene", shadow.toScene());
-    program.set("eyeAt", glm::vec4(shadow.toScene()[2], 0));
-    program.set("pictureSize", glm::vec2(float(shadow.depth().width())));
-    program.set("pixelsPerMeter", shadow.pixelsPerMeter());
+    setView(program, shadow.toScene(), glm::vec4(shadow.toScene()[2], 0),
+            glm::vec2(float(shadow.depth().width())), shadow.pixelsPerMeter(), time);
     program.set("leastCover", 0.5f);
     setType(program);
-    setTime(program, time);
     return program;
 }
 
 const gpu::Program& ParticleDrawer::useLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& program = beginLit(state, inputs);
     const Eye& eye = inputs.eye;
-    program.set("viewToScene", eye.viewToScene);
-    program.set("eyeAt", glm::vec4(0, 0, 0, 1));
-    program.set("pictureSize", eye.size);
-    program.set("pixelsPerMeter", eye.pixelsPerMeter);
+    setView(program, eye.viewToScene, glm::vec4(0, 0, 0, 1), eye.size, eye.pixelsPerMeter, eye.time);
     setType(program);
-    setTime(program, eye.time);
     if (type_.blend == Blend::none) program.set("leastCover", inputs.multisampled ? 0.02f : 0.5f);
     if (!readsDepth()) return program;
     program.texture("sceneDepth", unit::sceneDepth, *inputs.sceneDepth);

@@ -9,6 +9,12 @@
 
 namespace shoal {
 
+void turnOver(Image& image) {
+    const auto row = std::ptrdiff_t(image.width) * image.channels;
+    for (auto top = image.pixels.begin(), end = image.pixels.end(); end - top > row; top += row, end -= row)
+        std::swap_ranges(top, top + row, end - row);
+}
+
 static std::string number(int frame, int digits) {
     std::string text = std::to_string(frame);
     if (int(text.size()) < digits) text.insert(0, size_t(digits) - text.size(), '0');

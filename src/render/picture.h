@@ -12,6 +12,8 @@
 
 namespace shoal {
 
+void turnOver(Image& image);  // the last row becomes the first: OpenGL's come from the bottom
+
 // The file of one frame. `target` is a folder, which gets frame-00000.png and so on, or a name with one
 // %d or %05d in it, or a name ending in .png, which takes the frame's number only if `many`. Numbers are as
 // long as `last`, so that names sort. Error: more than one %, one that is no number, or one with too few
@@ -39,9 +41,6 @@ class VideoWriter {
     void finish();
 
   private:
-    void start(double frameRate);
-    void closePipe();
-    void closeLog();
     int wait();  // exit status of ffmpeg, -1 when a signal ended it
     [[noreturn]] void fail(const std::string& what);
     std::string complaint() const;  // the end of what ffmpeg said

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gpu/gl.h"
+#include "render/picture.h"
 
 namespace shoal {
 
@@ -44,7 +45,8 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
               pixelsPerMeterAt(scene.camera, options.height)),
       beams_(context, shaderRoot, water_.get()),
-      sky_(context, shaderRoot, {"render/screen.vert", "render/sky.frag", lighting_.skyDefines(), {}, "sky"}),
+      sky_(context, shaderRoot,
+           {"render/screen.vert", "render/sky.frag", lighting_.defines(false), {}, "sky"}),
       tone_(context, shaderRoot,
             {"render/screen.vert", "render/picture.frag", pictureDefines(lighting_, beams_), {}, "picture"}),
       empty_(context, "no corners"),
@@ -103,10 +105,17 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         overlay->draw(state, inputs);
     }
     drawSky(eye);
-    if (sceneDepth_) copyDepth();
+    if (sceneDepth_) {
+        const auto timer = timers_.time("depth");
+        samples_.blitDepthTo(sceneDepthTarget_);
+        samples_.bind();
+    }
     if (groups_.blends()) drawBlended(state, inputs);
     samples_.blitTo(lightTarget_);
-    if (beams_) drawBeams(eye);
+    if (beams_) {
+        const auto timer = timers_.time("beams");
+        beams_.draw(eye, lighting_, sceneDepth_);
+    }
     drawPicture(view.exposure);
 }
 
@@ -132,12 +141,6 @@ void Renderer::drawSky(const Eye& eye) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::copyDepth() {
-    const auto timer = timers_.time("depth");
-    samples_.blitDepthTo(sceneDepthTarget_);
-    samples_.bind();
-}
-
 void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     const auto timer = timers_.time("blended");
     glEnable(GL_DEPTH_TEST);
@@ -145,11 +148,6 @@ void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
     groups_.drawBlended(state, inputs);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);
-}
-
-void Renderer::drawBeams(const Eye& eye) {
-    const auto timer = timers_.time("beams");
-    beams_.draw(eye, lighting_, sceneDepth_);
 }
 
 void Renderer::drawPicture(double exposure) {
@@ -163,20 +161,11 @@ void Renderer::drawPicture(double exposure) {
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Renderer::present(int width, int height) const {
-    pictureTarget_.blitToDefault(width, height);
-}
-
 Image Renderer::capture() const {
-    const size_t row = size_t(width()) * 4;
-    std::vector<uint8_t> upsideDown(row * size_t(height()));
-    picture_.download(gpu::Traffic::Kind::parameters, 0, 0, width(), height(), upsideDown.data(),
-                      upsideDown.size());
-    Image image{width(), height(), 4, std::vector<uint8_t>(upsideDown.size())};
-    for (size_t y = 0; y < size_t(height()); ++y) {
-        std::copy_n(upsideDown.end() - std::ptrdiff_t((y + 1) * row), row,
-                    image.pixels.begin() + std::ptrdiff_t(y * row));
-    }
+    Image image{width(), height(), 4, std::vector<uint8_t>(picture_.bytes())};
+    picture_.download(gpu::Traffic::Kind::parameters, 0, 0, width(), height(), image.pixels.data(),
+                      image.pixels.size());
+    turnOver(image);
     return image;
 }
 

@@ -56,7 +56,7 @@ class Renderer {
     // except that blending, depth and face culling are off at the end.
     void draw(const StateView& state, const View& view, Overlay* overlay = nullptr);
     // The last picture into the window's framebuffer.
-    void present(int width, int height) const;
+    void present(int width, int height) const { pictureTarget_.blitToDefault(width, height); }
     // The last picture, RGBA, rows from the top. Counted as parameters that are read back.
     Image capture() const;
 
@@ -78,8 +78,6 @@ class Renderer {
   private:
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
-    void copyDepth();
-    void drawBeams(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
     void drawPicture(double exposure);
 

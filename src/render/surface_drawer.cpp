@@ -42,10 +42,8 @@ SurfaceMesh meshOf(const Mesh& mesh) {
         out.corners.push_back(corner);
     }
     out.indices.reserve(mesh.triangles.size() * 3);
-    for (const glm::ivec3& t : mesh.triangles) {
-        for (int k = 0; k < 3; ++k)
-            out.indices.push_back(uint32_t(t[k]));
-    }
+    for (const glm::ivec3& t : mesh.triangles)
+        out.indices.insert(out.indices.end(), {uint32_t(t[0]), uint32_t(t[1]), uint32_t(t[2])});
     return out;
 }
 
@@ -91,8 +89,7 @@ SurfaceMesh meshOf(const BoxCollider& box) {
                 const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
                 out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n), glm::vec3(1)});
             }
-            for (const uint32_t corner : {0, 1, 2, 0, 2, 3})
-                out.indices.push_back(first + corner);
+            out.indices.insert(out.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
         }
     }
     return out;
@@ -194,11 +191,10 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         litPlane_.use();
         litPlane_.set("grid", int(grid));
     }
-    if (shadow != nullptr) {
+    if (shadow != nullptr)
         depth_ = gpu::Program(
             context, shaderRoot,
             {"render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"});
-    }
 }
 
 void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label) {

@@ -29,11 +29,6 @@ void VideoWriter::checkInstalled() {
             "ffmpeg); name a folder to get PNG pictures instead");
 }
 
-VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate)
-    : file_(std::move(file)), part_(file_), width_(width), height_(height) {
-    start(frameRate);
-}
-
 namespace {
 
 // ffmpeg gets what ends the whole group of processes as we do (Ctrl-C, systemd, timeout), and would stop
@@ -55,9 +50,15 @@ class EndingSignalsHeld {
     sigset_t before_{};
 };
 
+void closeFile(int& file) {
+    if (file >= 0) close(file);
+    file = -1;
+}
+
 }  // namespace
 
-void VideoWriter::start(double frameRate) {
+VideoWriter::VideoWriter(std::filesystem::path file, int width, int height, double frameRate)
+    : file_(std::move(file)), part_(file_), width_(width), height_(height) {
     const std::string program = findProgram("ffmpeg");
     if (program.empty()) checkInstalled();
     const bool vp9 = lowerExtension(file_) == ".webm";
@@ -95,28 +96,18 @@ void VideoWriter::start(double frameRate) {
     close(ends[0]);
     pipe_ = ends[1];
     if (process_ > 0) return;
-    closePipe();
-    closeLog();
+    closeFile(pipe_);
+    closeFile(log_);
     throw Error(concat("cannot start ffmpeg: ", std::strerror(forkError)));
 }
 
 VideoWriter::~VideoWriter() {
     if (process_ > 0) {
         kill(process_, SIGKILL);  // the file is removed: there is nothing to finish
-        closePipe();
+        closeFile(pipe_);
         wait();
     }
-    closeLog();
-}
-
-void VideoWriter::closeLog() {
-    if (log_ >= 0) close(log_);
-    log_ = -1;
-}
-
-void VideoWriter::closePipe() {
-    if (pipe_ >= 0) close(pipe_);
-    pipe_ = -1;
+    closeFile(log_);
 }
 
 int VideoWriter::wait() {
@@ -141,7 +132,7 @@ std::string VideoWriter::complaint() const {
 }
 
 void VideoWriter::fail(const std::string& what) {
-    closePipe();
+    closeFile(pipe_);
     if (process_ > 0) wait();
     const std::string reason = complaint();
     throw Error(
@@ -181,10 +172,9 @@ class BrokenPipeHeld {
 }  // namespace
 
 void VideoWriter::write(const Image& picture) {
-    if (picture.width != width_ || picture.height != height_ || picture.channels != 4) {
+    if (picture.width != width_ || picture.height != height_ || picture.channels != 4)
         throw Error(concat(file_.string(), ": expected pictures of ", width_, " x ", height_,
                            " RGBA, found one of ", picture.width, " x ", picture.height));
-    }
     size_t sent = 0;
     int error = 0;
     {
@@ -202,7 +192,7 @@ void VideoWriter::write(const Image& picture) {
 }
 
 void VideoWriter::finish() {
-    closePipe();
+    closeFile(pipe_);
     const int status = wait();
     // It ends well even when the file's end could not be written; then it has said so.
     if (status != 0 || !complaint().empty()) fail(status == 127 ? "ffmpeg cannot be run" : "ffmpeg failed");

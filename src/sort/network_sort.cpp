@@ -94,10 +94,6 @@ NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, K
     program_ = gpu::Program(context, shaderRoot, options);
 }
 
-int NetworkSort::rows() const {
-    return int((count_ + size_t(rowLength_) - 1) / size_t(rowLength_));
-}
-
 void NetworkSort::setCount(size_t count) {
     EXPECTS(count <= capacity_);
     count_ = count;

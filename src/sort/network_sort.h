@@ -100,7 +100,7 @@ class NetworkSort {
     void run(const OddEvenPass& pass);
     void run(const BitonicPass& pass);
     void begin() const;
-    int rows() const;
+    int rows() const { return int((count_ + size_t(rowLength_) - 1) / size_t(rowLength_)); }
 
     Kind kind_;
     size_t capacity_, count_;

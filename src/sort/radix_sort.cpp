@@ -40,10 +40,9 @@ Program compute(gpu::Context& context, const std::string& root, const char* file
 }
 
 size_t checkedCapacity(const gpu::ContextInfo& info, size_t capacity) {
-    if (!info.computeShaders) {
+    if (!info.computeShaders)
         throw Error(concat("radix sort needs compute shaders, OpenGL 4.3; this context has ", info.major, ".",
                            info.minor));
-    }
     const size_t most = RadixSort::most(info);
     if (capacity <= most) return std::max<size_t>(capacity, 1);
     throw Error(concat("radix sort of ", capacity, " pairs is larger than this context can hold: ", most));
@@ -103,7 +102,7 @@ void RadixSort::setPass(const Program& program, const Pass& pass) const {
     program.use();
     program.set("digits", pass.digits);
     program.set("parts", pass.parts);
-    program.storage("Counts", 0, counts_, 0, counts_.bytes());
+    program.storage("Counts", 0, counts_);
     if (&program == &scan_) return;
     program.set("count", pass.count);
     program.set("shift", pass.shift);
@@ -129,13 +128,13 @@ void RadixSort::run(const Buffer& from, const Buffer& to, const Pass& pass) {
 
     gpu::barrier({Barrier::storage});
     setPass(scan_, pass);
-    scan_.storage("Totals", 1, totals_, 0, totals_.bytes());
+    scan_.storage("Totals", 1, totals_);
     scan_.dispatch(tiles_ ? pass.digits : dividedUp(size_t(pass.digits), simdLanes));
 
     gpu::barrier({Barrier::storage});
     setPass(scatter_, pass);
     bindPairs(scatter_);
-    scatter_.storage("Totals", 1, totals_, 0, totals_.bytes());
+    scatter_.storage("Totals", 1, totals_);
     scatter_.storage("Sorted", 2, to, 0, bytes);
     scatter_.dispatch(groups);
 }

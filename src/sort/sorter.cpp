@@ -1,7 +1,6 @@
 #include "sort/sorter.h"
 
 #include <algorithm>
-#include <climits>
 
 #include "core/contract.h"
 #include "core/error.h"
@@ -13,19 +12,11 @@ using Kind = gpu::Traffic::Kind;
 namespace {
 
 constexpr SortMethodRow methods[] = {
-    {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, false, true},
-    {SortMethod::bitonic, "bitonic", false, 3, 3, true, false},
+    {SortMethod::oddEvenMerge, "odd-even merge", false, 3, 3, true, false},
+    {SortMethod::bitonic, "bitonic", false, 3, 3, true, true},
     {SortMethod::radix, "radix", true, 4, 3, false, false},
     {SortMethod::cpu, "cpu", true, 3, 3, false, false},  // read back, std::stable_sort, uploaded
 };
-
-NetworkSort::Kind networkKind(SortMethod method) {
-    return method == SortMethod::bitonic ? NetworkSort::Kind::bitonic : NetworkSort::Kind::oddEvenMerge;
-}
-
-bool isNetwork(SortMethod method) {
-    return method == SortMethod::bitonic || method == SortMethod::oddEvenMerge;
-}
 
 }  // namespace
 
@@ -43,19 +34,13 @@ bool canRun(SortMethod method, const gpu::ContextInfo& info) {
     return info.atLeast(row(method).major, row(method).minor);
 }
 
-size_t mostPairs(SortMethod method, const gpu::ContextInfo& info) {
-    if (!canRun(method, info)) return 0;
-    if (method == SortMethod::radix) return RadixSort::most(info);
-    if (isNetwork(method)) return NetworkSort::most(info, networkKind(method));
-    return INT_MAX;  // and what the device's memory holds
-}
-
 Sorter::Sorter(gpu::Context& context, const std::string& shaderRoot, SortMethod method, size_t capacity,
                int rowLength, gpu::ProgramCache* cache)
     : method_(method), capacity_(capacity) {
-    if (isNetwork(method)) {
-        network_ = std::make_unique<NetworkSort>(context, shaderRoot, networkKind(method), capacity,
-                                                 rowLength, cache);
+    if (row(method).network) {
+        const auto kind =
+            method == SortMethod::bitonic ? NetworkSort::Kind::bitonic : NetworkSort::Kind::oddEvenMerge;
+        network_ = std::make_unique<NetworkSort>(context, shaderRoot, kind, capacity, rowLength, cache);
         return;
     }
     if (method == SortMethod::radix)
@@ -108,19 +93,9 @@ void Sorter::sortOnCpu() {
     upload(pairs);
 }
 
-void Sorter::sortRows() {
-    EXPECTS(row(method_).rowsOnly);
-    network_->sortRows();
-}
-
-void Sorter::beginSpread(int frames) {
-    EXPECTS(row(method_).spread);
-    network_->beginSpread(frames);
-}
-
-void Sorter::advance() {
-    EXPECTS(row(method_).spread);
-    network_->advance();
+NetworkSort& Sorter::network() {
+    EXPECTS(network_);
+    return *network_;
 }
 
 }  // namespace shoal

@@ -20,15 +20,14 @@ enum class SortMethod { oddEvenMerge, bitonic, radix, cpu };
 struct SortMethodRow {
     SortMethod method;
     const char* name;
-    bool stable;            // equal keys stay in their order
-    int major, minor;       // OpenGL that it needs
-    bool rowsOnly, spread;  // sortRows(); beginSpread() and advance()
+    bool stable;       // equal keys stay in their order
+    int major, minor;  // OpenGL that it needs
+    bool network;      // of passes in textures
+    bool rowsOnly;     // sortRows()
 };
 std::span<const SortMethodRow> sortMethods();
 const SortMethodRow& row(SortMethod method);
 bool canRun(SortMethod method, const gpu::ContextInfo& info);
-// How many pairs the context can hold; 0 where it cannot run the method.
-size_t mostPairs(SortMethod method, const gpu::ContextInfo& info);
 
 class Sorter {
   public:
@@ -41,9 +40,9 @@ class Sorter {
     void upload(std::span<const KeyIndex> pairs);
     // Ascending, by all 32 bits; radix: by the low `keyBits`.
     void sort(int keyBits = 32);
-    void sortRows();               // bitonic
-    void beginSpread(int frames);  // odd-even merge
-    void advance();
+    void sortRows() { network().sortRows(); }                        // bitonic
+    void beginSpread(int frames) { network().beginSpread(frames); }  // odd-even merge
+    void advance() { network().advance(); }
     std::vector<KeyIndex> download() const;
 
     SortMethod method() const { return method_; }
@@ -54,6 +53,7 @@ class Sorter {
 
   private:
     void sortOnCpu();
+    NetworkSort& network();
 
     SortMethod method_;
     size_t capacity_, count_ = 0;

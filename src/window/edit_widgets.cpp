@@ -115,6 +115,16 @@ bool tick(const Row& row, bool& value) {
     return changed;
 }
 
+std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words) {
+    std::optional<size_t> chosen;
+    beginRow(row);
+    if (!ImGui::BeginCombo(hidden(row).c_str(), now.c_str())) return chosen;
+    for (size_t i = 0; i < words.size(); ++i)
+        if (ImGui::Selectable(words[i].c_str(), words[i] == now) && words[i] != now) chosen = i;
+    ImGui::EndCombo();
+    return chosen;
+}
+
 bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color) {
     std::array<float, 3> shown{float(color.x), float(color.y), float(color.z)};
     beginRow(row);

@@ -3,7 +3,9 @@
 // frame. Numbers stay within their limit, also when they are typed (Ctrl and a click).
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include <glm/glm.hpp>
 
@@ -35,6 +37,8 @@ bool slide(const Row& row, const Limit& limit, int& value);
 bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
+// The index of the word that was chosen in this frame, which is another than `now`.
+std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words);
 bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color);  // of each channel
 
 // Two sliders for a unit vector: above the horizon, and around from -z over +x. `angles` remembers them where

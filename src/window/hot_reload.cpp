@@ -39,10 +39,15 @@ bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
             const RunningScene::Reloaded reloaded = running.reload(prefer);
             built = reloaded.conflicts.empty() || prefer;
             conflicts_ = prefer ? std::vector<std::string>() : reloaded.conflicts;
-            if (built)
+            if (built) {
                 tell(reloaded);
-            else if (!prefer)
-                tellConflicts(running);
+            } else {
+                std::cerr << "shoal: warning: not reloaded yet: " << printable(running.original().file)
+                          << " and the window both changed";
+                for (const std::string& conflict : conflicts_)
+                    std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << printable(conflict);
+                std::cerr << std::endl;
+            }
         } else {
             running.remakePrograms();
             built = true;
@@ -50,7 +55,11 @@ bool HotReload::reload(RunningScene& running, std::optional<Prefer> prefer) {
         }
         problem_.clear();
     } catch (const Error& error) {
-        fail(error);
+        if (problem_ != error.what()) {
+            problem_ = error.what();
+            conflicts_.clear();
+            std::cerr << "shoal: warning: not reloaded: " << problem_ << std::endl;
+        }
     }
     // a file may name others than before, even where it cannot be taken yet
     follow(running, false);
@@ -68,21 +77,6 @@ void HotReload::tell(const RunningScene::Reloaded& reloaded) {
     for (const std::string& group : reloaded.restarted)
         std::cout << " " << printable(group);
     std::cout << std::endl;
-}
-
-void HotReload::tellConflicts(const RunningScene& running) const {
-    std::cerr << "shoal: warning: not reloaded yet: " << printable(running.original().file)
-              << " and the window both changed";
-    for (const std::string& conflict : conflicts_)
-        std::cerr << (&conflict == conflicts_.data() ? " " : ", ") << printable(conflict);
-    std::cerr << std::endl;
-}
-
-void HotReload::fail(const Error& error) {
-    if (problem_ == error.what()) return;
-    problem_ = error.what();
-    conflicts_.clear();
-    std::cerr << "shoal: warning: not reloaded: " << problem_ << std::endl;
 }
 
 }  // namespace shoal::window

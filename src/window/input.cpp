@@ -121,18 +121,14 @@ void Input::take(const Event& event, Taken& taken) {
         }
         // One press a frame, so that what it does is done before the next; but a text comes as fast as it is
         // typed.
-        taken.ends = event.down && !isModifier(event.code) && !typesNext();
+        taken.ends = event.down && !isModifier(event.code) &&
+                     (waiting_.empty() || waiting_.front().kind != Kind::text);
         break;
     case Kind::text:
         ImGui_ImplGlfw_CharCallback(window_, unsigned(event.code));
         taken.ends = !ImGui::GetIO().WantTextInput;
         break;
     }
-}
-
-// The letter of the key that was just taken.
-bool Input::typesNext() const {
-    return !waiting_.empty() && waiting_.front().kind == Event::Kind::text;
 }
 
 void Input::settle() {

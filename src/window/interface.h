@@ -53,7 +53,6 @@ class Input {
     void listen();
     bool fits(const Event& event, const Taken& taken) const;
     void take(const Event& event, Taken& taken);
-    bool typesNext() const;
     void add(const Event& event) { waiting_.push_back(event); }
 
     GLFWwindow* window_;

@@ -34,20 +34,6 @@ Row rowOf(const std::string& label, const Key& key, std::string& format, const S
     return row;
 }
 
-bool pickWord(const Row& row, const Key& key, void* value) {
-    int index = key.member.index(value);
-    beginRow(row);
-    bool changed = false;
-    if (!ImGui::BeginCombo("##word", key.words[size_t(index)].c_str())) return false;
-    for (int i = 0; i < int(key.words.size()); ++i) {
-        if (!ImGui::Selectable(key.words[size_t(i)].c_str(), i == index) || i == index) continue;
-        key.member.choose(value, i);
-        changed = true;
-    }
-    ImGui::EndCombo();
-    return changed;
-}
-
 bool dragBox(const Key& key, const Limit& limit, Box& box) {
     const std::string low = concat(inWords(key.name), ", low"), high = concat(inWords(key.name), ", high");
     const char* sentence = key.says.sentence.c_str();
@@ -61,24 +47,10 @@ bool dragBox(const Key& key, const Limit& limit, Box& box) {
 }
 
 bool hasRow(const Key& key) {
-    switch (key.kind) {
-    case Kind::number:
-    case Kind::whole:
-    case Kind::flag:
-    case Kind::word:
-    case Kind::vector2:
-    case Kind::vector3:
-    case Kind::direction:
-    case Kind::color:
-    case Kind::span:
-    case Kind::ends:
-    case Kind::box:
-    case Kind::object:
-    case Kind::list:
-        return true;
-    default:
-        return false;
-    }
+    constexpr Kind kinds[] = {Kind::number,  Kind::whole,     Kind::flag,  Kind::word, Kind::vector2,
+                              Kind::vector3, Kind::direction, Kind::color, Kind::span, Kind::ends,
+                              Kind::box,     Kind::object,    Kind::list};
+    return std::find(std::begin(kinds), std::end(kinds), key.kind) != std::end(kinds);
 }
 
 // A number that stands for none, as of what lives for ever.
@@ -192,8 +164,11 @@ bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, c
         return pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, *static_cast<glm::dvec3*>(value));
     case Kind::flag:
         return tick(row, *static_cast<bool*>(value));
-    case Kind::word:
-        return pickWord(row, key, value);
+    case Kind::word: {
+        const auto chosen = choose(row, key.words[size_t(key.member.index(value))], key.words);
+        if (chosen) key.member.choose(value, int(*chosen));
+        return chosen.has_value();
+    }
     case Kind::box:
         return dragBox(key, limit, *static_cast<Box*>(value));
     default:

@@ -62,32 +62,90 @@ void become(Emitter& emitter, From from, const Scene& scene, const std::string& 
     if (from == From::death) emitter.perDeath = std::max(1, emitter.perDeath);
 }
 
-template <typename Names, typename NameOf>
-bool pickName(const Row& row, const Names& all, const NameOf& nameOf, std::string current, std::string& out) {
-    beginRow(row);
-    bool changed = false;
-    if (!ImGui::BeginCombo((std::string("##") + row.label).c_str(), current.c_str())) return false;
-    for (const auto& one : all) {
-        const std::string& name = nameOf(one);
-        if (!ImGui::Selectable(name.c_str(), name == current)) continue;
-        out = name;
-        changed = name != current;
+bool drawKind(const Scene& scene, const Group& group, Emitter& emitter, Lifecycle& life) {
+    const std::vector<std::string> dying = dyingGroups(scene, group);
+    std::vector<From> possible;
+    std::vector<std::string> words;
+    for (int kind = 0; kind < kinds; ++kind) {
+        const From from = From(kind);
+        const bool can =
+            from == From::surface ? !scene.models.empty() : from != From::death || !dying.empty();
+        if (!can && from != emitter.from) continue;
+        possible.push_back(from);
+        words.emplace_back(name(from));
     }
-    ImGui::EndCombo();
+    const auto chosen = choose(rowOf(*describe(&emitter).find("from")), name(emitter.from), words);
+    if (!chosen) return false;
+    become(emitter, possible[*chosen], scene, dying.empty() ? "" : dying.front());
+    if (emitter.from == From::death) life.allocator = Allocator::gpu;  // the only one that can
+    return true;
+}
+
+bool drawDying(const Scene& scene, const Group& group, Emitter& emitter) {
+    const std::vector<std::string> dying = dyingGroups(scene, group);
+    const auto chosen = choose(rowOf(*describe(&emitter).find("of")), emitter.group, dying);
+    if (chosen) emitter.group = dying[*chosen];
+    return chosen.has_value();
+}
+
+bool drawModel(const Scene& scene, Emitter& emitter) {
+    std::vector<std::string> names;
+    for (const Model& model : scene.models)
+        names.push_back(model.name);
+    const auto chosen = choose(rowOf(*describe(&emitter).find("model")), names[size_t(emitter.model)], names);
+    if (!chosen) return false;
+    emitter.model = int(*chosen);
+    emitter.select = {};  // of the other model's parts
+    return true;
+}
+
+bool drawEmitter(const Scene& scene, Group& group, size_t index, KeyRows& rows) {
+    Lifecycle& life = *group.life;
+    Emitter& emitter = life.emitters[index];
+    KeyRows::Owns owns = {{"from", [&] { return drawKind(scene, group, emitter, life); }},
+                          {"model", [&] { return drawModel(scene, emitter); }},
+                          {"of", [&] { return drawDying(scene, group, emitter); }},
+                          {"select", {}},
+                          {"path", {}}};
+    if (!emitter.path && emitter.from != From::death) owns["inherit"] = {};
+    if (emitter.from == From::line || emitter.from == From::box) owns["along"] = {};
+    if (emitter.along == Along::outward && emitter.from != From::disc) owns["direction"] = {};
+    const bool changed = rows.draw(emitter, owns);
+    // a group with no molecule at the start needs an emitter
+    if (life.emitters.size() == 1 && group.count == 0) return changed;
+    if (ImGui::SmallButton("Remove")) {
+        life.emitters.erase(life.emitters.begin() + std::ptrdiff_t(index));
+        rows = {};  // those below move up
+        return true;
+    }
+    tip("Takes this emitter away; what it emitted lives on.");
+    return changed;
+}
+
+bool drawCapacity(const Group& group, Lifecycle& life) {
+    if (life.emitters.empty()) return false;
+    const Key& key = *describe(&life).find("capacity");
+    const int least = std::max(1, group.count);
+    const Limit limit{double(least), std::max(double(least), sliderOf(key, &life).most)};
+    bool changed = slide({key.name.c_str(), key.says.sentence.c_str(), "%d", true}, limit, life.capacity);
+    const std::optional<int> usual = usualCapacity(group.count, life);
+    if (!usual || *usual == life.capacity) return changed;
+    beginRow({"", ""});
+    if (ImGui::SmallButton(concat("Fit: ", *usual).c_str())) life.capacity = *usual, changed = true;
+    tip("As many as these rates and lives can have at once.");
     return changed;
 }
 
 }  // namespace
 
-bool LifeEditor::drawEmitters(Scene& scene) {
-    Lifecycle& life = *scene.groups[group_].life;
-    emitters_.resize(life.emitters.size());
+bool drawEmitters(Scene& scene, size_t group, KeyRows& rows) {
+    Lifecycle& life = *scene.groups[group].life;
     bool changed = false;
     for (size_t e = 0; e < life.emitters.size(); ++e) {
         ImGui::PushID(int(e));
         const int flags = life.emitters.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
         if (ImGui::TreeNodeEx("emitter", flags, "%s", titleOf(life.emitters[e], e).c_str())) {
-            changed |= drawEmitter(scene, e);
+            changed |= drawEmitter(scene, scene.groups[group], e, rows);
             ImGui::TreePop();
         }
         ImGui::PopID();
@@ -109,94 +167,15 @@ bool LifeEditor::drawEmitters(Scene& scene) {
     return changed;
 }
 
-bool LifeEditor::drawEmitter(Scene& scene, size_t index) {
-    Lifecycle& life = *scene.groups[group_].life;
-    Emitter& emitter = life.emitters[index];
-    const std::vector<std::string> dying = dyingGroups(scene, scene.groups[group_]);
-    KeyRows::Owns owns = {{"from", [&] { return drawKind(scene, emitter, life); }},
-                          {"model", [&] { return drawModel(scene, emitter); }},
-                          {"of",
-                           [&] {
-                               return pickName(
-                                   rowOf(*describe(&emitter).find("of")), dying,
-                                   [](const std::string& name) { return name; }, emitter.group,
-                                   emitter.group);
-                           }},
-                          {"select", {}},
-                          {"path", {}}};
-    if (!emitter.path && emitter.from != From::death) owns["inherit"] = {};
-    if (emitter.from == From::line || emitter.from == From::box) owns["along"] = {};
-    if (emitter.along == Along::outward && emitter.from != From::disc) owns["direction"] = {};
-    bool changed = emitters_[index].draw(emitter, owns);
-    // a group with no molecule at the start needs an emitter
-    if (life.emitters.size() == 1 && scene.groups[group_].count == 0) return changed;
-    if (ImGui::SmallButton("Remove")) {
-        life.emitters.erase(life.emitters.begin() + std::ptrdiff_t(index));
-        emitters_.erase(emitters_.begin() + std::ptrdiff_t(index));
-        changed = true;
-    } else {
-        tip("Takes this emitter away; what it emitted lives on.");
-    }
-    return changed;
-}
-
-bool LifeEditor::drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life) const {
-    const std::vector<std::string> dying = dyingGroups(scene, scene.groups[group_]);
-    const auto possible = [&](From from) {
-        if (from == emitter.from) return true;
-        if (from == From::surface) return !scene.models.empty();
-        return from != From::death || !dying.empty();
-    };
-    beginRow(rowOf(*describe(&emitter).find("from")));
-    bool changed = false;
-    if (!ImGui::BeginCombo("##from", name(emitter.from))) return false;
-    for (int kind = 0; kind < kinds; ++kind) {
-        const From from = From(kind);
-        if (!possible(from)) continue;
-        if (!ImGui::Selectable(name(from), from == emitter.from) || from == emitter.from) continue;
-        become(emitter, from, scene, dying.empty() ? "" : dying.front());
-        if (from == From::death) life.allocator = Allocator::gpu;  // the only one that can
-        changed = true;
-    }
-    ImGui::EndCombo();
-    return changed;
-}
-
-bool LifeEditor::drawModel(const Scene& scene, Emitter& emitter) const {
-    std::string chosen;
-    if (!pickName(
-            rowOf(*describe(&emitter).find("model")), scene.models,
-            [](const Model& model) { return model.name; }, scene.models[size_t(emitter.model)].name, chosen))
-        return false;
-    for (size_t m = 0; m < scene.models.size(); ++m)
-        if (scene.models[m].name == chosen) emitter.model = int(m);
-    emitter.select = {};  // of the other model's parts
-    return true;
-}
-
-bool LifeEditor::drawLife(Scene& scene) {
-    Group& group = scene.groups[group_];
+bool drawLife(Scene& scene, size_t index, KeyRows& rows) {
+    Group& group = scene.groups[index];
     Lifecycle& life = *group.life;
     KeyRows::Owns owns = {{"capacity", [&] { return drawCapacity(group, life); }}};
     if (group.particle)
         for (const char* key : {"scale", "turn", "spin", "grow", "shrink"})
             owns[key] = {};
     if (life.emitters.empty() || emitsFromDeaths(life)) owns["allocator"] = {};
-    return life_.draw(life, owns);
-}
-
-bool LifeEditor::drawCapacity(const Group& group, Lifecycle& life) const {
-    if (life.emitters.empty()) return false;
-    const Key& key = *describe(&life).find("capacity");
-    const int least = std::max(1, group.count);
-    const Limit limit{double(least), std::max(double(least), sliderOf(key, &life).most)};
-    bool changed = slide({key.name.c_str(), key.says.sentence.c_str(), "%d", true}, limit, life.capacity);
-    const std::optional<int> usual = usualCapacity(group.count, life);
-    if (!usual || *usual == life.capacity) return changed;
-    beginRow({"", ""});
-    if (ImGui::SmallButton(concat("Fit: ", *usual).c_str())) life.capacity = *usual, changed = true;
-    tip("As many as these rates and lives can have at once.");
-    return changed;
+    return rows.draw(life, owns);
 }
 
 }  // namespace shoal::window

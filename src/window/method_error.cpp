@@ -18,19 +18,12 @@ constexpr int molecules = 4;      // of each group
 constexpr double duration = 0.5;  // s
 constexpr double secondsAMolecule = 0.5;
 
-// Says what the reference lacks to run the plan; empty: nothing.
-std::string lacking(const Plan& plan) {
-    if (plan.contact.any()) return "no error: the reference has no contact between molecules";
-    if (plan.hasLife()) return "no error: the reference has no birth and death";
-    return {};
-}
-
 }  // namespace
 
 std::string methodError(const Scene& scene, const Simulation& simulation, gpu::ProgramCache& cache) {
     const Plan& plan = simulation.plan();
-    const std::string lack = lacking(plan);
-    if (!lack.empty()) return lack;
+    if (plan.contact.any()) return "no error: the reference has no contact between molecules";
+    if (plan.hasLife()) return "no error: the reference has no birth and death";
     const AccuracyDevice device{.context = &simulation.context(),
                                 .shaderRoot = shaderRoot(),
                                 .cache = &cache,

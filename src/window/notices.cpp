@@ -142,15 +142,19 @@ std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts) {
     return answer;
 }
 
-bool showHelp(const char* title, const HelpRow* rows) {
-    bool open = true;
+void beginMiddle(const char* title, bool* open, float widest) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float width = std::min(points(500), screen.x - points(24));
+    const float width = std::min(points(widest), screen.x - points(24));
     ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - points(24)));
-    ImGui::Begin(title, &open,
+    ImGui::Begin(title, open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
     if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+}
+
+bool showHelp(const char* title, const HelpRow* rows) {
+    bool open = true;
+    beginMiddle(title, &open, 500);
     for (; rows->keys; ++rows) {
         ImGui::TextColored(ImVec4(0.62f, 0.78f, 0.45f, 1), "%s", rows->keys);
         ImGui::SameLine(points(172));

@@ -63,6 +63,10 @@ Answer askBeforeLeaving(const std::string& file, const char* what);
 // Without conflicts the question closes.
 std::optional<Prefer> askWhoWins(const std::vector<std::string>& conflicts);
 
+// Begins a window in the middle, in front of all else when it appears; `width`: points at most. `open`: null
+// where it cannot be closed.
+void beginMiddle(const char* title, bool* open, float width);
+
 // Keys and what they do, over the picture: rows that a row of nulls ends. False: the user closed it.
 struct HelpRow {
     const char* keys;

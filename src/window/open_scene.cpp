@@ -128,12 +128,9 @@ void row(const char* label) {
     ImGui::SameLine(points(96));
 }
 
-enum class MoleculeAction { none, follow, close };
-
-// At the bottom, from `left` on. `follows`: the camera does.
-MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
-                            const MoleculeNumbers& numbers, bool follows, float left) {
-    MoleculeAction action = MoleculeAction::none;
+// At the bottom, from `left` on. `follows`: the camera does. False: the user closed it.
+bool showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
+                  const MoleculeNumbers& numbers, bool& follows, float left) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = points(300);
     ImGui::SetNextWindowPos(
@@ -173,29 +170,23 @@ MoleculeAction showMolecule(const PickedMolecule& picked, const std::string& gro
                 !shape.hasPins()   ? ""
                 : numbers.released ? ", its pins have let go"
                                    : ", held by its pins");
-    if (ImGui::Button(follows ? "Stop following" : "Follow")) action = MoleculeAction::follow;
+    if (ImGui::Button(follows ? "Stop following" : "Follow")) follows = !follows;
     ImGui::End();
-    return open ? action : MoleculeAction::close;
-}
-
-// A ring around it.
-void markMolecule(const ImVec2& at, float radius) {
-    ImDrawList& list = *ImGui::GetBackgroundDrawList();
-    list.AddCircle(at, radius + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
-    list.AddCircle(at, radius, IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
+    return open;
 }
 
 }  // namespace
 
 void OpenScene::drawPicked(float left) {
     if (!explanations->picked || !numbers) return;
-    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle))
-        markMolecule(*at, points(14));
+    if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle)) {  // a ring
+        ImDrawList& list = *ImGui::GetBackgroundDrawList();
+        list.AddCircle(*at, points(14) + points(1), IM_COL32(0, 0, 0, 160), 32, points(3));
+        list.AddCircle(*at, points(14), IM_COL32(255, 214, 90, 255), 32, std::max(1.0f, points(1.5f)));
+    }
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
-    const MoleculeAction action = showMolecule(picked, group.name, group.molecule, *numbers, follows, left);
-    if (action == MoleculeAction::follow) follows = !follows;
-    if (action == MoleculeAction::close) forget();
+    if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left)) forget();
 }
 
 }  // namespace shoal::window

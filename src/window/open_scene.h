@@ -62,8 +62,6 @@ class ScenePointer {
     void move(OpenScene& open, int height);
 
   private:
-    void pickOnClick(OpenScene& open, int height);
-
     std::optional<ImVec2> pressedAt_;  // where the left button went down
 };
 

@@ -7,10 +7,6 @@ namespace shoal::window {
 
 static constexpr double steepest = 1.55;  // rad: short of the poles, where up is undefined
 
-OrbitCamera::OrbitCamera(const View& start) : start_(start) {
-    reset();
-}
-
 void OrbitCamera::reset() {
     const glm::dvec3 arm = start_.eye - start_.target;
     target_ = start_.target;

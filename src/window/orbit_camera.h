@@ -12,7 +12,7 @@ namespace shoal::window {
 // Orbit, pan and zoom about a target: left drag turns, right or middle drag pans, the wheel zooms.
 class OrbitCamera {
   public:
-    explicit OrbitCamera(const View& start);
+    explicit OrbitCamera(const View& start) : start_(start) { reset(); }
 
     void turn(double dx, double dy);  // in window heights
     void pan(double dx, double dy);   // in window heights

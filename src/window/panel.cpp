@@ -93,17 +93,15 @@ void Panel::follow(const Scene& scene) {
         groups_.push_back(std::move(listed));
     }
     group_ = std::min(group_, int(groups_.size()) - 1);
+    const auto nameOf = [](const auto& one, size_t index) {
+        return one.name.empty() ? concat(kindName(*one.shape), " ", index + 1) : one.name;
+    };
     fieldNames_.clear();
     for (size_t i = 0; i < scene.fields.size(); ++i)
-        fieldNames_.push_back(scene.fields[i].name.empty()
-                                  ? concat(kindName(*scene.fields[i].shape), " ", i + 1)
-                                  : scene.fields[i].name);
+        fieldNames_.push_back(nameOf(scene.fields[i], i));
     forceNames_.clear();
-    for (size_t i = 0; i < scene.forces.size(); ++i) {
-        const Force& force = scene.forces[i];
-        const std::string name = force.name.empty() ? concat(kindName(*force.shape), " ", i + 1) : force.name;
-        forceNames_.push_back(force.mouse ? name + " (Shift)" : name);
-    }
+    for (size_t i = 0; i < scene.forces.size(); ++i)
+        forceNames_.push_back(nameOf(scene.forces[i], i) + (scene.forces[i].mouse ? " (Shift)" : ""));
 }
 
 void Panel::apply(Choices& choices) const {
@@ -131,17 +129,14 @@ Panel::Action Panel::draw(Controls& controls, Simulation& simulation, Renderer& 
                                         ImVec2(width, ImGui::GetIO().DisplaySize.y - 2 * edge));
     ImGui::Begin("Shoal", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     ImGui::PushItemWidth(points(150));
-    std::vector<Action> asked{drawClock(controls, simulation)};
+    const Action clock = drawClock(controls, simulation);
     drawForces(controls, simulation);
-    asked.push_back(drawGroups());
-    asked.push_back(drawMethod(controls, simulation));
+    const Action groups = drawGroups(), method = drawMethod(controls, simulation);
     drawView(explanations, simulation);
     drawCost(simulation, renderer, frameSeconds, lastFrame);
     ImGui::PopItemWidth();
     ImGui::End();
-    for (const Action action : asked)
-        if (action != Action::none) return action;
-    return Action::none;
+    return clock != Action::none ? clock : groups != Action::none ? groups : method;
 }
 
 Panel::Action Panel::drawClock(Controls& controls, const Simulation& simulation) {
@@ -173,9 +168,9 @@ void Panel::drawForces(Controls& controls, const Simulation& simulation) {
     };
     const auto slider = [](bool there, const char* label, float& value, float least, float most,
                            ImGuiSliderFlags flags = 0) {
-        if (!there) ImGui::BeginDisabled();
+        ImGui::BeginDisabled(!there);
         ImGui::SliderFloat(label, &value, least, most, "x %.2f", flags);
-        if (!there) ImGui::EndDisabled();
+        ImGui::EndDisabled();
     };
     slider(any(&Needs::fields), "Wind", controls.wind, 0, 4);
     slider(any(&Needs::gravity), "Gravity", controls.gravityFactor, -1, 3);
@@ -205,11 +200,11 @@ Panel::Action Panel::drawGroups() {
             if (ImGui::Selectable(concat(groups_[size_t(g)].name, "##", g).c_str(), g == group_)) group_ = g;
         ImGui::EndCombo();
     }
-    if (group.fixed) ImGui::BeginDisabled();
+    ImGui::BeginDisabled(group.fixed);
     ImGui::SliderInt("Number", &group.chosen, 1, std::max(20000, 2 * group.count), "%d",
                      ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     changed |= ImGui::IsItemDeactivatedAfterEdit();
-    if (group.fixed) ImGui::EndDisabled();
+    ImGui::EndDisabled();
     const auto name = [](const std::string& file) {
         return file.empty() ? std::string("as in the scene") : std::filesystem::path(file).stem().string();
     };
@@ -246,17 +241,15 @@ Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation
     const Path now = simulation.path().path;
     path = now;
     const bool compute = simulation.context().info().computeShaders;
-    if (!compute) ImGui::BeginDisabled();
+    ImGui::BeginDisabled(!compute);
     if (ImGui::RadioButton("fused", now == Path::fused)) path = Path::fused;
-    if (!compute) ImGui::EndDisabled();
+    ImGui::EndDisabled();
     ImGui::SameLine();
     if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
     if (!compute) ImGui::TextDisabled("fused needs OpenGL 4.3");
     if (ImGui::Button("Measure error")) action = Action::measure;
-    if (ImGui::IsItemHovered())
-        ImGui::SetTooltip(
-            "A few molecules of the scene's start against the double-precision reference, with\n"
-            "this solver and these substeps. The window waits for it some seconds.");
+    tip("A few molecules of the scene's start against the double-precision reference, with\n"
+        "this solver and these substeps. The window waits for it some seconds.");
     if (!error.empty()) ImGui::TextWrapped("%s", error.c_str());
     return path != now ? Action::switchPath : action;
 }
@@ -272,9 +265,9 @@ void Panel::drawView(Explanations& explanations, const Simulation& simulation) {
             settings.strainShown = double(share) / 100;
     }
     const bool flows = simulation.plan().fieldCount > 0 || !simulation.plan().forces.empty();
-    if (!flows) ImGui::BeginDisabled();
+    ImGui::BeginDisabled(!flows);
     ImGui::Checkbox("Flow (F)", &settings.field);
-    if (!flows) ImGui::EndDisabled();
+    ImGui::EndDisabled();
     if (!settings.field) return;
     ImGui::Combo("across", &settings.across, "x\0y\0z\0");
     float shift = float(settings.sliceShift);

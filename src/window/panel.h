@@ -84,36 +84,11 @@ std::string methodError(const Scene& scene, const Simulation& simulation, gpu::P
 
 // ---- What the scene says of its groups
 
-// Sliders for birth and death of one group.
-class LifeEditor {
-  public:
-    explicit LifeEditor(size_t group) : group_(group) {}
-
-    // Whether the user changed `scene`'s group in this frame.
-    bool drawEmitters(Scene& scene);
-    bool drawLife(Scene& scene);
-
-  private:
-    bool drawEmitter(Scene& scene, size_t index);
-    bool drawKind(const Scene& scene, Emitter& emitter, Lifecycle& life) const;
-    bool drawModel(const Scene& scene, Emitter& emitter) const;
-    bool drawCapacity(const Group& group, Lifecycle& life) const;
-
-    size_t group_;
-    KeyRows life_;
-    std::vector<KeyRows> emitters_;
-};
-
-// Sliders for the looks of one group of point particles.
-class ParticleEditor {
-  public:
-    // Whether the user changed the type in this frame. `ages`: the group has a life cycle.
-    bool draw(ParticleType& type, bool ages);
-
-  private:
-    KeyRows rows_, image_;
-    std::vector<KeyRows> colors_;
-};
+// Sliders for birth and death of a group of the scene; whether the user changed it in this frame.
+bool drawEmitters(Scene& scene, size_t group, KeyRows& rows);
+bool drawLife(Scene& scene, size_t group, KeyRows& rows);
+// Sliders for the looks of point particles, likewise. `ages`: the group has a life cycle.
+bool drawParticles(ParticleType& type, bool ages, KeyRows& rows);
 
 // Each group's looks, birth and death, edited while it runs, and saved into the scene file.
 //
@@ -123,7 +98,7 @@ class ScenePanel {
   public:
     enum class Action { none, save, revert, rebuild };
 
-    explicit ScenePanel(const Scene& scene);
+    explicit ScenePanel(const Scene& scene) { follow(scene); }
 
     bool changed() const { return changed_; }  // in the last draw
     bool pending() const { return pending_; }  // something was edited that does not run yet
@@ -136,9 +111,7 @@ class ScenePanel {
   private:
     struct Edited {
         size_t group = 0;  // of the scene
-        std::optional<LifeEditor> life;
-        std::optional<ParticleEditor> looks;
-        std::optional<KeyRows> school;
+        KeyRows rows;
         LifeCounts counts = {};
         double countedAt = -1;  // s, of the wall clock
     };

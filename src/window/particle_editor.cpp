@@ -66,10 +66,9 @@ bool drawImage(ParticleImage& image, KeyRows& rows) {
 }
 
 // Keyframes as rows below a bar that shows them.
-bool drawColors(std::vector<ColorKey>& keys, std::vector<KeyRows>& rows) {
+bool drawColors(std::vector<ColorKey>& keys, KeyRows& rows) {
     bool changed = false;
     drawBar(keys);
-    rows.resize(mostColorKeys);
     for (size_t k = 0; k < keys.size(); ++k) {
         ImGui::PushID(int(k));
         const auto age = [&] {
@@ -80,7 +79,7 @@ bool drawColors(std::vector<ColorKey>& keys, std::vector<KeyRows>& rows) {
             keys[k].age = ageBetween(keys, k, share);
             return true;
         };
-        changed |= rows[k].draw(keys[k], {{"age", age}});
+        changed |= rows.draw(keys[k], {{"age", age}});
         if (keys.size() > 1 && ImGui::SmallButton("Remove this keyframe")) {
             keys.erase(keys.begin() + std::ptrdiff_t(k--));
             changed = true;
@@ -96,11 +95,11 @@ bool drawColors(std::vector<ColorKey>& keys, std::vector<KeyRows>& rows) {
 
 }  // namespace
 
-bool ParticleEditor::draw(ParticleType& type, bool ages) {
-    KeyRows::Owns owns = {{"colors", [&] { return drawColors(type.colors, colors_); }},
-                          {"image", [&] { return type.image && drawImage(*type.image, image_); }}};
+bool drawParticles(ParticleType& type, bool ages, KeyRows& rows) {
+    KeyRows::Owns owns = {{"colors", [&] { return drawColors(type.colors, rows); }},
+                          {"image", [&] { return type.image && drawImage(*type.image, rows); }}};
     if (!ages) owns["growth"] = {};
-    return rows_.draw(type, owns);
+    return rows.draw(type, owns);
 }
 
 }  // namespace shoal::window

@@ -61,10 +61,6 @@ RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, gpu
     build(std::move(loaded.scene), loaded.plan, path_);
 }
 
-View RunningScene::view() const {
-    return View::of(scene.camera, simulation_ ? simulation_->time() : 0);
-}
-
 std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
     SimulationOptions wanted;
     wanted.timing = gpu::PassTimers::suitedTo(context_->info());
@@ -102,7 +98,7 @@ std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path 
         GoneOn gone = goOn(simulation_->save(), simulation_->plan(), simulation->plan());
         simulation->load(gone.state);
         simulation->parameters = carriedParameters(simulation_->parameters, simulation->parameters);
-        renderer->draw(simulation->state(), view());
+        renderer->draw(simulation->state(), View::of(scene.camera, simulation_->time()));
         restarted = std::move(gone.restarted);
     }
     renderer_ = std::move(renderer);
@@ -124,6 +120,13 @@ Plan RunningScene::compileStably(Scene& next) const {
         }
     }
     return compile(next);
+}
+
+std::vector<std::string> RunningScene::build(Scene next, bool warns) {
+    settleParticles(next);
+    const Plan plan = compileStably(next);
+    if (warns) tellWarnings(plan.warnings);
+    return build(std::move(next), plan, path_);
 }
 
 void RunningScene::applyChoices(Scene& next, const Scene& from) const {
@@ -148,10 +151,8 @@ void RunningScene::applyChoices(Scene& next, const Scene& from) const {
 void RunningScene::edit() {
     try {
         Scene next = scene;
-        settleParticles(next);
         next.solver.substeps = original_.solver.substeps;
-        const Plan plan = compileStably(next);
-        build(std::move(next), plan, path_);
+        build(std::move(next));
     } catch (const Error&) {
         copyEdits(accepted_, scene.groups);
         settleParticles(scene);
@@ -163,9 +164,7 @@ void RunningScene::choose() {
     try {
         Scene next = scene;
         applyChoices(next, original_);
-        settleParticles(next);
-        const Plan plan = compileStably(next);
-        build(std::move(next), plan, path_);
+        build(std::move(next));
     } catch (const Error&) {
         choices = acceptedChoices_;
         throw;
@@ -175,11 +174,6 @@ void RunningScene::choose() {
 void RunningScene::switchPath(Path path) {
     build(scene, simulation_->plan(), path);
     path_ = path;
-}
-
-// The path as it is: one that takes another when a program is refused would hide the mistake.
-void RunningScene::remakePrograms() {
-    build(scene, simulation_->plan(), simulation_->path().path);
 }
 
 bool RunningScene::unsaved() const {
@@ -244,10 +238,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
         Scene next = theirs;
         next.groups = std::move(merged.groups);
         applyChoices(next, theirs);
-        settleParticles(next);
-        const Plan plan = compileStably(next);
-        tellWarnings(plan.warnings);
-        out.restarted = build(std::move(next), plan, path_);
+        out.restarted = build(std::move(next), true);
     } catch (const Error&) {
         choices = before;
         throw;

@@ -54,7 +54,8 @@ class RunningScene {
     void switchPath(Path path);
     void save();    // into the file
     void revert();  // to what the file said when it was read or saved last
-    void remakePrograms();
+    // The path as it is: one that takes another when a program is refused would hide the mistake.
+    void remakePrograms() { build(scene, simulation_->plan(), simulation_->path().path); }
 
     bool unsaved() const;  // differs from the file
     // Accepts the groups as they are now: a later edit that fails goes back to them.
@@ -76,10 +77,10 @@ class RunningScene {
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);
+    std::vector<std::string> build(Scene next, bool warns = false);  // compiled; `warns`: of the plan
     Plan compileStably(Scene& next) const;
     void applyChoices(Scene& next, const Scene& from) const;
     std::vector<std::string> changedChoices(const Scene& theirs) const;
-    View view() const;
 
     const RunRequest& request_;
     gpu::Context* context_;
@@ -118,8 +119,6 @@ class HotReload {
   private:
     bool reload(RunningScene& running, std::optional<Prefer> prefer);
     void tell(const RunningScene::Reloaded& reloaded);
-    void tellConflicts(const RunningScene& running) const;
-    void fail(const Error& error);
 
     FileWatch watch_;
     std::vector<std::string> changed_;  // that led to what is reloaded

@@ -32,14 +32,8 @@ static std::string fitting(const std::string& text) {
 }
 
 std::string SceneChooser::draw(bool mustChoose, const std::string& message) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    const float width = std::min(points(560), screen.x - points(24));
-    ImGui::SetNextWindowPos(ImVec2(0.5f * screen.x, 0.5f * screen.y), ImGuiCond_Always, ImVec2(0.5f, 0.5f));
-    ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - points(24)));
     bool stays = true;
-    ImGui::Begin("Scenes", mustChoose ? nullptr : &stays,
-                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove);
-    if (ImGui::IsWindowAppearing()) ImGui::SetWindowFocus();
+    beginMiddle("Scenes", mustChoose ? nullptr : &stays, 560);
     if (!message.empty()) {
         ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(1, 0.62f, 0.5f, 1));
         ImGui::TextWrapped("%s", message.c_str());

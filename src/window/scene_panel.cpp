@@ -64,21 +64,13 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 
 }  // namespace
 
-ScenePanel::ScenePanel(const Scene& scene) {
-    follow(scene);
-}
-
 void ScenePanel::follow(const Scene& scene) {
     pending_ = lives_ = false;
     groups_.clear();
     for (size_t g = 0; g < scene.groups.size(); ++g) {
         const Group& group = scene.groups[g];
         lives_ |= group.life || group.particle || group.school;
-        Edited& edited = groups_.emplace_back();
-        edited.group = g;
-        if (group.life) edited.life.emplace(g);
-        if (group.particle) edited.looks.emplace();
-        if (group.school) edited.school.emplace();
+        groups_.emplace_back().group = g;
     }
 }
 
@@ -107,9 +99,9 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     if (ImGui::Button("Save")) action = Action::save;
     tip("Into the scene's file (Ctrl+S).");
     ImGui::SameLine();
-    if (!unsaved) ImGui::BeginDisabled();
+    ImGui::BeginDisabled(!unsaved);
     if (ImGui::Button("Revert")) action = Action::revert;
-    if (!unsaved) ImGui::EndDisabled();
+    ImGui::EndDisabled();
     tip("Back to what was saved last.");
     ImGui::SameLine();
     const std::string file = std::filesystem::path(scene.file).filename().string();
@@ -130,38 +122,34 @@ void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {
     const int open = groups_.size() == 1 ? ImGuiTreeNodeFlags_DefaultOpen : 0;
     if (!ImGui::CollapsingHeader(concat(group.name, "###group").c_str(), open)) return;
     const std::optional<size_t> planGroup = planGroupOf(simulation.plan(), edited.group);
-    bool life = false, looks = false, mass = false;
-    if (edited.life) {
+    bool life = false, looks = false, mass = false, school = false, material = false;
+    if (group.life) {
         if (planGroup) drawCounts(edited, simulation, *planGroup);
-        life = edited.life->drawEmitters(scene);
+        life = drawEmitters(scene, edited.group, edited.rows);
         if (ImGui::TreeNodeEx("Life and death", open)) {
-            life |= edited.life->drawLife(scene);
+            life |= drawLife(scene, edited.group, edited.rows);
             ImGui::TreePop();
         }
     }
-    if (edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
+    if (group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
         const double before = group.particle->mass;
-        looks = edited.looks->draw(*group.particle, group.life.has_value());
+        looks = drawParticles(*group.particle, group.life.has_value(), edited.rows);
         mass = group.particle->mass != before;  // the plan has it
         ImGui::TreePop();
     }
-    if (edited.school && ImGui::TreeNodeEx("School", open)) {
-        if (edited.school->draw(*group.school)) {
-            pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
-            changed_ = true;
-            said_.clear();
-        }
+    if (group.school && ImGui::TreeNodeEx("School", open)) {
+        school = edited.rows.draw(*group.school);
         ImGui::TreePop();
     }
-    if (!edited.looks && ImGui::TreeNodeEx("Looks", edited.life ? 0 : open)) {
-        const bool material = drawMaterial(group, running.choices.groups[group.name]);
-        if (material && planGroup) renderer.changeLooks(*planGroup, group);
-        if (material) said_.clear();
-        changed_ |= material;
+    if (!group.particle && ImGui::TreeNodeEx("Looks", group.life ? 0 : open)) {
+        material = drawMaterial(group, running.choices.groups[group.name]);
         ImGui::TreePop();
     }
-    changed_ |= life || looks;
-    if (life || looks) said_.clear();
+    if (!life && !looks && !school && !material) return;
+    changed_ = true;
+    said_.clear();
+    if (material && planGroup) renderer.changeLooks(*planGroup, group);
+    if (school) pending_ |= !planGroup || !simulation.changeSchool(*planGroup, *group.school);
     if (life) pending_ |= !planGroup || !simulation.changeLife(*planGroup, *group.life);
     if (looks) pending_ |= mass || !planGroup || !renderer.changeParticle(*planGroup, *group.particle);
 }

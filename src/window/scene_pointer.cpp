@@ -41,13 +41,8 @@ void ScenePointer::move(OpenScene& open, int height) {
     if (ImGui::IsMouseDown(ImGuiMouseButton_Right) || ImGui::IsMouseDown(ImGuiMouseButton_Middle))
         open.camera.pan(dx, dy);
     if (io.MouseWheel != 0) open.camera.zoom(double(io.MouseWheel));
-    pickOnClick(open, height);
-}
 
-// A click, and not a drag that turns the camera.
-void ScenePointer::pickOnClick(OpenScene& open, int height) {
-    const ImGuiIO& io = ImGui::GetIO();
-    constexpr float still = 3;  // points
+    constexpr float still = 3;  // points: a click, and not a drag that turns the camera
     if (ImGui::IsMouseClicked(ImGuiMouseButton_Left)) pressedAt_ = io.MousePos;
     if (!ImGui::IsMouseReleased(ImGuiMouseButton_Left) || io.KeyShift || !pressedAt_) return;
     const ImVec2 from = *std::exchange(pressedAt_, {});

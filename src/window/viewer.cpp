@@ -127,7 +127,7 @@ class Viewer : public WindowLoop {
         }
         steps_ = false;
         Renderer& renderer = open.running.renderer();
-        if (width() != renderer.width() || height() != renderer.height()) renderer.resize(width(), height());
+        renderer.resize(width(), height());
         open.readPicked();
         try {
             open.drawPicture(1.5 * pixelsPerPoint());
@@ -221,17 +221,13 @@ class Viewer : public WindowLoop {
             listScenes();
             break;
         case Panel::Action::measure:
-            measureMethod();
+            open_->panel.error = methodError(open_->running.scene, open_->simulation(), cache());
+            std::cout << open_->panel.error << std::endl;
             break;
         }
         if (wish_.scene == ScenePanel::Action::save) saveScene();
         if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
         if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
-    }
-
-    void measureMethod() {
-        open_->panel.error = methodError(open_->running.scene, open_->simulation(), cache());
-        std::cout << open_->panel.error << std::endl;
     }
 
     // ---- Pictures and videos, without the panels

@@ -3,16 +3,15 @@
 #define GLFW_INCLUDE_NONE  // gpu/gl.h declares OpenGL
 #include <GLFW/glfw3.h>
 
-#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <iostream>
 #include <utility>
 
 #include "core/cache_folder.h"
-#include "core/image.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
+#include "render/picture.h"
 #include "run/signals.h"
 
 namespace shoal::window {
@@ -70,14 +69,10 @@ bool WindowLoop::showFrame() {
 
 void WindowLoop::saveScreenshot() const {
     Image image{width_, height_, 4, std::vector<uint8_t>(size_t(width_) * size_t(height_) * 4)};
-    const size_t row = size_t(width_) * 4;
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
-    std::vector<uint8_t> bottomUp(image.pixels.size());
-    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, bottomUp.data());
-    for (size_t y = 0; y < size_t(height_); ++y)
-        std::copy_n(bottomUp.begin() + std::ptrdiff_t((size_t(height_) - 1 - y) * row), row,
-                    image.pixels.begin() + std::ptrdiff_t(y * row));
+    glReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, image.pixels.data());
+    turnOver(image);
     for (size_t i = 3; i < image.pixels.size(); i += 4)
         image.pixels[i] = 255;
     writePng(options_.screenshot, image);

@@ -70,7 +70,7 @@ TEST_CASE("A group's name may be as long as it likes", "[fused][render]") {
     Renderer renderer(testContext(), shaders, scene, simulation.plan(), options);
     renderer.draw(simulation.state(), View::of(scene.camera, 0));
     {
-        const gpu::DebugGroup group(testContext(), wide.c_str());
+        const gpu::DebugGroup group(testContext().info(), wide.c_str());
         gpu::Texture texture(testContext(), gpu::Format::rgba8, 1, 1, wide.c_str());
     }
     CHECK_NOTHROW(testContext().checkErrors("long names"));

@@ -71,7 +71,7 @@ uint64_t displacement(const Pairs& pairs) {
 
 TEST_CASE("every sort sorts every number of pairs around powers of two", "[sort]") {
     for (const SortMethodRow& method : methodsHere()) {
-        Sorter sorter(testContext(), shaders, method.method, 128, method.rowsOnly || method.spread ? 16 : 0);
+        Sorter sorter(testContext(), shaders, method.method, 128, method.network ? 16 : 0);
         for (size_t count = 0; count <= 128; ++count) {
             INFO(method.name << ", " << count << " pairs");
             const Pairs input = randomPairs(count, uint32_t(count));
@@ -182,11 +182,13 @@ TEST_CASE("the networks take the passes that their papers count", "[sort]") {
 
 TEST_CASE("a sort larger than the context can hold says what fits", "[sort]") {
     for (const SortMethodRow& method : methodsHere()) {
-        const size_t most = mostPairs(method.method, testContext().info());
-        CHECK(most >= size_t(1) << 20);
         if (method.method == SortMethod::cpu) continue;
-        const std::string word =
-            method.rowsOnly || method.spread ? concat(method.name, " sort") : "radix sort";
+        const gpu::ContextInfo& info = testContext().info();
+        const auto kind = method.method == SortMethod::bitonic ? NetworkSort::Kind::bitonic
+                                                               : NetworkSort::Kind::oddEvenMerge;
+        const size_t most = method.network ? NetworkSort::most(info, kind) : RadixSort::most(info);
+        CHECK(most >= size_t(1) << 20);
+        const std::string word = method.network ? concat(method.name, " sort") : "radix sort";
         CHECK(messageOf([&] { Sorter(testContext(), shaders, method.method, most + 1); }) ==
               concat(word, " of ", most + 1, " pairs is larger than this context can hold: ", most));
     }

@@ -88,8 +88,8 @@ TEST_CASE("files come from the root of the shaders", "[shader]") {
     shoal::writeFile(root / "passes" / "test.frag",
                      std::string_view("#include \"lib/x.glsl\"\nvoid main() {}\n"));
     shoal::writeFile(root / "lib" / "x.glsl", std::string_view("float x;\n"));
-    const ShaderSource source = resolveShader(root.string(), "passes/test.frag", {}, {}, header300es());
-    CHECK(source.text.substr(0, 16) == "#version 300 es\n");
+    const ShaderSource source = resolveShader(root.string(), "passes/test.frag", {}, {}, header430());
+    CHECK(source.text.substr(0, 18) == "#version 430 core\n");
     const std::string name = (root / "lib" / "x.glsl").string();
     CHECK(std::find(source.files.begin(), source.files.end(), name) != source.files.end());
     shoal::writeFile(root / "passes" / "test.frag", std::string_view("#include \"lib/y.glsl\"\n"));
@@ -133,14 +133,15 @@ TEST_CASE("an error goes before the warnings above it", "[shader]") {
 }
 
 TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
-    const auto names = declaredUniforms(
+    const auto names = declared(
         "// uniform float commented;\n"
         "/* uniform float blocked; */\n"
         "uniform highp sampler2D position, velocity;\n"
         "uniform vec4 list[COUNT];\n"
         "layout(std140) uniform Types { vec4 row; float tail; } types;\n"
         "in vec2 uv;\n"
-        "float uniformly;\n");
+        "float uniformly;\n",
+        "uniform");
     for (const char* name : {"position", "velocity", "list", "Types", "row", "tail", "types"}) {
         INFO(name);
         CHECK(names.count(name) == 1);
@@ -152,13 +153,14 @@ TEST_CASE("declared uniforms are found, comments are not", "[shader]") {
 }
 
 TEST_CASE("declared storage blocks are found, uniforms are not among them", "[shader]") {
-    const auto names = declaredBuffers(
+    const auto names = declared(
         "// buffer Commented { float c; };\n"
         "layout(std430, binding = 0) readonly buffer Positions { vec4 position[]; };\n"
         "layout(std430, binding = 1) buffer writeonly Sums { float sums[]; } out1;\n"
         "uniform samplerBuffer part;\n"
         "uniform Types { vec4 types[2]; };\n"
-        "float buffered;\n");
+        "float buffered;\n",
+        "buffer");
     for (const char* name : {"Positions", "position", "Sums", "sums", "out1"}) {
         INFO(name);
         CHECK(names.count(name) == 1);
@@ -167,7 +169,7 @@ TEST_CASE("declared storage blocks are found, uniforms are not among them", "[sh
         INFO(name);
         CHECK(names.count(name) == 0);
     }
-    CHECK(declaredUniforms("layout(std430) buffer Positions { vec4 position[]; };").empty());
+    CHECK(declared("layout(std430) buffer Positions { vec4 position[]; };", "uniform").empty());
 }
 
 TEST_CASE("the file that a program names may exist in memory only", "[shader]") {

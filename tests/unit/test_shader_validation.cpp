@@ -27,6 +27,17 @@ namespace {
 
 using Defines = std::vector<std::string>;
 
+// WebGL 2's language, and the precisions that it demands.
+constexpr const char* header300es =
+    "#version 300 es\n"
+    "precision highp float;\n"
+    "precision highp int;\n"
+    "precision highp sampler2D;\n"
+    "precision highp sampler2DShadow;\n"
+    "precision highp sampler2DArray;\n"
+    "precision highp usampler2D;\n"
+    "precision highp usampler2DArray;\n";
+
 bool hasValidator() {
     static const bool found = std::system("glslangValidator --version >/dev/null 2>&1") == 0;
     if (!found)
@@ -77,7 +88,7 @@ class Validator {
     void addBoth(const std::string& file, Defines defines) {
         defines.emplace_back("TEXTURES");
         add(file, defines, gpu::header330());
-        add(file, defines, gpu::header300es());
+        add(file, defines, header300es);
     }
     void check() const {
         std::string all;
@@ -503,9 +514,9 @@ TEST_CASE("a mistake in a shader is found, and located in its own file", "[shade
     if (!hasValidator()) return;
     const test::Scratch scratch;
     scratch.write("shaders/lib/part.glsl", "\nint half(float x) { return x; }\n");
-    const gpu::ShaderSource source = gpu::resolveShader(
-        scratch.path("shaders"), "main.frag", {},
-        {{"main.frag", "#include \"lib/part.glsl\"\nvoid main() {}\n"}}, gpu::header300es());
+    const gpu::ShaderSource source =
+        gpu::resolveShader(scratch.path("shaders"), "main.frag", {},
+                           {{"main.frag", "#include \"lib/part.glsl\"\nvoid main() {}\n"}}, header300es);
     const std::string log = complaint(scratch.write("wrong.frag", source.text), source);
     CHECK_THAT(log, Catch::Contains("part.glsl:2: "));
 }

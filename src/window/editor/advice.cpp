@@ -132,10 +132,8 @@ EditorAction drawCost(Editor& editor) {
 
 EditorAction drawAdvice(Editor& editor) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({screen.x - panelArea().right, 0});
-    ImGui::SetNextWindowSize({panelArea().right, screen.y - panelArea().bottom});
-    ImGui::Begin("Advice", nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    const PanelArea panels = panelArea();
+    beginPanel("Advice", {screen.x - panels.right, 0}, {panels.right, screen.y - panels.bottom});
     editor.overlay.marked.clear();
     editor.overlay.markedSprings.clear();
     editor.overlay.markedTriangles.clear();

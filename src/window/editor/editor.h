@@ -57,6 +57,7 @@ struct PanelArea {
     float left = 0, right = 0, bottom = 0;  // in the interface's units: what the panels take
 };
 PanelArea panelArea();
+void beginPanel(const char* title, const ImVec2& place, const ImVec2& size, ImGuiWindowFlags flags = 0);
 
 EditorAction drawTools(Editor& editor);
 void drawSelection(Editor& editor);  // the numbers of what is selected, to be read and changed

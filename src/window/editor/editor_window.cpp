@@ -20,19 +20,11 @@ namespace {
 
 constexpr size_t modesShown = 8;
 
-glm::dvec3 middleOf(const Molecule& molecule) {
-    glm::dvec3 low(1e300), high(-1e300);
-    for (const Vertex& vertex : molecule.vertices) {
-        low = glm::min(low, vertex.position);
-        high = glm::max(high, vertex.position);
-    }
-    return (low + high) / 2.0;
-}
-
 View viewOf(const Molecule& molecule, const glm::dvec3& from) {
     View view;
     view.fieldOfView = 0.7;
-    view.target = middleOf(molecule);
+    const Box box = boxAround(molecule);
+    view.target = (box.low + box.high) / 2.0;
     view.eye = view.target + glm::normalize(from) * (2.7 * std::max(molecule.size(), 1e-3));
     return view;
 }

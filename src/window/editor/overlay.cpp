@@ -83,14 +83,12 @@ class Painter {
             ImU32 color = rgb(0.62f, 0.72f, 0.62f, 0.8f * fade);
             if (overlay_.tension && i < strains.size())
                 color = strainColor(strains[i] / overlay_.strainShown, 0.9f * fade);
-            float width = 1.6f;
             if (overlay_.markedSprings.contains(int(i)))
                 list_->AddLine(*a, *b, rgb(1, 0.6f, 0.1f, 0.8f), points(5));
-            if (overlay_.selection.springs.contains(int(i)) || overlay_.hoveredSpring == int(i)) {
-                const bool selected = overlay_.selection.springs.contains(int(i));
+            const bool selected = overlay_.selection.springs.contains(int(i));
+            if (selected || overlay_.hoveredSpring == int(i))
                 list_->AddLine(*a, *b, rgb(1, 0.85f, 0.3f, selected ? 0.9f : 0.5f), points(5));
-            }
-            list_->AddLine(*a, *b, color, points(width));
+            list_->AddLine(*a, *b, color, points(1.6f));
             if (s.actuation && s.actuation->amplitude > 0) {  // a muscle has a bead
                 const ImVec2 middle((a->x + b->x) / 2, (a->y + b->y) / 2);
                 list_->AddCircleFilled(middle, points(3), color);
@@ -164,14 +162,9 @@ class Painter {
 
 // The plane of symmetry as a frame around the molecule.
 void drawMirror(const Molecule& molecule, const Projector& projector, int axis) {
-    glm::dvec3 low(1e300), high(-1e300);
-    for (const Vertex& vertex : molecule.vertices) {
-        low = glm::min(low, vertex.position);
-        high = glm::max(high, vertex.position);
-    }
-    const glm::dvec3 room(0.1 * molecule.size());
-    low -= room;
-    high += room;
+    const Box box = boxAround(molecule);
+    const double room = 0.1 * molecule.size();
+    const glm::dvec3 low = box.low - room, high = box.high + room;
     const int p = (axis + 1) % 3, q = (axis + 2) % 3;
     ImDrawList* list = ImGui::GetBackgroundDrawList();
     std::optional<ImVec2> corners[4];
@@ -186,7 +179,28 @@ void drawMirror(const Molecule& molecule, const Projector& projector, int axis) 
             list->AddLine(*corners[i], *corners[(i + 1) % 4], rgb(0.5f, 0.8f, 1, 0.5f), points(1));
 }
 
+// The first of some elements by what `measure` gives; nothing of those that are out of reach.
+template <typename Measure>
+std::optional<int> firstOf(size_t count, const Measure& measure) {
+    std::optional<int> best;
+    double least = 1e300;
+    for (size_t i = 0; i < count; ++i) {
+        const std::optional<double> measured = measure(i);
+        if (measured && *measured < least) least = *measured, best = int(i);
+    }
+    return best;
+}
+
 }  // namespace
+
+Box boxAround(const Molecule& molecule) {
+    Box out{glm::dvec3(1e300), glm::dvec3(-1e300)};
+    for (const Vertex& vertex : molecule.vertices) {
+        out.low = glm::min(out.low, vertex.position);
+        out.high = glm::max(out.high, vertex.position);
+    }
+    return out;
+}
 
 void drawOverlay(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
                  const std::vector<double>& strains, const Projector& projector,
@@ -202,49 +216,37 @@ void drawOverlay(const Molecule& molecule, const std::vector<glm::dvec3>& positi
 
 std::optional<int> vertexAt(const std::vector<glm::dvec3>& positions, const Projector& projector,
                             ImVec2 place) {
-    std::optional<int> best;
-    double nearest = 1e300;
-    for (size_t v = 0; v < positions.size(); ++v) {
+    return firstOf(positions.size(), [&](size_t v) -> std::optional<double> {
         const auto p = projector.place(positions[v]);
-        if (!p || std::hypot(p->x - place.x, p->y - place.y) > points(vertexReach)) continue;
-        // of those within reach, what lies in front
-        const double depth = projector.depth(positions[v]);
-        if (depth < nearest) nearest = depth, best = int(v);
-    }
-    return best;
+        if (!p || std::hypot(p->x - place.x, p->y - place.y) > points(vertexReach)) return {};
+        return projector.depth(positions[v]);  // of those within reach, what lies in front
+    });
 }
 
 std::optional<int> springAt(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
                             const Projector& projector, ImVec2 place) {
-    std::optional<int> best;
-    float nearest = points(springReach);
-    for (size_t i = 0; i < molecule.springs.size(); ++i) {
+    return firstOf(molecule.springs.size(), [&](size_t i) -> std::optional<double> {
         const auto a = projector.place(positions[size_t(molecule.springs[i].a)]),
                    b = projector.place(positions[size_t(molecule.springs[i].b)]);
-        if (!a || !b) continue;
+        if (!a || !b) return {};
         const float distance = distanceTo(place, *a, *b);
-        if (distance < nearest) nearest = distance, best = int(i);
-    }
-    return best;
+        return distance < points(springReach) ? std::optional(double(distance)) : std::nullopt;
+    });
 }
 
 std::optional<int> triangleAt(const Molecule& molecule, const std::vector<glm::dvec3>& positions,
                               const Projector& projector, ImVec2 place) {
-    std::optional<int> best;
-    double nearest = 1e300;
-    for (size_t i = 0; i < molecule.triangles.size(); ++i) {
+    return firstOf(molecule.triangles.size(), [&](size_t i) -> std::optional<double> {
         const Triangle& t = molecule.triangles[i];
-        const auto a = projector.place(positions[size_t(t.a)]), b = projector.place(positions[size_t(t.b)]),
-                   c = projector.place(positions[size_t(t.c)]);
-        if (!a || !b || !c) continue;
+        const glm::dvec3 &x = positions[size_t(t.a)], &y = positions[size_t(t.b)],
+                         &z = positions[size_t(t.c)];
+        const auto a = projector.place(x), b = projector.place(y), c = projector.place(z);
+        if (!a || !b || !c) return {};
         const float s0 = cross(minus(*b, *a), minus(place, *a)), s1 = cross(minus(*c, *b), minus(place, *b)),
                     s2 = cross(minus(*a, *c), minus(place, *c));
-        if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) continue;
-        const double depth =
-            projector.depth((positions[size_t(t.a)] + positions[size_t(t.b)] + positions[size_t(t.c)]) / 3.0);
-        if (depth < nearest) nearest = depth, best = int(i);
-    }
-    return best;
+        if (!((s0 >= 0 && s1 >= 0 && s2 >= 0) || (s0 <= 0 && s1 <= 0 && s2 <= 0))) return {};
+        return projector.depth((x + y + z) / 3.0);
+    });
 }
 
 }  // namespace shoal::window

@@ -9,6 +9,7 @@
 #include <imgui.h>
 
 #include "author/edit.h"
+#include "core/box.h"
 #include "window/orbit_camera.h"
 
 namespace shoal::window {
@@ -32,6 +33,8 @@ void drawOverlay(const Molecule& molecule, const std::vector<glm::dvec3>& positi
                  const EditorOverlay& overlay);
 // From squeezed over slack to stretched, as drawn: blue, green, red. `share` in [-1, 1].
 ImU32 strainColor(double share, float opacity);
+
+Box boxAround(const Molecule& molecule);
 
 // Under a place, nearest first to the pointer and then to the eye; nothing within reach.
 std::optional<int> vertexAt(const std::vector<glm::dvec3>& positions, const Projector& projector,

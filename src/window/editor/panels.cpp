@@ -11,9 +11,6 @@ namespace shoal::window {
 
 namespace {
 
-constexpr ImGuiWindowFlags panelFlags =
-    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse;
-
 EditorAction drawHead(Editor& editor) {
     EditorAction action = EditorAction::none;
     Document& document = editor.document;
@@ -21,9 +18,9 @@ EditorAction drawHead(Editor& editor) {
     ImGui::Text("%s%s", name.c_str(), document.unsaved() ? " *" : "");
     tip(document.file().c_str());
     const auto button = [&](const char* label, bool can, EditorAction what, const std::string& words) {
-        if (!can) ImGui::BeginDisabled();
+        ImGui::BeginDisabled(!can);
         if (ImGui::Button(label)) action = what;
-        if (!can) ImGui::EndDisabled();
+        ImGui::EndDisabled();
         tip(words.c_str());
         ImGui::SameLine();
     };
@@ -89,9 +86,8 @@ void drawToolButtons(Editor& editor) {
     if (!o.tension) return;
     ImGui::SameLine();
     ImGui::SetNextItemWidth(-1);
-    const double fine = 0.001, coarse = 1;
     double percent = o.strainShown * 100;
-    const double lowest = fine * 100, highest = coarse * 100;
+    const double lowest = 0.1, highest = 100;
     if (ImGui::SliderScalar("##strain", ImGuiDataType_Double, &percent, &lowest, &highest, "red at %.3g %%",
                             ImGuiSliderFlags_Logarithmic))
         o.strainShown = percent / 100;
@@ -103,11 +99,16 @@ PanelArea panelArea() {
     return {points(292), points(308), points(92)};
 }
 
+void beginPanel(const char* title, const ImVec2& place, const ImVec2& size, ImGuiWindowFlags flags) {
+    ImGui::SetNextWindowPos(place);
+    ImGui::SetNextWindowSize(size);
+    ImGui::Begin(title, nullptr,
+                 flags | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+}
+
 EditorAction drawTools(Editor& editor) {
-    const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0, 0});
-    ImGui::SetNextWindowSize({panelArea().left, screen.y - panelArea().bottom});
-    ImGui::Begin("Molecule", nullptr, panelFlags);
+    const float height = ImGui::GetIO().DisplaySize.y - panelArea().bottom;
+    beginPanel("Molecule", {0, 0}, {panelArea().left, height});
     EditorAction action = drawHead(editor);
     drawToolButtons(editor);
     drawSelection(editor);
@@ -178,31 +179,29 @@ void drawSolver(StageSettings& s, const EditorStage& stage) {
 
 EditorAction drawTransport(Editor& editor, EditorStage& stage, Troubles& troubles) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
-    ImGui::SetNextWindowPos({0, screen.y - panelArea().bottom});
-    ImGui::SetNextWindowSize({screen.x, panelArea().bottom});
-    ImGui::Begin("Play", nullptr, panelFlags | ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar);
+    const PanelArea panels = panelArea();
+    beginPanel("Play", {0, screen.y - panels.bottom}, {screen.x, panels.bottom},
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoScrollbar);
     EditorAction action = EditorAction::none;
     if (stage.ready()) {
         action = drawButtons(stage);
         ImGui::SameLine();
         ImGui::SetNextItemWidth(-1);
         int frame = stage.frame();
-        const bool none = stage.frames() < 2;
-        if (none) ImGui::BeginDisabled();
+        ImGui::BeginDisabled(stage.frames() < 2);
         const std::string format = concat("frame %d, ", plain(stage.time()), " s");
         if (ImGui::SliderInt("##frame", &frame, 0, std::max(1, stage.frames() - 1), format.c_str(),
                              ImGuiSliderFlags_AlwaysClamp)) {
             stage.playing = false;
             stage.seek(frame);
         }
-        if (none) ImGui::EndDisabled();
+        ImGui::EndDisabled();
         drawSurroundings(editor.stage);
         ImGui::SameLine();
         drawSolver(editor.stage, stage);
     }
     if (!editor.message.empty()) ImGui::TextColored(calm, "%s", editor.message.c_str());
     ImGui::End();
-    const PanelArea panels = panelArea();
     if (showNotices({}, troubles.text(), panels.left + points(12), panels.right + points(12)))
         troubles.clear();
     return action;

@@ -10,6 +10,7 @@
 #include "run/data_paths.h"
 #include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
+#include "window/editor/overlay.h"
 
 namespace shoal::window {
 
@@ -17,13 +18,6 @@ namespace {
 
 constexpr double frameRate = 60;
 constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
-
-double lowest(const Molecule& molecule) {
-    double out = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        out = &vertex == molecule.vertices.data() ? vertex.position.y : std::min(out, vertex.position.y);
-    return out;
-}
 
 // Whether the same programs run both: their text holds all but the springs' numbers and the start.
 bool sameProgram(const Plan& a, const Plan& b) {
@@ -108,9 +102,9 @@ Scene EditorStage::sceneOf(const Molecule& molecule, const StageSettings& settin
 
 void EditorStage::show(const Molecule& molecule, const StageSettings& settings) {
     const bool other = !simulation_ || scene_.groups[0].molecule.vertices.size() != molecule.vertices.size();
-    const double size = molecule.size();
-    if (!simulation_ || settings.around != settings_.around || lowest(molecule) < floor_ + 0.2 * size)
-        floor_ = lowest(molecule) - (settings.around == StageSettings::Around::drop ? 1.2 : 0.6) * size;
+    const double size = molecule.size(), lowest = boxAround(molecule).low.y;
+    if (!simulation_ || settings.around != settings_.around || lowest < floor_ + 0.2 * size)
+        floor_ = lowest - (settings.around == StageSettings::Around::drop ? 1.2 : 0.6) * size;
     const Scene scene = sceneOf(molecule, settings);
     Plan plan = compile(scene, {.liveSprings = true});
     const bool same = simulation_ && sameProgram(plan, simulation_->plan());
@@ -237,22 +231,14 @@ void EditorStage::wobble(const Mode& mode, double reach) {
     takePositions();
 }
 
-void EditorStage::rest() {
-    if (wobbling_) seek(frame_);
-}
-
-void EditorStage::takePositions() {
-    positions_ = simulation_->snapshot(0).positions;
-}
-
 void EditorStage::draw(const View& view, int width, int height) {
-    if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
+    renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);
     renderer_->present(width, height);
 }
 
 Image EditorStage::picture(const View& view, int width, int height) {
-    if (width != renderer_->width() || height != renderer_->height()) renderer_->resize(width, height);
+    renderer_->resize(width, height);
     renderer_->draw(simulation_->state(), view);
     return renderer_->capture();
 }

@@ -46,9 +46,7 @@ class EditorStage {
     int frame() const { return frame_; }
     int frames() const { return int(played_.size()); }  // that were played, the rest shape with them
     double time() const { return frame_ / 60.0; }       // s
-    bool moved() const {
-        return ready() && (playing || frame_ > 0);
-    }  // or it moves: the molecule is not as edited
+    bool moved() const { return ready() && (playing || frame_ > 0); }  // or it moves: it is not as edited
 
     // A vertex that the pointer holds follows it. Nothing: none is held.
     struct Pull {
@@ -58,7 +56,9 @@ class EditorStage {
     std::optional<Pull> pull;
     // Shows a motion instead of playing: rest shape + shape * reach (m).
     void wobble(const Mode& mode, double reach);
-    void rest();  // back to what was played
+    void rest() {  // back to what was played
+        if (wobbling_) seek(frame_);
+    }
 
     void draw(const View& view, int width, int height);  // into the window
     Image picture(const View& view, int width, int height);
@@ -71,7 +71,7 @@ class EditorStage {
   private:
     Scene sceneOf(const Molecule& molecule, const StageSettings& settings) const;
     void rebuild(Plan plan, bool goOn);
-    void takePositions();
+    void takePositions() { positions_ = simulation_->snapshot(0).positions; }
     void applyPull();
 
     gpu::Context* context_;
