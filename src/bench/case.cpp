@@ -5,7 +5,6 @@
 #include "core/contract.h"
 #include "measure/method_runner.h"
 #include "molecule/molecule_file.h"
-#include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 
 namespace shoal::bench {

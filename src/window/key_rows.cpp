@@ -16,7 +16,7 @@ using Kind = Key::Kind;
 constexpr double degrees = 57.29577951308232;
 
 // Angles are shown in degrees.
-Row rowOf(const std::string& label, const Key& key, std::string& format, const Slider& slider) {
+Row formattedRow(const std::string& label, const Key& key, std::string& format, const Slider& slider) {
     Row row{label.c_str(), key.says.sentence.c_str()};
     const std::string& unit = key.says.unit;
     const bool angle = unit.starts_with("rad");
@@ -140,7 +140,7 @@ bool KeyRows::drawKey(const Key& key, void* object) {
 
 bool KeyRows::drawValue(const Key& key, const std::string& label, void* value, const Slider& slider) {
     std::string format;
-    const Row row = rowOf(label, key, format, slider);
+    const Row row = formattedRow(label, key, format, slider);
     const Limit limit{slider.least, slider.most};
     switch (key.kind) {
     case Kind::number: {
