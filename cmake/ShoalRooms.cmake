@@ -67,6 +67,7 @@ function(shoal_room name)
 
   if(forwarders)
     add_library(shoal_${name}_forward OBJECT ${forwarders})
+    set_target_properties(shoal_${name}_forward PROPERTIES UNITY_BUILD OFF)  # installed by its name
     target_include_directories(shoal_${name}_forward PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/src)
     target_link_libraries(shoal_${name}_forward PRIVATE $<BUILD_INTERFACE:shoal_options>
         ${ROOM_LIBRARIES})

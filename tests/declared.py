@@ -49,7 +49,7 @@ def declared(room):
     out = collections.Counter()
     for header in (root / "src" / room).rglob("*.h"):
         for scopes, text in statements(header.read_text(encoding="utf-8")):
-            found = function.search(re.sub(r"\[\[\w+\]\]|\balignas\([^)]*\)", "", text))
+            found = function.search(re.sub(r"\[\[.*?\]\]|\balignas\([^)]*\)", "", text))
             if not found or without.search(text) or "=" in text[: found.start()] or not scopes:
                 continue
             # a member or a variable with a bracketed initialiser has no parameters but expressions; none of ours do

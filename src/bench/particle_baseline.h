@@ -16,8 +16,8 @@
 #include <glm/glm.hpp>
 
 #include "bench/baseline.h"
-#include "scene/placement.h"
 #include "scene/collider_kinds.h"
+#include "scene/placement.h"
 
 namespace shoal::bench {
 

@@ -1,7 +1,7 @@
 // A context of OSMesa: Mesa's CPU rasteriser as a plain library, opened when asked for.
 //
-// Mesa removed OSMesa in 25.1, so that it is optional at run time, and its header, which GLEW does not tolerate,
-// is not included.
+// Mesa removed OSMesa in 25.1, so that it is optional at run time, and its header, which GLEW does not
+// tolerate, is not included.
 #include <dlfcn.h>
 
 #include <array>

@@ -55,7 +55,7 @@ void takeTurns(const VisitPlan& plan, Visit visit) {
 }
 
 // As std::printf writes it; a time in nanoseconds, of three digits that count.
-__attribute__((format(printf, 1, 2))) std::string formatted(const char* format, ...);
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
 std::string nanoseconds(double seconds);
 
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU
