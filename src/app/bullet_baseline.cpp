@@ -37,8 +37,9 @@ struct BulletWorld : BulletBaseline {
         std::vector<btVector3> positions;
         std::vector<btScalar> masses;
         for (int m = 0; m < count; ++m) {
+            const int row = m / side;
             const glm::dvec3 place(m % side * spacing, 0.2 + molecule.size() + 5.8 * m / count,
-                                   m / side * spacing);
+                                   row * spacing);
             for (const Vertex& vertex : molecule.vertices) {
                 const glm::dvec3 p = place + vertex.position;
                 positions.emplace_back(btScalar(p.x), btScalar(p.y), btScalar(p.z));

@@ -99,7 +99,7 @@ void addSection(std::string& out, const CLI::App& command, const std::string& na
             std::string names = option->get_type_name();
             if (!positional) {
                 if (option->get_type_size() == 0) names.clear();
-                names = option->get_name(false, true) + (names.empty() ? "" : " " + names);
+                names = concat(option->get_name(false, true), names.empty() ? "" : " ", names);
             }
             rows += "| `" + cell(names) + "` | " + cell(describe(*option)) + " |\n";
         }
@@ -128,10 +128,11 @@ void addValues(std::string& out, const CLI::App& command, const std::string& nam
                                option->get_type_name() == "FOLDER";
         if (!option->nonpositional() || option->get_type_size() == 0) continue;
         for (const std::string& flag : option->get_lnames())
-            out += "    '" + name + " --" + flag + "') " +
-                   (words.empty() ? takesFile ? "return" : "compopt +o default; return"
-                                  : "words='" + words + "'") +
-                   ";;\n";
+            out += concat("    '", name, " --", flag, "') ",
+                          !words.empty() ? concat("words='", words, "'")
+                          : takesFile    ? "return"
+                                         : "compopt +o default; return",
+                          ";;\n");
     }
     for (const CLI::App* below : commandsOf(command))
         addValues(out, *below, name + " " + below->get_name());

@@ -111,7 +111,7 @@ bool Exporter::asksForLast() const {
 }
 
 std::string Exporter::write(Simulation& simulation, const Scene& scene) {
-    const std::string file = exportName(options_.exports, simulation.frames(), several(), last_);
+    std::string file = exportName(options_.exports, simulation.frames(), several(), last_);
     const std::string kind = lowerExtension(file);
     if (kind == ".vtp")
         writeVtp(file, simulation, scene, options_.exportCells);

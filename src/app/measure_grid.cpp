@@ -147,7 +147,7 @@ void drawAll(const Options& options, const std::vector<ReportScene>& all,
             any |= plottable(panels.back().points);
         }
         if (any)
-            plotGrid((fs::path(options.report) / (molecule + ".png")).string(), molecule + "; " + machine,
+            plotGrid((fs::path(options.report) / (molecule + ".png")).string(), concat(molecule, "; ", machine),
                      int(std::size(reportStiffnesses)), panels);
     }
 }

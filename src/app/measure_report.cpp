@@ -1,5 +1,6 @@
 #include "app/measure.h"
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -44,7 +45,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
 constexpr int measureColumns[] = {12, 9, 9, 9, 9, 9, 11, 11, 9, 9, 9, 7};
 
 void addPoint(std::ostringstream& out, const AccuracyPoint& point, const MeasureReport& report) {
-    std::vector<std::string> cells = {steps(point), bench::grouped(int(point.stepsPerSecond + 0.5))};
+    std::vector<std::string> cells = {steps(point), bench::grouped(int(std::lround(point.stepsPerSecond)))};
     const auto orDash = [](const auto& value, auto&& text) -> std::string {
         return value ? text(*value) : "-";
     };
@@ -123,7 +124,7 @@ void addSpeedUps(std::ostringstream& out, const MeasureReport& report) {
         out << "  " << std::left << std::setw(16) << solver.name << std::right << std::setw(10)
             << nanoseconds(one->cost.time) << "   " << name(one->method.sampling) << ", "
             << (one->cost.atLargestStep ? "at the largest step, " : "")
-            << bench::grouped(int(one->cost.stepsPerSecond + 0.5)) << " steps a second";
+            << bench::grouped(int(std::lround(one->cost.stepsPerSecond))) << " steps a second";
         if (euler && solver.kind != SolverKind::euler)
             out << "; " << formatted("%.2g", euler->cost.time / one->cost.time) << " times as fast as euler";
         out << "\n";

@@ -81,6 +81,7 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
     const Molecule& molecule = molecules.of(cases.front().molecule);
     const BenchStart start(cases.front(), molecule, device.cores);
     std::vector<BenchResult> out;
+    out.reserve(cases.size());
     for (const BenchCase& one : cases)
         out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, molecule, device)});
     measureInTurn(out, schedule, progress, [&](BenchResult& result) {

@@ -156,6 +156,7 @@ std::vector<ContactTimes> measureContact(const std::vector<ContactCase>& cases, 
                                          const BenchDevice& device, const measure::Schedule& schedule,
                                          const BenchProgress& progress) {
     std::vector<ContactTimes> out;
+    out.reserve(cases.size());
     for (const ContactCase& one : cases)
         out.push_back(
             {.one = one, .leftOut = device.context->info().computeShaders ? "" : "needs OpenGL 4.3"});

@@ -293,6 +293,7 @@ std::vector<ParticleTimes> measureParticles(const std::vector<ParticleCase>& cas
                                             const Molecule& quad, const BenchDevice& device,
                                             const measure::Schedule& schedule) {
     std::vector<ParticleTimes> out;
+    out.reserve(cases.size());
     for (const ParticleCase& one : cases)
         out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, device)});
     measureInTurn(

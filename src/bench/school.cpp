@@ -76,6 +76,7 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
                                         const BenchDevice& device, double seconds) {
     std::vector<std::unique_ptr<SchoolEntrant>> entrants;
+    entrants.reserve(cases.size());
     for (const SchoolCase& one : cases)
         entrants.push_back(std::make_unique<SchoolEntrant>(one, fry, device));
     double round = 0;
@@ -89,6 +90,7 @@ std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, co
         for (auto& entrant : entrants)
             entrant->visit();
     std::vector<SchoolTimes> out;
+    out.reserve(cases.size());
     for (auto& entrant : entrants)
         out.push_back(entrant->finish());
     return out;

@@ -28,7 +28,7 @@ bool ascending(const KeyPairs& pairs, size_t first, size_t end) {
                           [](const KeyIndex& a, const KeyIndex& b) { return a.key < b.key; });
 }
 
-class DeviceSort : public SortRunner {
+class DeviceSort final : public SortRunner {
   public:
     DeviceSort(const BenchDevice& device, SortMethod method, bool rowsOnly, int side, const KeyPairs& input)
         : input_(input),
@@ -69,7 +69,7 @@ class DeviceSort : public SortRunner {
 };
 
 // In memory, one thread, as 64-bit numbers with the key above the index.
-class StdSort : public SortRunner {
+class StdSort final : public SortRunner {
   public:
     explicit StdSort(const KeyPairs& input) : input_(input), pairs_(input.size()) { restart(); }
     void restart() override {

@@ -176,7 +176,7 @@ class UberFlowEntrant {
             gridBits_ = bits;
             grid_ = sorter(SortMethod::radix);
         }
-        keys_ = randomKeys(size_t(side * side), one_.search ? (1u << bits) - 1 : ~0u);
+        keys_ = randomKeys(size_t(side) * size_t(side), one_.search ? (1u << bits) - 1 : ~0u);
     }
 
     void warmUp() {

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <concepts>
-#include <type_traits>
 #include <utility>
 
 namespace shoal {
@@ -22,8 +21,7 @@ class Boxed {
     }
     ~Boxed();
     template <typename U>
-    requires(!std::same_as<std::remove_cvref_t<U>, Boxed>) Boxed(U&& value)
-        : value_(new T(std::forward<U>(value))) {}
+    requires(!std::same_as<U, Boxed>) Boxed(U value) : value_(new T(std::move(value))) {}
 
     // Not of a box that was moved from.
     T& operator*() { return *value_; }

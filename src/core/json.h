@@ -31,9 +31,9 @@ class JsonValue {
     size_t keyBegin = 0;             // of its key
     bool boolean = false;
     double number = 0;
-    std::string text = {};                 // a string's characters, or a number as it was written
-    std::vector<JsonValue> items = {};     // array
-    std::vector<JsonMember> members = {};  // object, in the file's order
+    std::string text;                 // a string's characters, or a number as it was written
+    std::vector<JsonValue> items;     // array
+    std::vector<JsonMember> members;  // object, in the file's order
 
     bool isContainer() const { return kind == Kind::array || kind == Kind::object; }
     const JsonValue* find(std::string_view key) const;

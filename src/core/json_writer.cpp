@@ -56,6 +56,12 @@ bool isPlainNumbers(const JsonValue& value) {
                        [](const JsonValue& item) { return item.kind == JsonValue::Kind::number; });
 }
 
+JsonValue ofKind(JsonValue::Kind kind) {
+    JsonValue out;
+    out.kind = kind;
+    return out;
+}
+
 constexpr int inOneLine = -1;
 
 // `indent`: spaces, or inOneLine. `element`: the value stands in an array, where short things keep to
@@ -98,23 +104,29 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 }
 
 JsonValue JsonValue::makeNumber(double value) {
-    return {.kind = Kind::number, .number = value};
+    JsonValue out = ofKind(Kind::number);
+    out.number = value;
+    return out;
 }
 
 JsonValue JsonValue::makeString(std::string value) {
-    return {.kind = Kind::string, .text = std::move(value)};
+    JsonValue out = ofKind(Kind::string);
+    out.text = std::move(value);
+    return out;
 }
 
 JsonValue JsonValue::makeBoolean(bool value) {
-    return {.kind = Kind::boolean, .boolean = value};
+    JsonValue out = ofKind(Kind::boolean);
+    out.boolean = value;
+    return out;
 }
 
 JsonValue JsonValue::makeArray() {
-    return {.kind = Kind::array};
+    return ofKind(Kind::array);
 }
 
 JsonValue JsonValue::makeObject() {
-    return {.kind = Kind::object};
+    return ofKind(Kind::object);
 }
 
 JsonValue& JsonValue::add(std::string key, JsonValue value) {

@@ -299,7 +299,7 @@ Mesh readConfined(const std::string& file) {
 }  // namespace
 
 Mesh loadMesh(const std::string& file) {
-    FileReader{file};  // says what is no file, or cannot be opened
+    const FileReader readable(file);  // says what is no file, or cannot be opened
     const bool trusted = !environment("SHOAL_TRUST_MODELS").empty();
     Mesh mesh = trusted ? readModel(file, [](uint64_t) {}) : readConfined(file);
     completeMesh(mesh);

@@ -136,6 +136,7 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     } else {
         context.checkErrors("before a program is made");
         std::vector<std::string_view> texts;
+        texts.reserve(stages.size());
         for (const Stage& stage : stages)
             texts.emplace_back(stage.source.text);
         const std::string key = programKey(info, texts);
