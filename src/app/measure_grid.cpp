@@ -147,8 +147,8 @@ void drawAll(const Options& options, const std::vector<ReportScene>& all,
             any |= plottable(panels.back().points);
         }
         if (any)
-            plotGrid((fs::path(options.report) / (molecule + ".png")).string(), concat(molecule, "; ", machine),
-                     int(std::size(reportStiffnesses)), panels);
+            plotGrid((fs::path(options.report) / (molecule + ".png")).string(),
+                     concat(molecule, "; ", machine), int(std::size(reportStiffnesses)), panels);
     }
 }
 
