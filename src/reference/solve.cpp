@@ -59,7 +59,7 @@ ContactRun run(const Problem& problem, const State& start, double duration, int6
     ContactRun out = problem.colliders.empty()
                          ? ContactRun{integrateFreely(problem, std::move(still), duration, steps, deadline)}
                          : integrateWithContact(problem, still, duration, steps, deadline);
-    for (size_t i = 0; i < still.velocity.size(); ++i) {
+    for (size_t i = 0; i < start.velocity.size(); ++i) {
         if (problem.pinned(i)) out.state.velocity[i] = start.velocity[i];
     }
     return out;

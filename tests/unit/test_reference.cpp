@@ -10,6 +10,7 @@
 #include "reference/solve.h"
 #include "scene/field_kinds.h"
 #include "support/catch.h"
+#include "support/colliders.h"
 #include "support/every_kind.h"
 #include "support/shapes.h"
 
@@ -44,6 +45,20 @@ TEST_CASE("a damped spring follows its closed form", "[reference]") {
         0.2 * std::exp(-decay * time) * (std::cos(omega * time) + decay / omega * std::sin(omega * time));
     CHECK(solution.state.position[1].x - 1 == Approx(expected).margin(1e-9));
     CHECK(solution.state.position[0] == start.position[0]);
+}
+
+TEST_CASE("a pinned vertex stands still and is given back its velocity", "[reference]") {
+    Molecule molecule = test::pair(1, 1, 40, 1);
+    molecule.vertices[0].pinned = true;
+    Problem problem{.molecule = &molecule};
+    if (GENERATE(false, true)) problem.colliders = {test::collider(test::plane({0, 0, 1}), 0, 0, 0)};
+    State start = restState(problem);
+    for (glm::dvec3& position : start.position)
+        position.z += 1;  // above the plane
+    start.velocity[0] = {3, 0, 0};
+    const State end = integrate(problem, start, 0.1, 10);
+    CHECK(end.position[0] == start.position[0]);
+    CHECK(end.velocity[0] == start.velocity[0]);
 }
 
 TEST_CASE("the factors of a problem act on springs", "[reference]") {
