@@ -16,7 +16,8 @@ namespace shoal::app {
 
 constexpr int pictureWidth = 640, pictureHeight = 360;
 
-// What a benchmark runs on. Each group of cases takes the seconds that the options say, or the usual ones.
+// A benchmark runs in a session: its options, context and time. Each group of cases takes the seconds that
+// the options say, or the usual ones.
 struct BenchSession {
     BenchSession(const Options& options, double usual, double quick);
     // The last of it, once all was measured: counts the pinned threads, tells warnings.

@@ -18,10 +18,11 @@ std::vector<ParticleCase> particleCasesOf(const Options& options) {
     std::copy_if(all.begin(), all.end(), std::back_inserter(some),
                  [&](const ParticleCase& one) { return one.name().find(options.only) != std::string::npos; });
     if (!some.empty()) return some;
-    std::string names;
+    std::vector<std::string> names;
     for (const std::vector<ParticleCase>& group : byGroup(all))
-        names += concat(names.empty() ? "" : ", ", "\"", group.front().group, "\"");
-    throw Error(concat("--only: nothing has \"", options.only, "\" in its name; there are ", names));
+        names.push_back(concat("\"", group.front().group, "\""));
+    throw Error(
+        concat("--only: nothing has \"", options.only, "\" in its name; there are ", joined(names, ", ")));
 }
 
 }  // namespace

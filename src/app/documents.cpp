@@ -149,7 +149,7 @@ void addWords(std::string& out, const CLI::App& command, const std::string& name
         if (!wordsOf(*option).empty()) words.push_back(wordsOf(*option));
         if (option->get_type_name() == "SCENE") scenes = " scenes=yes";
     }
-    out += "    '" + name + "') words='" + CLI::detail::join(words, " ") + "'" + scenes + ";;\n";
+    out += "    '" + name + "') words='" + joined(words, " ") + "'" + scenes + ";;\n";
     for (const CLI::App* below : commandsOf(command))
         addWords(out, *below, name + " " + below->get_name());
 }

@@ -10,7 +10,6 @@
 
 #include "core/file.h"
 #include "core/printable.h"
-#include "measure/timing.h"
 
 namespace shoal::app {
 
@@ -191,7 +190,7 @@ PvdIndex::PvdIndex(std::string file, double until) : file_(std::move(file)) {
 }
 
 void PvdIndex::add(double time, const std::string& dataFile) {
-    lines_ += concat("<DataSet timestep=\"", measure::formatted("%.9g", time), "\" part=\"0\" file=\"",
+    lines_ += concat("<DataSet timestep=\"", formatted("%.9g", time), "\" part=\"0\" file=\"",
                      xmlQuoted(dataFile), "\"/>\n");
     writeFile(file_,
               std::string_view(concat(

@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "core/json_build.h"
 #include "gpu/context.h"
-#include "measure/report_json.h"
 
 namespace shoal::app {
 

@@ -8,9 +8,9 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/image.h"
+#include "core/json_build.h"
 #include "core/printable.h"
 #include "geometry/mesh.h"
-#include "measure/report_json.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
 

@@ -30,8 +30,10 @@ void addScene(CLI::App& command, Options& options) {
 }
 
 std::string solverWords() {
-    return "auto|" + CLI::detail::join(
-                         solvers(), [](const Solver& one) { return one.name; }, "|");
+    std::string words = "auto";
+    for (const Solver& one : solvers())
+        words += concat("|", one.name);
+    return words;
 }
 
 void addOverrides(CLI::App& command, Options& options, Texts& texts) {
@@ -174,7 +176,7 @@ void checkTarget(const char* option, const std::string& target, const std::vecto
                                           [](char c) { return std::isalnum(static_cast<unsigned char>(c)); });
     if (!looksLikeOne || std::find(known.begin(), known.end(), extension) != known.end()) return;
     throw Error(concat(option, ": cannot write \"", extension, "\"; expected a folder, or a name ending in ",
-                       CLI::detail::join(known, ", ")));
+                       joined(known, ", ")));
 }
 
 void checkRanges(const Options& options) {

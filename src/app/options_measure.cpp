@@ -46,7 +46,7 @@ void finishBench(Options& options) {
     if (found == benchWords.end())
         throw Error(concat("bench: unknown \"", word, "\"",
                            near.empty() ? "" : " (did you mean \"" + near + "\"?)", "; expected ",
-                           CLI::detail::join(benchWords, ", "), " or nothing"));
+                           joined(benchWords, ", "), " or nothing"));
     if (!options.plot.empty())
         throw Error(concat("--plot is of bench without a word: leave out \"", word, "\", or it"));
     if (!options.only.empty() && word == "sort")
@@ -88,7 +88,7 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
         .add_option("of", options.benchOf,
                     "sort: the sorts; collide: contact; particles: points; school: fish; nothing: frames of "
                     "molecules")
-        ->type_name(CLI::detail::join(benchWords, "|"));
+        ->type_name(joined(benchWords, "|"));
     addContext(command, options, texts);
     section(command, "What is measured");
     command.add_flag("--quick", options.quick, "Small groups only, and less time: about half a minute");

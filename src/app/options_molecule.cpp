@@ -27,10 +27,11 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--springs", molecule.springs, "lattice: tetrahedra that fill the volume")
         ->type_name("surface|lattice")
         ->capture_default_str();
-    const std::string names = CLI::detail::join(
-        materialScale(), [](const ScaledMaterial& one) { return one.name; }, "|");
+    std::vector<std::string> names;
+    for (const ScaledMaterial& one : materialScale())
+        names.emplace_back(one.name);
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
-        ->type_name(names);
+        ->type_name(joined(names, "|"));
     number("--size", make.size, "m, of the longest side (default: as in the file)");
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");

@@ -1,18 +1,16 @@
-// What reports share: the machine, the passes' times, rows of text; and the report of `run --json`.
+// Reports share these: the machine, the passes' times, rows of text; and the report of `run --json`.
 #pragma once
 
 #include <span>
 #include <string>
 #include <vector>
 
+#include "core/json_build.h"
 #include "gpu/context.h"
-#include "measure/report_json.h"
 #include "measure/timing.h"
 #include "simulate/simulation.h"
 
 namespace shoal::app {
-
-using measure::formatted;
 
 // A row of a table with its end, without blanks before that. Widths as std::printf has them: below 0 for
 // cells that begin to the left.

@@ -32,14 +32,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool hasDisplay() {
-    for (const char* variable : {"DISPLAY", "WAYLAND_DISPLAY"}) {
-        const char* value = std::getenv(variable);
-        if (value && *value) return true;
-    }
-    return false;
-}
-
 bool wantsWindow(const Options& options) {
     if (options.headless) {
         if (options.context == gpu::ContextKind::window)
@@ -50,7 +42,7 @@ bool wantsWindow(const Options& options) {
     // pictures, exports and reports are headless work unless a window is asked for
     const bool batch =
         !options.capture.empty() || !options.exports.empty() || options.json || options.timings;
-    return options.context == gpu::ContextKind::automatic && hasDisplay() && !batch;
+    return options.context == gpu::ContextKind::automatic && gpu::hasDisplay() && !batch;
 }
 
 // The pictures of a run that asked for none: eight of them, in a folder named after the scene.

@@ -1,4 +1,4 @@
-// What the baselines on the CPU share: a team of threads, one core each, that takes up work within a
+// The baselines on the CPU share these: a team of threads, one core each, that takes up work within a
 // microsecond while it is kept busy; memory for vectors.
 #pragma once
 

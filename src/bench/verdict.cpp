@@ -7,7 +7,6 @@ namespace shoal::bench {
 
 namespace {
 
-using measure::formatted;
 using Test = std::function<bool(const BenchCase&)>;
 
 const BenchResult* find(const std::vector<BenchResult>& all, const Test& test) {

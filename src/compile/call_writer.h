@@ -36,7 +36,7 @@ class NumberLayout {
 // The parameters of a call that has neither clocks nor samples, laid out as its text names them.
 std::vector<glm::vec4> parametersOf(const GlslCall& call, bool far);
 
-// What the position is that calls read: the anchor from a point on (m), and the vertex from there.
+// The expressions of the position that calls read: the anchor from a point on (m), and the vertex from there.
 struct CallFrame {
     std::string anchor = "anchor", position = "position";
     glm::dvec3 origin{0};

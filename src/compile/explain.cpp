@@ -3,7 +3,7 @@
 
 #include "compile/path.h"
 #include "core/error.h"
-#include "core/json.h"
+#include "core/json_build.h"
 #include "core/printable.h"
 
 namespace shoal {
@@ -110,13 +110,6 @@ static std::vector<std::string> forceNames(const Plan& plan, const GroupPlan& gr
     return out;
 }
 
-static std::string listed(const std::vector<std::string>& names) {
-    std::string out;
-    for (const std::string& name : names)
-        out += (out.empty() ? "" : ", ") + name;
-    return out;
-}
-
 static void tellContact(std::ostringstream& out, const Plan& plan) {
     const ContactPlan& contact = plan.contact;
     if (!contact.any()) return;
@@ -168,7 +161,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             else
                 out << " is stable up to " << group.stableStep << " s\n";
         }
-        if (group.forces.any()) out << "  forces   " << listed(forceNames(plan, group)) << "\n";
+        if (group.forces.any()) out << "  forces   " << joined(forceNames(plan, group), ", ") << "\n";
         if (choice.path == Path::fused)
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         else
@@ -182,73 +175,49 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
 }
 
 static JsonValue passEntry(const char* pass, const char* moment, const std::string& why) {
-    JsonValue entry = JsonValue::makeObject();
-    entry.add("pass", JsonValue::makeString(pass))
-        .add("when", JsonValue::makeString(moment))
-        .add("why", JsonValue::makeString(why));
-    return entry;
+    return object(key("pass", pass), key("when", moment), key("why", why));
+}
+
+static JsonValue groupEntry(const Plan& plan, size_t g, Path path) {
+    const GroupPlan& group = plan.groups[g];
+    std::vector<JsonValue> passes;
+    if (path == Path::fused) passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
+    for (const PassPlan& pass : plan.passes)
+        if (path == Path::pingPong && pass.group == g)
+            passes.push_back(passEntry(name(pass.kind), when(pass.when), pass.why));
+    JsonValue out =
+        object(key("name", group.name), key("molecules", group.count), key("vertices", group.vertexCount),
+               key("solver", name(group.solver)), key("solverWhy", group.solverWhy));
+    if (group.needs.springs) append(out, key("highestFrequency", group.highestFrequency));
+    if (group.needs.springs && !solver(group.solver).implicit)
+        append(out, key("stableStep", group.stableStep));
+    if (group.life)
+        append(out, key("atStart", group.life->atStart), key("allocator", name(group.life->cycle.allocator)),
+               key("emitters", group.life->cycle.emitters.size()));
+    if (const SchoolMember* member = plan.school.memberOf(g))
+        append(out, key("schoolGrids", 1 + member->targetGrids.size()));
+    if (group.forces.any()) append(out, key("forces", forceNames(plan, group)));
+    return append(out, key("passes", passes));
 }
 
 JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) {
-    JsonValue groups = JsonValue::makeArray();
-    for (size_t g = 0; g < plan.groups.size(); ++g) {
-        const GroupPlan& group = plan.groups[g];
-        JsonValue passes = JsonValue::makeArray();
-        if (choice.path == Path::fused)
-            passes.items.push_back(passEntry("fused", "once a frame", kernelParts(group)));
-        for (const PassPlan& pass : plan.passes)
-            if (choice.path == Path::pingPong && pass.group == g)
-                passes.items.push_back(passEntry(name(pass.kind), when(pass.when), pass.why));
-        JsonValue entry = JsonValue::makeObject();
-        entry.add("name", JsonValue::makeString(group.name))
-            .add("molecules", JsonValue::makeNumber(group.count))
-            .add("vertices", JsonValue::makeNumber(group.vertexCount))
-            .add("solver", JsonValue::makeString(name(group.solver)))
-            .add("solverWhy", JsonValue::makeString(group.solverWhy));
-        if (group.needs.springs) entry.add("highestFrequency", JsonValue::makeNumber(group.highestFrequency));
-        if (group.needs.springs && !solver(group.solver).implicit)
-            entry.add("stableStep", JsonValue::makeNumber(group.stableStep));
-        if (group.life)
-            entry.add("atStart", JsonValue::makeNumber(group.life->atStart))
-                .add("allocator", JsonValue::makeString(name(group.life->cycle.allocator)))
-                .add("emitters", JsonValue::makeNumber(double(group.life->cycle.emitters.size())));
-        if (const SchoolMember* member = plan.school.memberOf(g))
-            entry.add("schoolGrids", JsonValue::makeNumber(double(1 + member->targetGrids.size())));
-        if (group.forces.any()) {
-            JsonValue forces = JsonValue::makeArray();
-            for (const std::string& force : forceNames(plan, group))
-                forces.items.push_back(JsonValue::makeString(force));
-            entry.add("forces", std::move(forces));
-        }
-        entry.add("passes", std::move(passes));
-        groups.items.push_back(std::move(entry));
-    }
-    JsonValue out = JsonValue::makeObject();
-    out.add("scene", JsonValue::makeString(plan.sceneName))
-        .add("path", JsonValue::makeString(name(choice.path)))
-        .add("fieldSampling", JsonValue::makeString(name(plan.fieldSampling)))
-        .add("frameRate", JsonValue::makeNumber(plan.frameRate))
-        .add("substeps", JsonValue::makeNumber(plan.substeps))
-        .add("stateBytes", JsonValue::makeNumber(double(stateBytes(plan, choice.path, true, inPlace))))
-        .add("tableBytes", JsonValue::makeNumber(double(plan.tableBytes())))
-        .add("groups", std::move(groups));
-    if (!plan.grids.empty()) {
-        JsonValue grids = JsonValue::makeArray();
-        for (const std::string& grid : plan.grids)
-            grids.items.push_back(JsonValue::makeString(grid));
-        out.add("grids", std::move(grids));
-    }
+    std::vector<JsonValue> groups;
+    for (size_t g = 0; g < plan.groups.size(); ++g)
+        groups.push_back(groupEntry(plan, g, choice.path));
+    JsonValue out = object(key("scene", plan.sceneName), key("path", name(choice.path)),
+                           key("fieldSampling", name(plan.fieldSampling)), key("frameRate", plan.frameRate),
+                           key("substeps", plan.substeps),
+                           key("stateBytes", stateBytes(plan, choice.path, true, inPlace)),
+                           key("tableBytes", plan.tableBytes()), key("groups", groups));
+    if (!plan.grids.empty()) append(out, key("grids", plan.grids));
     if (!plan.contact.any()) return out;
-    JsonValue contact = JsonValue::makeObject();
-    contact.add("spheres", JsonValue::makeNumber(plan.contact.spheres))
-        .add("cell", JsonValue::makeNumber(plan.contact.cell))
-        .add("steps", JsonValue::makeNumber(plan.contact.steps))
-        .add("search", JsonValue::makeString(name(plan.contact.settings.search)))
-        .add("response", JsonValue::makeString(name(plan.contact.settings.response)))
-        .add("iterations", JsonValue::makeNumber(plan.contact.settings.iterations))
-        .add("safeSpeed", JsonValue::makeNumber(plan.contact.safeSpeed(1 / plan.frameRate)));
-    out.add("contact", std::move(contact));
-    return out;
+    const ContactSettings& settings = plan.contact.settings;
+    const JsonValue contact =
+        object(key("spheres", plan.contact.spheres), key("cell", plan.contact.cell),
+               key("steps", plan.contact.steps), key("search", name(settings.search)),
+               key("response", name(settings.response)), key("iterations", settings.iterations),
+               key("safeSpeed", plan.contact.safeSpeed(1 / plan.frameRate)));
+    return append(out, key("contact", contact));
 }
 
 }  // namespace shoal

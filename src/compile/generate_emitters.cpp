@@ -25,7 +25,7 @@ constexpr size_t slots = 8;
 using From = Emitter::From;
 using Along = Emitter::Along;
 
-// What of a kind's size is not its radius.
+// The part of a shape's size that is not its radius.
 glm::dvec3 extentOf(const Emitter& emitter) {
     if (emitter.from == From::line) return emitter.lineTo - emitter.lineFrom;
     if (emitter.from == From::box) return 0.5 * (emitter.box.high - emitter.box.low);
@@ -85,7 +85,7 @@ class EmitterText {
         return emitter_->path ? concat("turned(", slot(7), ", ", v, ")") : v;
     }
 
-    // Of what has no middle to be outward of.
+    // A shape without a middle has no outward direction: any direction is as good.
     const char* anyOutward() const {
         return emitter_->along == Along::outward ? "        vec3 outward = anyDirection(drawn(seed, "
                                                    "bornOutward), drawn(seed, bornOutward + 1u));\n"

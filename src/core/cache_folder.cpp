@@ -1,19 +1,16 @@
 #include "core/cache_folder.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 #include <vector>
 
+#include "core/error.h"
+#include "core/file.h"
+
 namespace shoal {
 
 namespace fs = std::filesystem;
-
-std::string environment(const char* name) {
-    const char* value = std::getenv(name);
-    return value != nullptr ? value : "";
-}
 
 std::string cacheFolder() {
     if (std::getenv("SHOAL_CACHE") != nullptr) return environment("SHOAL_CACHE");
@@ -33,10 +30,8 @@ std::string contentKey(std::string_view bytes) {
     uint64_t backwards = fnvStart;
     for (auto c = bytes.rbegin(); c != bytes.rend(); ++c)
         backwards = (backwards ^ static_cast<unsigned char>(*c)) * 1099511628211ull;
-    char digits[33];
-    std::snprintf(digits, sizeof digits, "%016llx%016llx", static_cast<unsigned long long>(fnv(bytes)),
-                  static_cast<unsigned long long>(backwards));
-    return digits;
+    return formatted("%016llx%016llx", static_cast<unsigned long long>(fnv(bytes)),
+                     static_cast<unsigned long long>(backwards));
 }
 
 void touchFile(const fs::path& file) {

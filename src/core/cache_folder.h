@@ -1,4 +1,4 @@
-// Finds the folder that is kept between runs, and names and checks the files in it; environment variables.
+// Finds the folder that is kept between runs, and names and checks the files in it.
 #pragma once
 
 #include <cstdint>
@@ -7,9 +7,6 @@
 #include <string_view>
 
 namespace shoal {
-
-// The value of an environment variable; empty: it is not set.
-std::string environment(const char* name);
 
 // $SHOAL_CACHE (empty: no cache), $XDG_CACHE_HOME/shoal, ~/.cache/shoal; else empty.
 std::string cacheFolder();

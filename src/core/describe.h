@@ -63,9 +63,9 @@ class Describe {
     }
     // One of some words; the member is an enumeration, whose values are their indices.
     template <typename Enum>
-    Describe& word(const char* name, Enum S::*member, std::vector<std::string> words, Says says) {
+    Describe& word(const char* name, Enum S::*member, const std::vector<std::string>& words, Says says) {
         add(name, Key::Kind::word, member, std::move(says));
-        last().words = std::move(words);
+        last().words = words;
         last().member.index = [](const void* at) { return int(*static_cast<const Enum*>(at)); };
         last().member.choose = [](void* at, int index) {
             *static_cast<Enum*>(at) = Enum(index);
@@ -75,10 +75,10 @@ class Describe {
     }
     // Describes an optional enumeration, whose first word stands for nothing.
     template <typename Enum>
-    Describe& word(const char* name, std::optional<Enum> S::*member, std::vector<std::string> words,
+    Describe& word(const char* name, std::optional<Enum> S::*member, const std::vector<std::string>& words,
                    Says says) {
         add(name, Key::Kind::word, member, std::move(says));
-        last().words = std::move(words);
+        last().words = words;
         last().member = {.offset = last().member.offset};
         last().member.index = [](const void* at) {
             const auto& value = *static_cast<const std::optional<Enum>*>(at);
@@ -176,8 +176,8 @@ class Describe {
         return *this;
     }
     // Sets the default, in words, of the key before.
-    Describe& usually(std::string words) {
-        last().usual = std::move(words);
+    Describe& usually(const std::string& words) {
+        last().usual = words;
         return *this;
     }
     // Sets how the key before is read instead.

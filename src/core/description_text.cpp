@@ -20,7 +20,7 @@ std::string conditions(const Key& key) {
     return out.empty() ? out : out + ".";
 }
 
-// What tables call the kinds of keys, in the order of Key::Kind; those that are limited also say how.
+// Tables call the kinds of keys so, in the order of Key::Kind; those that are limited also say how.
 struct TypeWords {
     const char* words;
     bool limited = false;

@@ -1,6 +1,7 @@
 #include "core/error.h"
 
 #include <algorithm>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <numeric>
@@ -78,10 +79,27 @@ std::string nearest(const std::string& word, const std::vector<std::string>& can
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
     const std::string near = nearest(word, candidates);
     if (!near.empty()) return " (did you mean \"" + near + "\"?)";
+    return candidates.empty() ? "" : " (expected one of " + joined(candidates, ", ") + ")";
+}
+
+std::string joined(const std::vector<std::string>& texts, std::string_view between) {
     std::string out;
-    for (const std::string& candidate : candidates)
-        out += (out.empty() ? "" : ", ") + candidate;
-    return out.empty() ? out : " (expected one of " + out + ")";
+    for (const std::string& text : texts) {
+        if (&text != &texts.front()) out += between;
+        out += text;
+    }
+    return out;
+}
+
+std::string formatted(const char* format, ...) {
+    va_list values, again;
+    va_start(values, format);
+    va_copy(again, values);
+    std::string out(size_t(std::max(0, std::vsnprintf(nullptr, 0, format, values))), '\0');
+    std::vsnprintf(out.data(), out.size() + 1, format, again);
+    va_end(again);
+    va_end(values);
+    return out;
 }
 
 void contractBroken(const char* file, int line, const char* condition) {

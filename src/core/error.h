@@ -40,6 +40,12 @@ std::string concat(const Parts&... parts) {
     return out.str();
 }
 
+// Puts texts behind one another with another between them.
+std::string joined(const std::vector<std::string>& texts, std::string_view between);
+
+// Puts its arguments into a format of std::printf.
+[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+
 // what() is "file:line:column: message (at $.json.path)".
 class Error : public std::runtime_error {
   public:

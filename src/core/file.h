@@ -30,6 +30,9 @@ void writeFile(const std::filesystem::path& path, std::span<const std::byte> byt
 // Error: writeFile would not succeed now. For those who write late what should be known early.
 void checkWritable(const std::filesystem::path& path);
 
+// The value of an environment variable; empty: it is not set, or set to nothing.
+std::string environment(const char* name);
+
 // The program of that name by PATH; empty: there is none.
 std::string findProgram(const std::string& name);
 

@@ -18,7 +18,7 @@ namespace shoal {
 
 namespace {
 
-// What reading and writing share.
+// Reading and writing share this state.
 struct Png {
     char complaint[200] = "";  // libpng's
     png_structp png = nullptr;

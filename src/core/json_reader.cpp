@@ -16,7 +16,7 @@ const char* name(JsonValue::Kind kind) {
     return names[size_t(kind)];
 }
 
-// What is said of a number outside a range.
+// The message about a number outside a range.
 static std::string outside(Range range, const std::string& noun, const std::string& found) {
     const auto digits = [&noun](double number) {  // a whole number in full: 16777216
         return noun == "a whole number" ? writeJsonLine(JsonValue::makeNumber(number)) : concat(number);

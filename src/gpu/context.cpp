@@ -180,7 +180,10 @@ const char* name(ContextKind kind) {
 ContextKind contextKind(const std::string& word) {
     for (const KindRow& row : kindTable)
         if (word == row.name) return row.kind;
-    throw Error("unknown context \"" + word + "\"" + suggestion(word, {"auto", "window", "egl", "osmesa"}));
+    std::vector<std::string> names;
+    for (const KindRow& row : kindTable)
+        names.emplace_back(row.name);
+    throw Error("unknown context \"" + word + "\"" + suggestion(word, names));
 }
 
 static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptions& options) {

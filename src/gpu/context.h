@@ -62,6 +62,8 @@ enum class ContextKind { automatic, window, egl, osmesa };
 // "auto", "window", "egl" or "osmesa". Error: anything else, with the nearest of them.
 ContextKind contextKind(const std::string& word);
 const char* name(ContextKind kind);
+// Tells whether there is a display (DISPLAY or WAYLAND_DISPLAY is set) that a window could be opened on.
+bool hasDisplay();
 
 struct ContextOptions {
     ContextKind kind = ContextKind::automatic;

@@ -10,12 +10,11 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
-#include <cstdlib>
-#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "gpu/platform.h"
 
 namespace shoal::gpu {
@@ -228,9 +227,8 @@ std::vector<Candidate> candidates() {
 }
 
 bool softwareWanted() {
-    const char* value = std::getenv("LIBGL_ALWAYS_SOFTWARE");
-    return value != nullptr && *value != '\0' && std::strcmp(value, "0") != 0 &&
-           std::strcmp(value, "false") != 0;
+    const std::string wanted = environment("LIBGL_ALWAYS_SOFTWARE");
+    return !wanted.empty() && wanted != "0" && wanted != "false";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // A context in a window, through GLFW (X11 or Wayland, whichever GLFW was built for).
-#include <cstdlib>
 
 #include "core/error.h"
+#include "core/file.h"
 #include "gpu/platform.h"
 
 #define GLFW_INCLUDE_NONE
@@ -79,16 +79,14 @@ class WindowPlatform final : public Platform {
     GLFWwindow* window_ = nullptr;
 };
 
-bool isSet(const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && *value != '\0';
-}
-
 }  // namespace
 
+bool hasDisplay() {
+    return !environment("DISPLAY").empty() || !environment("WAYLAND_DISPLAY").empty();
+}
+
 std::unique_ptr<Platform> createWindowPlatform(const ContextOptions& options) {
-    if (!isSet("DISPLAY") && !isSet("WAYLAND_DISPLAY"))
-        throw Error("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
+    if (!hasDisplay()) throw Error("there is no display (neither DISPLAY nor WAYLAND_DISPLAY is set)");
     return std::make_unique<WindowPlatform>(options);
 }
 

@@ -101,6 +101,7 @@ std::vector<Spread> timeInTurn(const std::vector<Contender>& contenders, std::op
         tell(done += cost[i]);
     });
     std::vector<Spread> out;
+    out.reserve(samples.size());
     for (const std::vector<double>& one : samples)
         out.push_back(spreadOf(one));
     return out;

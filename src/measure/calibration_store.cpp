@@ -5,7 +5,7 @@
 
 #include "core/contract.h"
 #include "core/file.h"
-#include "measure/report_json.h"
+#include "core/json_build.h"
 
 namespace shoal::measure {
 

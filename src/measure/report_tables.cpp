@@ -57,7 +57,7 @@ std::string speedUp(const ReportEntry& entry, double error) {
     const std::optional<BestOf> best = cheapest(points, error);
     if (!best) return notReached(points, {});
     const std::optional<BestOf> euler = bestOf(points, SolverKind::euler, error);
-    const std::string words = methodWords(best->method);
+    std::string words = methodWords(best->method);
     if (!euler) return concat(words, "; euler ", notReached(points, SolverKind::euler));
     if (best->method.solver == SolverKind::euler) return words;
     const bool least = best->cost.atLargestStep, most = euler->cost.atLargestStep;

@@ -3,7 +3,6 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <cstdarg>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -69,17 +68,6 @@ int pinRasteriserThreads() {
         sched_setaffinity(std::stoi(task.path().filename().string()), sizeof set, &set);
     }
     return pinned;
-}
-
-std::string formatted(const char* format, ...) {
-    va_list values, again;
-    va_start(values, format);
-    va_copy(again, values);
-    std::string out(size_t(std::max(0, std::vsnprintf(nullptr, 0, format, values))), '\0');
-    std::vsnprintf(out.data(), out.size() + 1, format, again);
-    va_end(again);
-    va_end(values);
-    return out;
 }
 
 std::string nanoseconds(double seconds) {

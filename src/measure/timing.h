@@ -54,8 +54,7 @@ void takeTurns(const VisitPlan& plan, Visit visit) {
             if (plan.visits(i, round)) visit(i);
 }
 
-// As std::printf writes it; a time in nanoseconds, of three digits that count.
-[[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+// A time in nanoseconds, of three digits that count.
 std::string nanoseconds(double seconds);
 
 // Ties the process's llvmpipe workers to one core each, in turn: left alone, the worker threads of a CPU

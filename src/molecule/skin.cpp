@@ -217,6 +217,7 @@ std::vector<std::vector<size_t>> places(const Skin& skin) {
         found[{c.x, c.y, c.z}].push_back(i);
     }
     std::vector<std::vector<size_t>> out;
+    out.reserve(found.size());
     for (auto& [place, vertices] : found)
         out.push_back(std::move(vertices));
     return out;

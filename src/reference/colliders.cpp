@@ -13,8 +13,8 @@ namespace {
 // only rounding (1e-16 / 1e-6 of a height) and the normal's curvature (1e-12 of it) are lost.
 constexpr double nudge = 1e-6;
 
-// Of each kind: its surface at x, where `beyond` is the cells by which a height field reaches past its
-// border; and what is known of it, where `thickness` is the collider's.
+// Each kind has two functions: its surface at x, where `beyond` is the cells by which a height field reaches
+// past its border; and the facts about it, where `thickness` is the collider's.
 Surface surface(const PlaneCollider& plane, const glm::dvec3& x, double) {
     const glm::dvec3 n = glm::normalize(plane.normal);
     return {n, glm::dot(x - plane.point, n)};

@@ -21,7 +21,7 @@ struct Surface {
 // it is flat.
 Surface surfaceAt(const ColliderShape& shape, const glm::dvec3& x);
 
-// What is known of the surface of a kind.
+// Facts about the surface of a kind.
 struct SurfaceFacts {
     double feature = 1e30;
     double top = 1e30;    // m: nothing is above this height

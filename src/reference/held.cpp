@@ -64,9 +64,10 @@ void Held::graze(size_t vertex, size_t collider) {
 
 void Held::release(size_t vertex, size_t collider) {
     Contacts& c = contacts_[vertex];
-    if (!holds(vertex, collider)) return;
     const auto end = c.collider.begin() + ptrdiff_t(c.count);
-    std::remove(c.collider.begin(), end, collider);
+    const auto found = std::find(c.collider.begin(), end, collider);
+    if (found == end) return;
+    std::move(found + 1, end, found);
     c.sticks = false;
     if (--c.count == 0) releaseAll(vertex);
 }

@@ -14,8 +14,7 @@ namespace fs = std::filesystem;
 std::string numbered(const std::string& target, int frame, bool several, int last) {
     if (!several) return target;
     const fs::path path(target);
-    char number[16];
-    std::snprintf(number, sizeof number, "-%0*d", std::max(5, int(std::to_string(last).size())), frame);
+    const std::string number = formatted("-%0*d", std::max(5, int(std::to_string(last).size())), frame);
     return (path.parent_path() / (path.stem().string() + number + path.extension().string())).string();
 }
 

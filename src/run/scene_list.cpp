@@ -77,10 +77,7 @@ std::optional<std::string> sceneFile(const std::string& word) {
     if (files.size() == 1) return files[0];
     if (fs::is_directory(status)) return word;
     if (files.empty()) return {};
-    std::string all;
-    for (const std::string& name : names)
-        all += (all.empty() ? "" : " or ") + name;
-    throw Error(concat("several scenes are called \"", word, "\": say ", all));
+    throw Error(concat("several scenes are called \"", word, "\": say ", joined(names, " or ")));
 }
 
 std::string needScene(const std::string& word) {

@@ -47,8 +47,8 @@ class GlslCall {
 
     // The position relative to a point (vec3, m), exact far from the origin.
     GlslCall& from(const glm::dvec3& point) { return add({Kind::from, {point, 0}}); }
-    // The same in two parts: the way from the point to the anchor, which is the same in every substep, and
-    // the position from there.
+    // Passes the position from a point on in two parts: the way from the point to the anchor, which is the
+    // same in every substep, and the position from there.
     GlslCall& apart(const glm::dvec3& point) { return add({Kind::apart, {point, 0}}); }
     // The position in the world (vec3, m), and the time since the frame's start (float, s).
     GlslCall& place() { return text("anchor + position"); }
@@ -84,7 +84,7 @@ class GlslCall {
     }
     GlslCall& call(GlslCall inner) { return add({.kind = Kind::call, .inner = {std::move(inner)}}); }
 
-    // What is called is along axes that are turned so; its surface is turned back.
+    // The called function works along axes that are turned so; its surface is turned back.
     GlslCall& turned(const std::optional<glm::dquat>& rotation) {
         rotation_ = rotation;
         return *this;

@@ -1,4 +1,4 @@
-// What both paths do in a step of contact between molecules, each with its own passes: the grid, the search,
+// Both paths do this in a step of contact between molecules, each with its own passes: the grid, the search,
 // and the impulses of all contacts in Jacobi iterations (docs/contact.md).
 #pragma once
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "core/description.h"
 #include "window/interface.h"
@@ -174,9 +173,7 @@ void tip(const char* words) {
 }
 
 std::string plain(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.4g", number);
-    return text;
+    return formatted("%.4g", number);
 }
 
 }  // namespace shoal::window

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <thread>
 
+#include "core/error.h"
 #include "measure/accuracy_reference.h"
 #include "measure/method_runner.h"
 #include "run/data_paths.h"
@@ -46,11 +46,9 @@ std::string methodError(const Scene& scene, const Simulation& simulation, gpu::P
         runner.run(frames);
         const std::vector<Snapshot> reached = runner.snapshots();
         if (!ExactEnds::finite(reached)) return "it blows up";
-        char text[96];
-        std::snprintf(text, sizeof text, "error %.1e of its size (RMS of %d after %.2g s)",
-                      std::max(ends.errorOf(reached).total, ends.error()), ends.molecules(),
-                      frames / scene.frameRate);
-        return text;
+        return formatted("error %.1e of its size (RMS of %d after %.2g s)",
+                         std::max(ends.errorOf(reached).total, ends.error()), ends.molecules(),
+                         frames / scene.frameRate);
     } catch (const Error& error) {
         return concat("no error: ", error.message());
     }

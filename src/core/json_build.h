@@ -1,4 +1,4 @@
-// JSON of reports, built from names and values:
+// Builds JSON from names and values:
 //   return object(key("name", one.name), key("size", one.size), key("error", one.error));
 #pragma once
 
