@@ -21,7 +21,7 @@ using namespace bench;
 
 namespace {
 
-class BulletRunner : public BenchRunner {
+class BulletRunner final : public BenchRunner {
   public:
     BulletRunner(const BenchCase& one, const Molecule& molecule) : one_(one), molecule_(molecule) {
         restart();

@@ -118,7 +118,7 @@ class Curves {
     }
     // Returns the script; what is added from now on belongs to another.
     std::string take() {
-        const std::string out = lines_.str().empty() ? "" : data_.str() + lines_.str() + "\n";
+        std::string out = lines_.str().empty() ? "" : data_.str() + lines_.str() + "\n";
         data_.str("");
         lines_.str("");
         return out;

@@ -64,6 +64,7 @@ bool MoleculeSample::settleBy(SolverKind kind) {
     }
     if (2 * substeps > maxSubsteps) return false;
     runner->restart();
+    MethodRunner& by = *runner;
     if (!runner_) {
         starts_ = runner->snapshots();
         const Plan& plan = runner->simulation().plan();
@@ -83,7 +84,6 @@ bool MoleculeSample::settleBy(SolverKind kind) {
         runner_ = std::move(runner);
         if (settled()) return true;
     }
-    MethodRunner& by = runner ? *runner : *runner_;
     std::vector<Snapshot> coarse;
     for (; substeps <= maxSubsteps; substeps *= 2) {
         const Clock::time_point start = Clock::now();

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <thread>
 
+#include "core/error.h"
+
 namespace shoal::measure {
 
 double secondsSince(Clock::time_point start) {

@@ -43,7 +43,7 @@ static std::string withNumber(const std::string& name, int frame, int last) {
 
 std::filesystem::path frameFile(const std::string& target, int frame, bool many, int last) {
     if (target.find('%') != std::string::npos) return withNumber(target, frame, last);
-    const std::filesystem::path path(target);
+    std::filesystem::path path(target);
     const std::string padded = number(frame, std::max(5, int(std::to_string(last).size())));
     if (lowerExtension(path) != ".png") return path / ("frame-" + padded + ".png");
     if (!many) return path;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <iostream>
 
@@ -13,7 +14,7 @@ namespace shoal {
 
 using Clock = std::chrono::steady_clock;
 
-Progress::Progress(std::string what, int total)
+Progress::Progress(const std::string& what, int total)
     : what_(printable(what)), total_(std::max(total, 1)), terminal_(::isatty(2) != 0), start_(Clock::now()) {}
 
 Progress::~Progress() {
@@ -75,8 +76,8 @@ void FieldWatch::show(double share) {
 }
 
 std::string roughly(double seconds) {
-    if (seconds < 90) return concat(std::max(1, int(seconds + 0.5)), " s");
-    return concat(int(seconds / 60 + 0.5), " minutes");
+    if (seconds < 90) return concat(std::max(1, int(std::lround(seconds))), " s");
+    return concat(std::lround(seconds / 60), " minutes");
 }
 
 void tellWarnings(const std::vector<Warning>& warnings) {

@@ -15,7 +15,7 @@ namespace shoal {
 // A bar on a terminal, plain lines elsewhere (every tenth).
 class Progress {
   public:
-    Progress(std::string what, int total);
+    Progress(const std::string& what, int total);
     ~Progress();
     void step();
     void rename(std::string what);  // the rest of the same whole is something else

@@ -230,9 +230,8 @@ class Hosts {
     // x fastest, then y, then z; a count above the product goes on along z.
     Host onGrid(size_t instance) const {
         const size_t columns = size_t(place_.cells.x), rows = size_t(place_.cells.y);
-        const glm::dvec3 cell(static_cast<double>(instance % columns),
-                              static_cast<double>(instance / columns % rows),
-                              static_cast<double>(instance / columns / rows));
+        const size_t row = instance / columns, layer = row / rows;
+        const glm::dvec3 cell(double(instance % columns), double(row % rows), double(layer));
         return {place_.origin + cell * place_.spacing, up(), {1, 0, 0, 0}, 1};
     }
 

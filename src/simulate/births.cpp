@@ -182,8 +182,8 @@ int Births::takePlaces(Living& living, const std::vector<BirthRun>& runs, double
             const uint32_t seed = hash(hash(living.plan->life->seed, uint32_t(run.emitter)),
                                        uint32_t(run.ordinal) + uint32_t(j)) >>
                                   8;
-            const double moment =
-                run.random ? double(hash(seed, bornTime) >> 8) / 16777216.0 : double(j / run.each);
+            const int turn = j / run.each;
+            const double moment = run.random ? double(hash(seed, bornTime) >> 8) / 16777216.0 : turn;
             const double dies = run.first + run.interval * moment + lifeOf(living.life.life, seed);
             uint32_t place = 0;
             if (!living.book.take(dies, place)) {

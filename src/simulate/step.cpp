@@ -28,7 +28,10 @@ bool jumps(const Parameters& from, const Parameters& to) {
 Frame pieceOf(const Frame& frame, int i, int steps) {
     const int substeps = frame.parameters.substeps;
     Frame out = frame;
-    const auto begin = [&](int piece) { return frame.time + frame.h * (substeps * piece / steps); };
+    const auto begin = [&](int piece) {
+        const int before = substeps * piece / steps;
+        return frame.time + frame.h * before;
+    };
     out.time = begin(i);
     out.end = i + 1 == steps ? frame.end : begin(i + 1);
     out.number = frame.number * steps + i;  // random numbers differ

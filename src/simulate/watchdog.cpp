@@ -37,8 +37,7 @@ bool wasHeld(const GroupPlan& group, const GroupState& state, size_t molecule) {
 }
 
 std::string cause(const Plan& plan, const Alarm& alarm) {
-    const std::string hasty =
-        hastyForce(plan.forces, plan.groups[alarm.group], 1 / plan.frameRate / plan.substeps);
+    std::string hasty = hastyForce(plan.forces, plan.groups[alarm.group], 1 / plan.frameRate / plan.substeps);
     if (!hasty.empty()) return hasty;
     if (!alarm.finite)
         return "the step is too long for something here, or a force is beyond what a float holds";

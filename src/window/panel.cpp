@@ -226,7 +226,7 @@ Panel::Action Panel::drawGroups() {
 Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation) {
     if (!section("Method", true)) return Action::none;
     Action action = Action::none;
-    const std::vector<std::string> words = solverWords();
+    const std::vector<std::string>& words = solverWords();
     const char* shown = solver_ ? words[size_t(*solver_)].c_str() : "as in the scene";
     if (ImGui::BeginCombo("Solver", shown)) {
         if (ImGui::Selectable("as in the scene", !solver_)) solver_.reset(), action = Action::rebuild;

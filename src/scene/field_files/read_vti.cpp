@@ -92,14 +92,15 @@ class Reader {
     template <size_t N>
     std::array<double, N> numbers(const pugi::xml_node& node, const char* key, const char* fallback) const {
         const pugi::xml_attribute attribute = node.attribute(key);
-        if (!attribute && !fallback) throw at(node, concat("expected the attribute ", key));
-        const std::string text = attribute ? attribute.value() : fallback;
+        const char* value = attribute ? attribute.value() : fallback;
+        if (value == nullptr) throw at(node, concat("expected the attribute ", key));
+        const std::string text = value;  // stays as long as the scanner reads it
         std::array<double, N> out{};
         size_t found = 0;
         try {
             NumberScanner scanner(text, file_);
-            for (double value; scanner.next(value); ++found)
-                if (found < N) out[found] = value;
+            for (double number; scanner.next(number); ++found)
+                if (found < N) out[found] = number;
         } catch (const Error& error) {
             throw at(node, concat(key, ": ", error.message()));
         }

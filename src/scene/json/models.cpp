@@ -1,5 +1,6 @@
 // "models": meshes that stand still.
 #include <cmath>
+#include <filesystem>
 
 #include "core/describe.h"
 #include "geometry/mesh.h"
