@@ -77,7 +77,7 @@ if(NOT EXISTS ${elsewhere}/pictures/frame-00002.png)
 endif()
 
 # The shaders are the bundle's: a mistake in them shows, on whichever path.
-foreach(shader passes/advect.frag fused/frame.comp)
+foreach(shader passes/advect.frag fused/frame.glsl)
   file(APPEND ${bundle}/shaders/${shader} "\n#error from the bundle\n")
 endforeach()
 execute_process(COMMAND ${plain} ./linked run ../shoal/models/hello/hello.scene.json --headless --frames 2

@@ -55,24 +55,23 @@ void main()
     vec4 record = texelFetch(oldRecords, molecule);
     bool released = record.w < 0.0;
     int first = firstElement(molecule, STATE_ELEMENTS);
-    int velocities = first + POSITION_ELEMENTS * BLOCK;
     vec4 shape = shapeOf(k);
 #ifdef TRIANGLES
     ivec3 corners = k < VERTICES ? ivec3(k) : ivec3(shape.xyz);
-    vec3 position = (packedVertex(oldState, first, corners.x) + packedVertex(oldState, first, corners.y) +
-                     packedVertex(oldState, first, corners.z)) / 3.0;
-    vec3 velocity = (packedVertex(oldState, velocities, corners.x) + packedVertex(oldState, velocities, corners.y) +
-                     packedVertex(oldState, velocities, corners.z)) / 3.0;
+    vec3 position = (packedVertex(oldState, first, 0, corners.x) + packedVertex(oldState, first, 0, corners.y) +
+                     packedVertex(oldState, first, 0, corners.z)) / 3.0;
+    vec3 velocity = (packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) + packedVertex(oldState, first, POSITION_ELEMENTS, corners.y) +
+                     packedVertex(oldState, first, POSITION_ELEMENTS, corners.z)) / 3.0;
     // an impulse on the middle is a third on each corner
     float weight = (weightOf(shapeOf(corners.x), released) + weightOf(shapeOf(corners.y), released) +
                     weightOf(shapeOf(corners.z), released)) / 9.0;
     bool isVertex = k < VERTICES;
-    position = isVertex ? packedVertex(oldState, first, corners.x) : position;
-    velocity = isVertex ? packedVertex(oldState, velocities, corners.x) : velocity;
+    position = isVertex ? packedVertex(oldState, first, 0, corners.x) : position;
+    velocity = isVertex ? packedVertex(oldState, first, POSITION_ELEMENTS, corners.x) : velocity;
     weight = isVertex ? weightOf(shape, released) : weight;
 #else
-    vec3 position = packedVertex(oldState, first, k);
-    vec3 velocity = packedVertex(oldState, velocities, k);
+    vec3 position = packedVertex(oldState, first, 0, k);
+    vec3 velocity = packedVertex(oldState, first, POSITION_ELEMENTS, k);
     float weight = weightOf(shape, released);
 #endif
     float scale = 1.0;

@@ -1,5 +1,5 @@
 // One workgroup a molecule and a lane a vertex, for molecules that do not fit one lane's registers: the vertices lie in
-// shared memory. For fused/frame.comp.
+// shared memory. For fused/frame.glsl.
 layout(std430, binding = 0) writeonly buffer NewState { float newState[]; };
 #ifdef RECORDS
 layout(std430, binding = 1) writeonly buffer NewRecords { vec4 newRecords[]; };
@@ -22,8 +22,8 @@ void loadState(int molecule)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
     for (int i = 0; i < VERTICES; ++i) {
-        x[i] = packedVertex(oldState, first, i);
-        v[i] = packedVertex(oldState, first + POSITION_ELEMENTS * BLOCK, i);
+        x[i] = packedVertex(oldState, first, 0, i);
+        v[i] = packedVertex(oldState, first, POSITION_ELEMENTS, i);
     }
 }
 

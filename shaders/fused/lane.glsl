@@ -1,16 +1,22 @@
-// One lane a molecule, in its registers. For fused/frame.comp.
+// One lane a molecule, in its registers: of a compute shader or, with LAYERED, of a fragment shader. For fused/frame.glsl.
+#ifndef LAYERED
 #include "fused/store.glsl"
-#ifdef NORMALS
+#endif
+#if defined(NORMALS) && !defined(LAYERED)
 layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
 #endif
 
 #include "generated/packing.glsl"
 
-// Lanes past the last molecule work on what the buffers are padded with: a return would make the rasteriser mask
-// everything that follows.
+// Lanes past the last molecule work on what the state is padded with: a return would make the rasteriser mask everything
+// that follows.
 int ownMolecule()
 {
+#ifdef LAYERED
+    return int(gl_FragCoord.y) * STATE_WIDTH + int(gl_FragCoord.x);
+#else
     return int(gl_GlobalInvocationID.x);
+#endif
 }
 
 bool writesRecord()

@@ -15,11 +15,13 @@
 // Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
 #include "state/packed.glsl"
 
+#ifndef LAYERED
 layout(local_size_x = LANES) in;
+#endif
 
-uniform samplerBuffer oldState;
-uniform samplerBuffer oldRecords;
-uniform samplerBuffer constants;
+uniform VALUES oldState;
+uniform VALUES oldRecords;
+uniform VALUES constants;
 
 uniform int givenFrame;
 uniform int givenSubsteps;
@@ -147,12 +149,12 @@ bool taken()
 
 void loadRecord(int molecule)
 {
-    vec4 record = texelFetch(oldRecords, molecule);
+    vec4 record = valueOf(oldRecords, molecule);
     anchor = record.xyz;
     released = record.w < 0.0;
     seed = uint(abs(record.w)) - 1u;
 #ifdef CONSTANTS
-    vec4 constant = texelFetch(constants, molecule);
+    vec4 constant = valueOf(constants, molecule);
     scale = constant.x;
     phase = constant.y;
 #endif

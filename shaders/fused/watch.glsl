@@ -1,11 +1,9 @@
-// The watchdog: one word for all groups, 0 until a molecule's new state is not finite or too fast. Who it is, the CPU
-// finds when it looks. Needs fused/state.glsl.
+// The watchdog: whether a molecule's new state is not finite or too fast. With compute one word for all groups is set; in
+// fragments a pass of its own asks (fused/watch.frag). Who it is, the CPU finds when it looks. Needs fused/state.glsl.
 #ifdef WATCH
 #include "physics/runaway.glsl"
 
-layout(std430, binding = 3) writeonly buffer Alarm { uint alarm; };
-
-void watch()
+bool runsAway()
 {
     uint speed = 0u;
     vec3 places = vec3(0.0);  // their sum is finite where all of them are
@@ -13,6 +11,15 @@ void watch()
         speed = max(speed, squareBits(v[i]));
         places += x[i];
     }
-    if (isRunaway(speed, squareBits(places))) alarm = 1u;
+    return isRunaway(speed, squareBits(places));
 }
+
+#ifndef LAYERED
+layout(std430, binding = 3) writeonly buffer Alarm { uint alarm; };
+
+void watch()
+{
+    if (runsAway()) alarm = 1u;
+}
+#endif
 #endif

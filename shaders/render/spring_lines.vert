@@ -11,7 +11,7 @@ uniform float strainShown;  // at which a colour is full
 uniform vec2 halfWidth;     // of a line, in clip space
 
 #if !defined(TEXTURES) && defined(CONSTANTS)
-uniform samplerBuffer constants;  // x scale
+uniform VALUES constants;  // x scale
 #endif
 
 float moleculeScale(int molecule)
@@ -19,7 +19,7 @@ float moleculeScale(int molecule)
 #ifdef TEXTURES
     return texelFetch(constants, recordTexel(molecule), 0).y;
 #elif defined(CONSTANTS)
-    return texelFetch(constants, molecule).x;
+    return valueOf(constants, molecule).x;
 #else
     return 1.0;
 #endif

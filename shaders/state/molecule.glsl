@@ -58,23 +58,23 @@ uint moleculeSeed(int molecule)
 #else
 #include "state/packed.glsl"
 
-uniform samplerBuffer states;   // positions, then velocities, three floats a vertex without gaps
-uniform samplerBuffer normals;  // alike
-uniform samplerBuffer records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
+uniform VALUES states;   // positions, then velocities, three floats a vertex without gaps
+uniform VALUES normals;  // alike
+uniform VALUES records;  // xyz anchor, m; w: 1 + seed, negative once the pins are released
 
 vec3 moleculeAnchor(int molecule)
 {
-    return texelFetch(records, molecule).xyz;
+    return valueOf(records, molecule).xyz;
 }
 
 vec3 vertexPosition(int molecule, int vertex)
 {
-    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), vertex);
+    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), 0, vertex);
 }
 
 vec3 vertexVelocity(int molecule, int vertex)
 {
-    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS) + POSITION_ELEMENTS * BLOCK, vertex);
+    return packedVertex(states, firstElement(molecule, STATE_ELEMENTS), POSITION_ELEMENTS, vertex);
 }
 
 vec2 storedLife(int molecule)
@@ -84,12 +84,12 @@ vec2 storedLife(int molecule)
 
 vec3 vertexNormal(int molecule, int vertex)
 {
-    return packedVertex(normals, firstElement(molecule, POSITION_ELEMENTS), vertex);
+    return packedVertex(normals, firstElement(molecule, POSITION_ELEMENTS), 0, vertex);
 }
 
 uint moleculeSeed(int molecule)
 {
-    return uint(abs(texelFetch(records, molecule).w)) - 1u;
+    return uint(abs(valueOf(records, molecule).w)) - 1u;
 }
 #endif
 

@@ -1,5 +1,5 @@
 // Sampled fields: grids and height fields share one table of 4-vectors, read by index: a buffer or, with TEXTURES, a texture.
-#ifdef TEXTURES
+#if defined(TEXTURES) || defined(LAYERED)
 uniform sampler2D samples;
 
 vec4 sampleAt(int index)

@@ -129,7 +129,7 @@ void addPassTable(std::ostringstream& out, const std::vector<const PassTable*>& 
 }
 
 void addPasses(std::ostringstream& out, const std::vector<PassTable>& tables) {
-    for (const Subject subject : {Subject::fused, Subject::pingPong}) {
+    for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong}) {
         for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog}) {
             std::vector<const PassTable*> sizes;
             for (const PassTable& table : tables)

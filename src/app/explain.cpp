@@ -19,7 +19,7 @@ int explainCommand(const Options& options) {
     }
     const PathLimits limits;
     const PathChoice choice = choosePath(loaded.plan, options.path, limits);
-    if (options.shader && choice.path != Path::fused)
+    if (options.shader && choice.path == Path::pingPong)
         throw WrongUse("--shader prints the fused path's kernels; this scene runs on the other path: " +
                        choice.why);
     if (options.json) {
@@ -39,8 +39,13 @@ int explainCommand(const Options& options) {
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
         kernel.watch = true;
-        kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
-        kernel.normals = true;
+        if (choice.path == Path::fragments) {
+            const int stored = int(storedInFragments(loaded.plan.groups[g]).size());
+            kernel.fragments = {0, std::min(stored, limits.targets)};
+        } else {
+            kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
+            kernel.normals = true;
+        }
         std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";
     }
     return 0;

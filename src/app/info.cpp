@@ -13,7 +13,7 @@ JsonValue asJson(const gpu::ContextProbe& probe) {
     JsonValue out = object(key("context", gpu::name(probe.kind)), key("available", probe.info.has_value()));
     if (!probe.info) return append(out, key("reason", probe.reason));
     const gpu::ContextInfo& info = *probe.info;
-    std::vector<std::string> paths = {name(Path::pingPong)};
+    std::vector<std::string> paths = {name(Path::fragments), name(Path::pingPong)};
     if (info.computeShaders) paths.insert(paths.begin(), name(Path::fused));
     return append(
         out, key("platform", info.platform), key("renderer", info.renderer), key("vendor", info.vendor),
@@ -42,9 +42,9 @@ void printProbe(const gpu::ContextProbe& probe) {
     if (info.computeShaders)
         std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes, " << info.maxSharedBytes
                   << " bytes shared by a work group" << (info.subgroups ? ", subgroups" : "");
-    std::cout << "\n  paths        " << (info.computeShaders ? "fused, " : "") << "ping-pong (up to "
-              << int64_t(info.maxTextureSize) * stateWidth << " vertices)"
-              << (info.computeShaders ? "" : "; fused needs OpenGL 4.3") << "\n";
+    std::cout << "\n  paths        " << (info.computeShaders ? "fused, " : "")
+              << "fragments, ping-pong (up to " << int64_t(info.maxTextureSize) * stateWidth << " vertices)"
+              << (info.computeShaders ? "" : "; compute shaders need OpenGL 4.3") << "\n";
 }
 
 }  // namespace

@@ -217,8 +217,10 @@ void checkRanges(const Options& options) {
     if (headlessWork && options.context == gpu::ContextKind::window)
         throw Error(
             "--capture, --export, --json and --timings are of headless runs: leave out the window's options");
-    if (options.path == Path::pingPong && (options.inPlace || options.lanes != Lanes::automatic))
-        throw Error("--in-place and --lanes are of the fused path: leave out --path ping-pong");
+    const bool mayCompute = options.path == Path::automatic || options.path == Path::fused;
+    if (!mayCompute && (options.inPlace || options.lanes != Lanes::automatic))
+        throw Error(
+            concat("--in-place and --lanes are of compute shaders: leave out --path ", name(options.path)));
     if (options.shader && (options.path == Path::pingPong || options.json))
         throw Error(
             "--shader prints the fused path's kernels as text: leave out --path ping-pong and --json");

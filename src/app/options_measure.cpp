@@ -58,8 +58,12 @@ void finishBench(Options& options) {
 
 void addPath(CLI::App& command, Options& options, Texts& texts) {
     section(command, execution);
-    command.add_option("--path", texts.path, "Compute kernels (OpenGL 4.3) or fragment passes (3.3)")
-        ->type_name("fused|ping-pong|auto")
+    command
+        .add_option(
+            "--path", texts.path,
+            "fused: a kernel, in fragments where there are no compute shaders (OpenGL 4.3); ping-pong: "
+            "passes")
+        ->type_name("fused|fragments|ping-pong|auto")
         ->capture_default_str();
     command.add_option("--lanes", texts.lanes, "Fused: a lane a molecule or a vertex")
         ->type_name("molecule|vertex|auto")

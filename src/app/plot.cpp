@@ -156,6 +156,7 @@ struct BenchCurve {
 
 constexpr BenchCurve benchCurves[] = {{Subject::pingPong, "ping-pong", "#D55E00", 9},
                                       {Subject::scalar, "CPU, scalar", "#999999", 5},
+                                      {Subject::fragments, "fused, in fragments", "#56B4E9", 3},
                                       {Subject::fused, "fused", "#0072B2", 7},
                                       {Subject::avx2, "CPU, AVX2", "#009E73", 11},
                                       {Subject::avx512, "CPU, AVX-512", "#CC79A7", 13}};

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "core/error.h"
 #include "measure/method_runner.h"
 #include "molecule/molecule_file.h"
 #include "scene/field_kinds.h"
@@ -38,15 +39,18 @@ void addSize(std::vector<BenchCase>& out, const BenchCase& base, bool pictures) 
     one.inPlace = true;
     add(out, one, "fused, in place");
     one = base;
-    one.subject = Subject::pingPong;
-    add(out, one, "ping-pong");
+    for (const Subject subject : {Subject::fragments, Subject::pingPong}) {
+        one.subject = subject;
+        add(out, one, name(subject));
+    }
     addBaselines(out, base);
     one = base;
     one.drawn = pictures;
     if (pictures) {
-        add(out, one, "fused, drawn");
-        one.subject = Subject::pingPong;
-        add(out, one, "ping-pong, drawn");
+        for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong}) {
+            one.subject = subject;
+            add(out, one, concat(name(subject), ", drawn"));
+        }
     }
     one = base;
     for (const Subject subject : {Subject::bufferCopy, Subject::kernelCopy, Subject::memoryCopy}) {
@@ -58,9 +62,10 @@ void addSize(std::vector<BenchCase>& out, const BenchCase& base, bool pictures) 
 void addLeapfrog(std::vector<BenchCase>& out, const BenchCase& base) {
     BenchCase one = base;
     one.solver = SolverKind::leapfrog;
-    add(out, one, "fused, leapfrog");
-    one.subject = Subject::pingPong;
-    add(out, one, "ping-pong, leapfrog");
+    for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong}) {
+        one.subject = subject;
+        add(out, one, concat(name(subject), ", leapfrog"));
+    }
 }
 
 void addManySubsteps(std::vector<BenchCase>& out, const BenchCase& base) {
@@ -112,19 +117,22 @@ void addLanes(std::vector<BenchCase>& out, const char* molecule, const char* man
 
 const char* name(Subject subject) {
     static constexpr const char* names[] = {
-        "fused",         "ping-pong",           "AVX-512",       "AVX2",
-        "scalar",        "copy, buffer",        "copy, kernel",  "copy, memory",
-        "multiply-adds", "Bullet, soft bodies", "Bullet, merged"};
+        "fused",        "fragments",     "ping-pong",           "AVX-512",
+        "AVX2",         "scalar",        "copy, buffer",        "copy, kernel",
+        "copy, memory", "multiply-adds", "Bullet, soft bodies", "Bullet, merged"};
     return names[size_t(subject)];
 }
 const char* name(Wind wind) {
     return wind == Wind::uniform ? "uniform" : "gusts";
 }
 bool isPath(Subject subject) {
-    return subject == Subject::fused || subject == Subject::pingPong;
+    return subject == Subject::fused || subject == Subject::fragments || subject == Subject::pingPong;
 }
 Path pathOf(Subject subject) {
-    return subject == Subject::fused ? Path::fused : Path::pingPong;
+    EXPECTS(isPath(subject));
+    return subject == Subject::fused       ? Path::fused
+           : subject == Subject::fragments ? Path::fragments
+                                           : Path::pingPong;
 }
 bool isBaseline(Subject subject) {
     return subject == Subject::avx512 || subject == Subject::avx2 || subject == Subject::scalar;

@@ -16,6 +16,7 @@ namespace shoal::bench {
 
 enum class Subject {
     fused,
+    fragments,
     pingPong,
     avx512,  // baselines: bench/baseline.h
     avx2,
@@ -27,8 +28,8 @@ enum class Subject {
     bulletBodies,  // Bullet's soft bodies, one a molecule
     bulletMerged,  // all molecules as one of them
 };
-const char* name(Subject subject);  // "fused", "ping-pong", "AVX-512", …
-bool isPath(Subject subject);       // fused or ping-pong
+const char* name(Subject subject);  // "fused", "fragments", "ping-pong", "AVX-512", …
+bool isPath(Subject subject);       // fused, fragments or ping-pong
 Path pathOf(Subject subject);       // of those
 bool isBaseline(Subject subject);   // AVX-512, AVX2 or scalar
 bool isCopy(Subject subject);       // moves the state and does nothing else

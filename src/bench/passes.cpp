@@ -55,7 +55,7 @@ std::vector<PassTable> measurePasses(const BenchMolecules& molecules, const Benc
     if (quick) counts.pop_back();
     std::vector<Run> runs;
     for (const int count : counts)
-        for (const Subject subject : {Subject::fused, Subject::pingPong})
+        for (const Subject subject : {Subject::fused, Subject::fragments, Subject::pingPong})
             for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog})
                 if (!needsCompute(subject) || device.context->info().computeShaders)
                     runs.push_back(makeRun({count, subject, solver, {}, {}}, molecules, device));

@@ -162,13 +162,13 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
                 out << " is stable up to " << group.stableStep << " s\n";
         }
         if (group.forces.any()) out << "  forces   " << joined(forceNames(plan, group), ", ") << "\n";
-        if (choice.path == Path::fused)
-            out << "  fused    once a frame         " << kernelParts(group) << "\n";
-        else
+        if (choice.path == Path::pingPong)
             listPasses(out, plan, g);
+        else
+            out << "  fused    once a frame         " << kernelParts(group) << "\n";
         tellSchool(out, plan, g);
         listBirths(out, group);
-        const std::string absent = leftOut(group, choice.path == Path::fused);
+        const std::string absent = leftOut(group, choice.path != Path::pingPong);
         if (!absent.empty()) out << "  left out: " << absent << "\n";
     }
     return out.str();
@@ -181,7 +181,7 @@ static JsonValue passEntry(const char* pass, const char* moment, const std::stri
 static JsonValue groupEntry(const Plan& plan, size_t g, Path path) {
     const GroupPlan& group = plan.groups[g];
     std::vector<JsonValue> passes;
-    if (path == Path::fused) passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
+    if (path != Path::pingPong) passes.push_back(passEntry("fused", "once a frame", kernelParts(group)));
     for (const PassPlan& pass : plan.passes)
         if (path == Path::pingPong && pass.group == g)
             passes.push_back(passEntry(name(pass.kind), when(pass.when), pass.why));

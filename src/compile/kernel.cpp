@@ -72,8 +72,8 @@ struct SpringText {
 
 SpringText liveText(const Molecule& molecule, size_t index, const Needs& needs) {
     SpringText out;
-    out.load = concat("    s = texelFetch(liveSprings, ", 2 * index, ");\n    m = texelFetch(liveSprings, ",
-                      2 * index + 1, ");\n");
+    out.load = concat("    s = texelFetch(liveSprings, ivec2(", 2 * index,
+                      ", 0), 0);\n    m = texelFetch(liveSprings, ivec2(", 2 * index + 1, ", 0), 0);\n");
     out.stiffness = "s.x * stiffnessFactor";
     out.damping = "s.y * dampingFactor";
     out.restLength =
@@ -225,8 +225,7 @@ std::string loadText(const char* array, int firstElement, int elements, int floa
                      const char* last = nullptr) {
     std::string out;
     for (int e = 0; e < elements; ++e) {
-        out +=
-            concat("    e = texelFetch(oldState, first + ", (firstElement + e) * BufferLayout::block, ");\n");
+        out += concat("    e = element(oldState, first, ", firstElement + e, ");\n");
         forEachPart(e, floats, [&](int from, int to) {
             out += concat("    ", components(array, from, to), " = e.",
                           std::string("xyzw").substr(size_t(from - 4 * e), size_t(to - from)), ";\n");
@@ -236,59 +235,60 @@ std::string loadText(const char* array, int firstElement, int elements, int floa
     return out;
 }
 
-std::string storeText(const char* array, const char* buffer, const char* wrap, int firstElement, int elements,
-                      int floats, const char* last = nullptr) {
-    std::string out;
-    for (int e = 0; e < elements; ++e) {
+std::string loadText(const BufferLayout& layout, const char* age, const char* span) {
+    const int elements = layout.positionElements(), floats = 3 * layout.vertexCount;
+    std::string out =
+        "void loadState(int molecule)\n{\n"
+        "    int first = firstElement(molecule, STATE_ELEMENTS);\n    vec4 e;\n";
+    out += loadText("x", 0, elements, floats, age) + loadText("v", elements, elements, floats, span);
+    if (layout.history)
+        out +=
+            loadText("dx", 2 * elements, elements, floats) + loadText("dv", 3 * elements, elements, floats);
+    if (layout.lifeApart())
+        out += concat("    e = element(oldState, first, ", layout.stateElements() - 1,
+                      ");\n    age = e.x;\n    span = e.y;\n");
+    return out + "}\n";
+}
+
+// Adds the 4-vectors that hold an array's floats.
+void addElements(const char* array, const BufferLayout& layout, const char* last,
+                 std::vector<std::string>& out) {
+    const int floats = 3 * layout.vertexCount;
+    for (int e = 0; e < layout.positionElements(); ++e) {
         std::string parts;
         forEachPart(e, floats, [&](int from, int to) {
             parts += (parts.empty() ? "" : ", ") + components(array, from, to);
         });
         for (int k = floats; k < 4 * e + 4; ++k)
             parts += concat(", ", last && k == 4 * e + 3 ? last : "0.0");
-        out += concat("    ", buffer, "[first + ", (firstElement + e) * BufferLayout::block, "] = ", wrap,
-                      "(vec4(", parts, "));\n");
+        out.push_back(concat("vec4(", parts, ")"));
     }
-    return out;
 }
 
-std::string packingText(const Molecule& molecule, const Needs& needs, bool history) {
+void addPacking(const Molecule& molecule, const Needs& needs, bool history, KernelText& out) {
     const BufferLayout layout{int(molecule.vertices.size()), history, needs.life};
-    const int elements = layout.positionElements(), floats = 3 * layout.vertexCount;
     const bool inside = layout.life && !layout.lifeApart();
     const char *const age = inside ? "age" : nullptr, *const span = inside ? "span" : nullptr;
-    std::string out =
-        "void loadState(int molecule)\n{\n"
-        "    int first = firstElement(molecule, STATE_ELEMENTS);\n    vec4 e;\n";
-    out += loadText("x", 0, elements, floats, age) + loadText("v", elements, elements, floats, span);
-    if (history)
-        out +=
-            loadText("dx", 2 * elements, elements, floats) + loadText("dv", 3 * elements, elements, floats);
-    const int lifeAt = (layout.stateElements() - 1) * BufferLayout::block;
-    if (layout.lifeApart())
-        out +=
-            concat("    e = texelFetch(oldState, first + ", lifeAt, ");\n    age = e.x;\n    span = e.y;\n");
-    out += "}\n\nvoid storeState(int molecule)\n{\n    int first = firstElement(molecule, STATE_ELEMENTS);\n";
-    out += storeText("x", "newState", "stored", 0, elements, floats, age);
-    out += storeText("v", "newState", "stored", elements, elements, floats, span);
-    if (layout.lifeApart())
-        out += concat("    newState[first + ", lifeAt, "] = stored(vec4(age, span, 0.0, 0.0));\n");
-    if (history)
-        out += storeText("dx", "newState", "stored", 2 * elements, elements, floats) +
-               storeText("dv", "newState", "stored", 3 * elements, elements, floats);
-    out += "}\n";
-    if (!needs.normals) return out;
-    out +=
-        "\n#ifdef NORMALS\nvoid storeNormals(int molecule)\n{\n"
-        "    int first = firstElement(molecule, POSITION_ELEMENTS);\n";
-    return out + storeText("normal", "newNormals", "stored", 0, elements, floats) + "}\n#endif\n";
+    out.load = loadText(layout, age, span);
+    addElements("x", layout, age, out.state);
+    addElements("v", layout, span, out.state);
+    if (history) {
+        addElements("dx", layout, nullptr, out.state);
+        addElements("dv", layout, nullptr, out.state);
+    }
+    if (layout.lifeApart()) out.state.emplace_back("vec4(age, span, 0.0, 0.0)");
+    if (needs.normals) addElements("normal", layout, nullptr, out.normals);
 }
 
 }  // namespace
 
-std::vector<std::string> BufferLayout::defines() const {
-    std::vector<std::string> out = {concat("BLOCK ", block), concat("POSITION_ELEMENTS ", positionElements()),
+std::vector<std::string> BufferLayout::defines(bool layered) const {
+    std::vector<std::string> out = {concat("POSITION_ELEMENTS ", positionElements()),
                                     concat("STATE_ELEMENTS ", stateElements())};
+    if (layered)
+        out.insert(out.end(), {"LAYERED", concat("STATE_WIDTH ", stateWidth)});
+    else
+        out.push_back(concat("BLOCK ", block));
     if (history) out.insert(out.end(), {"HISTORY", concat("NO_HISTORY ", glslLiteral(noHistory))});
     if (life) out.emplace_back("LIFE");
     return out;
@@ -335,7 +335,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"physics/spring.glsl\"\n\n";
     if (needs.liveSprings)
-        text.forces += "uniform samplerBuffer liveSprings;  // two a spring: src/compile/kernel.h\n\n";
+        text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";
     if (needs.springs) text.forces += springText(molecule, needs, solver.kind == SolverKind::verlet);
     if (needs.normals) text.forces += normalText(molecule);
     if (solver.implicit && needs.springs)
@@ -343,7 +343,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     if (solver.kind == SolverKind::bdf2Corotated)
         text.sweeps += stageText(molecule, needs) +
                        corotatedText(molecule, corotatedPattern(molecule, needs.pins), needs.pins);
-    text.packing = packingText(molecule, needs, solver.history);
+    addPacking(molecule, needs, solver.history, text);
     return text;
 }
 

@@ -43,7 +43,11 @@ struct KernelText {
     std::string molecule;  // generated/molecule.glsl: masses, pins; for a lane and for a workgroup
     std::string forces;    // generated/forces.glsl: springForces, surfaceNormals; for a lane
     std::string sweeps;    // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
-    std::string packing;   // generated/packing.glsl: loadState, storeState, storeNormals; for a lane
+    // For generated/packing.glsl of a lane: loadState, and expressions of the 4-vectors that are stored.
+    std::string load;
+    std::vector<std::string> state, normals;
+
+    bool operator==(const KernelText&) const = default;
 };
 
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
@@ -61,6 +65,8 @@ bool countsMuscles(const Needs& needs);
 // on several at once (a greedy colouring of the edges).
 std::vector<size_t> sweepOrder(const Molecule& molecule);
 
+constexpr int stateWidth = 1024;  // texels of a row of state textures
+
 // How the fused path stores a molecule (shaders/fused/state.glsl).
 struct BufferLayout {
     static constexpr int block = 16;  // molecules that lie together
@@ -77,10 +83,12 @@ struct BufferLayout {
     // x and y of one more at the end.
     bool lifeApart() const { return life && vertexCount % 4 == 0; }
     // Returns what a shader that reads or writes it needs (shaders/state/packed.glsl).
-    std::vector<std::string> defines() const;
-    // Returns the index of the 4-vector e of molecule m, with `elements` a molecule.
-    static size_t index(size_t m, int e, int elements) {
-        return m / block * block * size_t(elements) + size_t(e) * block + m % block;
+    // `layered`: in fragments, else in buffers.
+    std::vector<std::string> defines(bool layered = false) const;
+    // Returns the index of the 4-vector e of molecule m, with `elements` a molecule and so many molecules
+    // together.
+    static size_t index(size_t m, int e, int elements, size_t together = block) {
+        return m / together * together * size_t(elements) + size_t(e) * together + m % together;
     }
     // To whole workgroups: lanes past the last molecule step what lies there, and nobody reads it.
     size_t padded(size_t molecules) const {

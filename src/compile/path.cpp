@@ -90,10 +90,7 @@ void checkMatrix(const GroupPlan& group, const PathLimits& limits) {
                        limits.maxUniformBlockBytes, " on this device: use bdf2-xpbd"));
 }
 
-// A molecule that is too large for a workgroup's shared memory.
-void checkFused(const Plan& plan, const PathLimits& limits) {
-    if (!limits.compute)
-        throw Error(concat("the fused path needs OpenGL 4.3; this context has ", limits.version));
+void checkUniforms(const Plan& plan, const PathLimits& limits) {
     // beside the two arrays a kernel has about 40 numbers of its own
     size_t own = 0;
     for (const GroupPlan& group : plan.groups)
@@ -102,8 +99,15 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     const size_t uniforms = 4 * (plan.fieldParameters.size() + plan.colliderParameterCount + own) + 64;
     if (uniforms > size_t(limits.maxUniformComponents))
         throw Error(concat("fields, forces, colliders and muscles take ", uniforms,
-                           " numbers of uniforms; a compute shader holds ", limits.maxUniformComponents,
+                           " numbers of uniforms; a shader holds ", limits.maxUniformComponents,
                            " on this device"));
+}
+
+// A molecule that is too large for a workgroup's shared memory.
+void checkFused(const Plan& plan, const PathLimits& limits) {
+    if (!limits.compute)
+        throw Error(concat("compute shaders need OpenGL 4.3; this context has ", limits.version));
+    checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
         const int most = std::max(FusedLimits::workgroup(limits, group.solver),
                                   limits.software ? FusedLimits::softwareLane : 0);
@@ -113,6 +117,36 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                            " vertices; the fused path holds at most ", most, " on this device"));
+    }
+}
+
+// A molecule is a texel of each layer.
+void checkLayers(const GroupPlan& group, const PathLimits& limits) {
+    const int layers = group.layout().stateElements();
+    if (layers > limits.maxTextureLayers)
+        throw Error(group.location,
+                    concat("a molecule of \"", group.name, "\" takes ", layers,
+                           " layers of a texture; this context has ", limits.maxTextureLayers));
+    const int64_t fit = int64_t(limits.maxTextureSize) * stateWidth;
+    if (group.count > fit)
+        throw Error(group.location, concat(many(group.count, "molecule", "molecules"), " of \"", group.name,
+                                           "\" do not fit a texture of this context: at most ", fit, " do"));
+}
+
+void checkFragments(const Plan& plan, const PathLimits& limits) {
+    const auto refuse = [](const Location& location, const char* what) {
+        throw Error(location, concat(what, " needs compute shaders (OpenGL 4.3); fragments do not have it"));
+    };
+    for (const GroupPlan& group : plan.groups)
+        if (group.needs.life) refuse(group.life->cycle.location, "the birth and death of molecules");
+    if (plan.school.any()) refuse(plan.school.members[0].school.location, "schooling");
+    if (plan.contact.any())
+        refuse(plan.contact.settings.location, "contact between molecules on the fused path");
+    checkUniforms(plan, limits);
+    for (const GroupPlan& group : plan.groups) {
+        checkMatrix(group, limits);
+        chooseLanes(group, Lanes::molecule, limits);
+        checkLayers(group, limits);
     }
 }
 
@@ -129,14 +163,15 @@ std::optional<Error> complaintOf(const Check& check) {
 }  // namespace
 
 const char* name(Path path) {
-    static constexpr const char* names[] = {"auto", "fused", "ping-pong"};
+    static constexpr const char* names[] = {"auto", "fused", "fragments", "ping-pong"};
     return names[size_t(path)];
 }
 
 Path path(const std::string& word) {
-    for (const Path path : {Path::automatic, Path::fused, Path::pingPong})
+    for (const Path path : {Path::automatic, Path::fused, Path::fragments, Path::pingPong})
         if (word == name(path)) return path;
-    throw Error(concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "ping-pong"})));
+    throw Error(
+        concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "fragments", "ping-pong"})));
 }
 
 const char* name(Lanes lanes) {
@@ -188,17 +223,41 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
         checkPingPong(plan, limits);
         return {Path::pingPong, "as asked"};
     }
-    if (wanted == Path::fused) {
+    if (wanted == Path::fragments) {
+        checkFragments(plan, limits);
+        return {Path::fragments, "as asked"};
+    }
+    if (wanted == Path::fused && limits.compute) {
         checkFused(plan, limits);
         return {Path::fused, "as asked"};
     }
+    if (wanted == Path::fused) {
+        checkFragments(plan, limits);
+        return {Path::fragments,
+                concat("as asked, in fragment shaders: OpenGL ", limits.version, " has no compute shaders")};
+    }
     const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits); });
     if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
+    const std::optional<Error> fragments = complaintOf([&] { checkFragments(plan, limits); });
+    if (!fragments) return {Path::fragments, fused->message()};
     const std::optional<Error> other = complaintOf([&] { checkPingPong(plan, limits); });
+    const Error& first = limits.compute ? *fused : *fragments;
     if (other)
-        throw Error(fused->location().empty() ? other->location() : fused->location(),
-                    concat("no path can run this scene: ", fused->message(), "; ", other->message()));
-    return {Path::pingPong, fused->message()};
+        throw Error(first.location().empty() ? other->location() : first.location(),
+                    concat("no path can run this scene: ", first.message(), "; ", other->message()));
+    return {Path::pingPong, first.message()};
+}
+
+static size_t layerBytes(const Plan& plan, bool drawn) {
+    size_t texels = 0;
+    for (const GroupPlan& group : plan.groups) {
+        const BufferLayout layout = group.layout();
+        const int layers = 2 * layout.stateElements() + (group.needs.records ? 2 : 1) +
+                           (group.needs.scale || group.needs.phase ? 1 : 0) +
+                           (drawn && group.needs.normals ? layout.positionElements() : 0);
+        texels += size_t(layers) * stateWidth * size_t((group.count + stateWidth - 1) / stateWidth);
+    }
+    return texels * sizeof(glm::vec4);
 }
 
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
@@ -212,6 +271,7 @@ size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace) {
         const size_t textures = 4 + (acceleration ? 2 : 0) + (stages ? 8 : 0) + (normals ? 1 : 0);
         return (textures * size_t(plan.rows) + 3 * size_t(plan.recordRows)) * stateWidth * sizeof(glm::vec4);
     }
+    if (path == Path::fragments) return layerBytes(plan, drawn);
     size_t elements = 0;
     for (const GroupPlan& group : plan.groups) {
         const BufferLayout layout = group.layout();

@@ -1,8 +1,10 @@
-// Which of the two execution paths runs a plan, and what each takes of the device. Pure functions.
+// Which of the execution paths runs a plan, and what each takes of the device. Pure functions.
 //
 //   fused       a compute kernel a group: each molecule is read once a frame, runs all its substeps in
-//   registers
-//               and is written once. OpenGL 4.3.
+//               registers and is written once. OpenGL 4.3.
+//   fragments   the same kernels as fragment shaders, which write to several textures at once. OpenGL 3.3;
+//               this is what "fused" means where there is no 4.3. No births, schools and contact between
+//               molecules yet.
 //   ping-pong   fragment passes over textures, several a substep. OpenGL 3.3; for old hardware, and as an
 //               independent check of the other.
 #pragma once
@@ -13,9 +15,9 @@
 
 namespace shoal {
 
-enum class Path { automatic, fused, pingPong };
+enum class Path { automatic, fused, fragments, pingPong };
 
-// "auto", "fused", "ping-pong".
+// "auto", "fused", "fragments", "ping-pong".
 const char* name(Path path);
 // Error: another word, with the nearest.
 Path path(const std::string& word);
@@ -36,8 +38,10 @@ struct PathLimits {
     bool software = false;        // a CPU rasteriser
     int maxTextureSize = 16384;
     int maxSharedBytes = 32768;
-    int maxUniformComponents = 1024;  // of a compute shader
+    int maxUniformComponents = 1024;  // of a compute shader or, without compute, of a fragment shader
     int maxUniformBlockBytes = 16384;
+    int targets = 8;  // textures that one draw writes
+    int maxTextureLayers = 256;
 };
 
 // Largest molecules of the fused path, in vertices.

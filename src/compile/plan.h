@@ -34,8 +34,6 @@
 
 namespace shoal {
 
-constexpr int stateWidth = 1024;
-
 // Where a group lies in the ping-pong path's textures.
 struct TextureLayout {
     int slabRows = 0;            // rows of one vertex slab

@@ -47,8 +47,7 @@ std::string sumText(const BufferLayout& layout, int firstElement,
     std::string out;
     const int floats = 3 * layout.vertexCount;
     for (int e = 0; e < layout.positionElements(); ++e) {
-        out +=
-            concat("    e = texelFetch(oldState, first + ", (firstElement + e) * BufferLayout::block, ");\n");
+        out += concat("    e = element(oldState, first, ", firstElement + e, ");\n");
         for (int k = 4 * e; k < std::min(4 * e + 4, floats); ++k)
             for (const auto& [name, weights] : sums)
                 if (const double weight = (*weights)[size_t(k / 3)]; weight != 0)

@@ -109,7 +109,6 @@ static void readComputeLimits(ContextInfo& info) {
     glGetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &info.maxWorkGroupsX);
     info.maxComputeUniformComponents = getInteger(GL_MAX_COMPUTE_UNIFORM_COMPONENTS);
     info.maxSharedBytes = getInteger(GL_MAX_COMPUTE_SHARED_MEMORY_SIZE);
-    info.maxUniformBlockBytes = getInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
     info.textureBufferAlignment = getInteger(GL_TEXTURE_BUFFER_OFFSET_ALIGNMENT);
     info.storageBufferAlignment = getInteger(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     info.subgroups = hasSubgroups();
@@ -134,6 +133,8 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
     info.maxSamples = getInteger(GL_MAX_SAMPLES);
     info.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
     info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);
+    info.maxUniformBlockBytes = getInteger(GL_MAX_UNIFORM_BLOCK_SIZE);
+    info.maxFragmentUniformComponents = getInteger(GL_MAX_FRAGMENT_UNIFORM_COMPONENTS);
     info.maxTextureLayers = getInteger(GL_MAX_ARRAY_TEXTURE_LAYERS);
     GLfloat pointSizes[2] = {1, 1};
     glGetFloatv(GL_POINT_SIZE_RANGE, pointSizes);

@@ -85,11 +85,11 @@ struct ContextInfo {
     int max3DTextureSize = 0, maxTextureLayers = 0;
     float maxPointSize = 1;  // pixels, of GL_POINTS
     int64_t maxBufferTexels = 0;
+    int maxUniformBlockBytes = 0, maxFragmentUniformComponents = 0;
     bool computeShaders = false;  // 4.3+: by version, never by extension
     // These limit compute shaders and what they read; all 0 below 4.3.
     int64_t maxStorageBlockBytes = 0;
     int maxWorkGroupsX = 0, maxSharedBytes = 0, maxComputeUniformComponents = 0;
-    int maxUniformBlockBytes = 0;
     int textureBufferAlignment = 0, storageBufferAlignment = 0;  // of the offsets of ranges, in bytes
     // GL_KHR_shader_subgroup with basic and shuffle operations in compute shaders. This and
     // groupVote go by an extension, because no version that is common has them; still false below 4.3.

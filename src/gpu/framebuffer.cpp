@@ -7,34 +7,38 @@
 
 namespace shoal::gpu {
 
-Framebuffer::Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth,
+Framebuffer::Framebuffer(Context& context, const std::vector<ColorTarget>& colors, const Texture* depth,
                          const char* label)
     : label_(label) {
     EXPECTS(!colors.empty() || depth != nullptr);
     int drawn = 0;
-    for (const Texture* color : colors)
-        drawn += std::max(color->layers(), 1);
+    for (const ColorTarget& color : colors)
+        drawn += color.layer < 0 ? std::max(color.texture->layers(), 1) : 1;
     if (drawn > context.info().maxColorAttachments)
         throw Error(concat("framebuffer \"", label, "\" draws into ", drawn,
                            " textures at once: this context allows ", context.info().maxColorAttachments));
-    const Texture& first = colors.empty() ? *depth : *colors.front();
+    const Texture& first = colors.empty() ? *depth : *colors.front().texture;
     width_ = first.width();
     height_ = first.height();
     handle_ = Handle<deleteFramebuffer>(glGenFramebuffers);
     glBindFramebuffer(GL_FRAMEBUFFER, id());
     std::string attachments;
     std::vector<GLenum> drawBuffers;
-    for (const Texture* color : colors) {
-        EXPECTS(color->width() == width_ && color->height() == height_ && !isDepth(color->format()));
-        for (int layer = 0; layer < std::max(color->layers(), 1); ++layer) {
+    for (const ColorTarget& color : colors) {
+        const Texture& texture = *color.texture;
+        EXPECTS(texture.width() == width_ && texture.height() == height_ && !isDepth(texture.format()));
+        EXPECTS(color.layer < std::max(texture.layers(), 1));
+        const int from = std::max(color.layer, 0);
+        const int end = color.layer < 0 ? std::max(texture.layers(), 1) : color.layer + 1;
+        for (int layer = from; layer < end; ++layer) {
             const GLenum attachment = GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(drawBuffers.size());
-            if (color->layers() > 0)
-                glFramebufferTextureLayer(GL_FRAMEBUFFER, attachment, color->id(), 0, layer);
+            if (texture.layers() > 0)
+                glFramebufferTextureLayer(GL_FRAMEBUFFER, attachment, texture.id(), 0, layer);
             else
-                glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, color->id(), 0);
+                glFramebufferTexture2D(GL_FRAMEBUFFER, attachment, GL_TEXTURE_2D, texture.id(), 0);
             drawBuffers.push_back(attachment);
         }
-        attachments += concat(attachments.empty() ? "" : " + ", name(color->format()));
+        attachments += concat(attachments.empty() ? "" : " + ", name(texture.format()));
     }
     if (depth != nullptr) {
         EXPECTS(depth->width() == width_ && depth->height() == height_ && isDepth(depth->format()));
@@ -128,6 +132,12 @@ void Framebuffer::blitToDefault(int width, int height) const {
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                       same ? GL_NEAREST : GL_LINEAR);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void drawPlainly() {
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
+        glDisable(state);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 }  // namespace shoal::gpu

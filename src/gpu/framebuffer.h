@@ -11,12 +11,20 @@
 
 namespace shoal::gpu {
 
+// A texture to draw into: one layer of it, or each.
+struct ColorTarget {
+    const Texture* texture;
+    int layer;  // negative: each of them, in order
+
+    ColorTarget(const Texture* drawnInto, int oneLayer = -1) : texture(drawnInto), layer(oneLayer) {}
+};
+
 class Framebuffer {
   public:
     Framebuffer() = default;
-    // Colour textures become draw buffers 0, 1, … in order, each layer one; `depth` may be null; there may be
-    // no colours. Error: this driver cannot draw into such a set; says into which.
-    Framebuffer(Context& context, std::vector<const Texture*> colors, const Texture* depth = nullptr,
+    // Colour textures become draw buffers 0, 1, … in order; `depth` may be null; there may be no colours.
+    // Error: this driver cannot draw into such a set; says into which.
+    Framebuffer(Context& context, const std::vector<ColorTarget>& colors, const Texture* depth = nullptr,
                 const char* label = "");
     // Renderbuffers with several samples a pixel (reduced to what the context has), to be blitted.
     static Framebuffer multisampled(Context& context, Format color, bool depth, int samples, int width,
@@ -48,5 +56,8 @@ class Framebuffer {
     int width_ = 0, height_ = 0, samples_ = 1;
     std::string label_;
 };
+
+// Passes write every texel of what they draw into as it is, whatever a renderer left switched on.
+void drawPlainly();
 
 }  // namespace shoal::gpu

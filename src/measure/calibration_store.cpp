@@ -51,7 +51,7 @@ void addGroup(Hash& hash, const GroupPlan& group) {
     hash.add(group.constants.scales);
     hash.add(group.constants.phases);
     for (const std::string* text :
-         {&group.kernel.molecule, &group.kernel.forces, &group.kernel.sweeps, &group.kernel.packing})
+         {&group.kernel.molecule, &group.kernel.forces, &group.kernel.sweeps, &group.kernel.load})
         hash.add(*text);
 }
 

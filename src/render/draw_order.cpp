@@ -14,7 +14,7 @@ StateReader::StateReader(const GroupPlan& plan, size_t group)
       layout(plan.layout()) {}
 
 std::vector<std::string> StateReader::defines(const StateView& state) const {
-    if (!state.textures) return layout.defines();
+    if (!state.textures) return layout.defines(state.layers != nullptr);
     std::vector<std::string> out = {"TEXTURES", concat("STATE_WIDTH ", stateWidth)};
     if (layout.life) out.emplace_back("LIFE");
     return out;
@@ -30,6 +30,13 @@ void StateReader::bind(const gpu::Program& program, const StateView& state,
         program.texture("constants", unit::constants, textures.constant);
         if (textures.normal) program.texture("normals", unit::normals, textures.normal);
         program.set("groupRows", rows);
+        return;
+    }
+    if (state.layers) {
+        const GroupLayers& layers = (*state.layers)[index];
+        program.texture("states", unit::positions, layers.state());
+        program.texture("records", unit::records, layers.records());
+        if (layers.hasNormals()) program.texture("normals", unit::normals, layers.normals());
         return;
     }
     const GroupBuffers& buffers = (*state.buffers)[index];
@@ -76,7 +83,7 @@ void DrawOrder::bind(const gpu::Program& program) const {
 }
 
 const gpu::Program& DrawOrder::keysProgram(const StateView& state) {
-    gpu::Program& program = keys_[state.textures ? 0 : 1];
+    gpu::Program& program = keys_[state.form()];
     if (program) return program;
     gpu::ProgramOptions options;
     options.defines = defines();

@@ -41,7 +41,7 @@ struct StateReader {
     StateReader(const GroupPlan& plan, size_t group);
     // Returns the defines of a program that includes state/molecule.glsl.
     std::vector<std::string> defines(const StateView& state) const;
-    // `part`: of the group's buffers; null where the state is in textures. Texture units 0 to 3.
+    // `part`: of the group's buffers; null where the state is not in buffers. Texture units 0 to 3.
     void bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part) const;
 };
 
@@ -76,8 +76,8 @@ class DrawOrder {
     DrawSort sort_;
     int spreadFrames_;
     bool begun_ = false;
-    std::array<gpu::Program, 2> keys_;  // for textures, for buffers; made when first needed
-    gpu::Buffer pairs_;                 // with compute, unless spread
+    std::array<gpu::Program, StateView::forms> keys_;  // made when first needed
+    gpu::Buffer pairs_;                                // with compute, unless spread
     gpu::BufferTexture pairTexels_;
     std::unique_ptr<RadixSort> radix_;
     std::unique_ptr<NetworkSort> network_;  // else

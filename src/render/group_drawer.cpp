@@ -50,7 +50,7 @@ const gpu::Program& GroupDrawer::beginDepth(const StateView& state, const Shadow
 
 const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramOptions& options,
                                          const StateView& state) const {
-    const gpu::Program*& program = variants[state.textures ? 0 : 1];
+    const gpu::Program*& program = variants[state.form()];
     if (program != nullptr) return *program;
     gpu::ProgramOptions wanted = options;
     const std::vector<std::string> defines = reader_.defines(state);
@@ -81,7 +81,7 @@ void GroupDrawer::submit(const gpu::Program& program, const StateView& state) co
             glDrawArraysInstanced(GL_POINTS, 0, stream_.corners, instances);
         glDisable(GL_PROGRAM_POINT_SIZE);
     };
-    if (state.textures) return draw(nullptr, count_);
+    if (!state.buffers) return draw(nullptr, count_);
     for (const GroupBuffers::Part& part : (*state.buffers)[index()].parts())
         draw(&part, part.count);
 }

@@ -58,7 +58,7 @@ class GroupDrawer {
     // For shaders/render/blend.glsl.
     static std::string blendDefine(Blend blend) { return concat("BLEND ", name(blend), "Blend"); }
     // One for textures, one for buffers; made when first drawn.
-    using Variants = std::array<const gpu::Program*, 2>;
+    using Variants = std::array<const gpu::Program*, StateView::forms>;
 
     // `programs`: shared by equal groups, borrowed.
     GroupDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,

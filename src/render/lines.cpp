@@ -99,7 +99,7 @@ void SpringLines::drawOne(const StateView& state, const DrawInputs& inputs, doub
 }
 
 const gpu::Program& SpringLines::program(Drawn& group, const StateView& state, const DrawInputs& inputs) {
-    gpu::Program& program = group.programs[state.textures ? 0 : 1];
+    gpu::Program& program = group.programs[state.form()];
     if (program) return program;
     gpu::ProgramOptions options{"render/spring_lines.vert",
                                 "render/lines.frag",
@@ -126,11 +126,13 @@ void SpringLines::draw(Drawn& group, const StateView& state, const DrawInputs& i
         if (!here) return;
         group.reader.bind(lines, state, part);
         if (part && group.scaled) lines.texture("constants", unit::constants, part->constant);
+        if (state.layers && group.scaled)
+            lines.texture("constants", unit::constants, (*state.layers)[group.reader.index].constants());
         lines.set("firstMolecule", only ? *only - first : 0);
         group.array.bind();
         glDrawArraysInstanced(GL_TRIANGLES, 0, group.corners, only ? 1 : count);
     };
-    if (state.textures) return submit(nullptr, 0, group.count);
+    if (!state.buffers) return submit(nullptr, 0, group.count);
     for (const GroupBuffers::Part& part : (*state.buffers)[group.reader.index].parts())
         submit(&part, part.first, part.count);
 }

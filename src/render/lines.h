@@ -59,7 +59,7 @@ class SpringLines {
         std::string name;
         gpu::Buffer ends;
         gpu::VertexArray array;
-        std::array<gpu::Program, 2> programs;  // for textures, for buffers; made when first drawn
+        std::array<gpu::Program, StateView::forms> programs;  // made when first drawn
     };
     void draw(Drawn& group, const StateView& state, const DrawInputs& inputs, double strainShown,
               double width, std::optional<int> only);

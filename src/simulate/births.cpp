@@ -94,7 +94,7 @@ void Births::make(size_t g, const std::string& shaderRoot, gpu::ProgramCache* ca
                     concat("\"", group.name, "\" is born from the deaths of ", living.deathRuns.size(),
                            " groups; at most ", mostDeathRuns, " are possible"));
     KernelOptions kernel;
-    kernel.births = true;
+    kernel.work = KernelOptions::Work::births;
     kernel.software = context_->info().software;
     gpu::ProgramOptions program = kernelProgram(*plan_, g, kernel);
     program.cache = cache;

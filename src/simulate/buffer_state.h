@@ -14,8 +14,8 @@
 #include <array>
 #include <vector>
 
-#include "compile/plan.h"
 #include "gpu/buffer.h"
+#include "simulate/packed_state.h"
 
 namespace shoal {
 
@@ -23,21 +23,12 @@ namespace gpu {
 class Program;
 }
 
-class GroupBuffers {
+class GroupBuffers : public PackedState {
   public:
     // `largestPart`: molecules that one dispatch may take, 0 for no limit of its own.
     // Error: out of memory; says of which group and how much it would take.
     GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
                  size_t largestPart);
-
-    void write(const GroupPlan& group, const GroupState& state);
-    GroupState read(const GroupPlan& group) const;
-    // Reads one molecule; a block of them crosses the bus. Its scale and phase are in `looks`.
-    GroupState readOne(size_t molecule) const;
-    // The side before the last frame, with two of them; anchors and released pins are those of now.
-    GroupState readBefore(const GroupPlan& group) const;
-    std::vector<glm::vec3> readNormals(
-        const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
 
     struct Part {
         int first = 0, count = 0;  // molecules
@@ -52,35 +43,36 @@ class GroupBuffers {
         size_t offset, bytes;
     };
     Range newState(const Part& part) const {
-        return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout_.stateElements());
+        return rangeOf(part, state_[size_t(inPlace_ ? 0 : 1 - current_)], layout().stateElements());
     }
     Range currentState(const Part& part) const {  // to be changed between dispatches
-        return rangeOf(part, state_[size_t(current_)], layout_.stateElements());
+        return rangeOf(part, state_[size_t(current_)], layout().stateElements());
     }
     Range records(const Part& part) const { return rangeOf(part, records_, 1); }
     Range constants(const Part& part) const { return rangeOf(part, constants_, 1); }
-    Range normals(const Part& part) const { return rangeOf(part, normals_, layout_.positionElements()); }
+    Range normals(const Part& part) const { return rangeOf(part, normals_, layout().positionElements()); }
     const gpu::Buffer& steering() const { return steering_; }  // of all parts
     void flip() { current_ = inPlace_ ? 0 : 1 - current_; }
 
-    const BufferLayout& layout() const { return layout_; }
-    bool hasConstants() const { return bool(constants_); }
-    bool hasNormals() const { return bool(normals_); }
+    bool hasConstants() const override { return bool(constants_); }
+    bool hasNormals() const override { return bool(normals_); }
     bool inPlace() const { return inPlace_; }
 
   private:
+    bool hasSteering() const override { return bool(steering_); }
+    template <typename Self>
+    static auto& bufferOf(Self& self, Values values);
+    void upload(Values values, const std::vector<glm::vec4>& packed) override;
+    std::vector<glm::vec4> download(Values values) const override;
+    std::vector<glm::vec4> download(Values values, size_t molecule) const override;
     // A part of a buffer with so many 4-vectors a molecule.
     Range rangeOf(const Part& part, const gpu::Buffer& buffer, int elements) const;
     void split(gpu::Context& context, size_t largestPart);
-    GroupState readSide(const GroupPlan& group, const gpu::Buffer& side) const;
 
-    BufferLayout layout_;
-    size_t molecules_ = 0;  // padded to whole workgroups
     bool inPlace_ = false;
     int current_ = 0;
     std::array<gpu::Buffer, 2> state_;
     gpu::Buffer records_, constants_, normals_, steering_;
-    std::vector<uint32_t> seeds_;
     std::vector<Part> parts_;
 };
 

@@ -8,18 +8,14 @@
 #include <string>
 #include <vector>
 
-#include "compile/corotated.h"
 #include "gpu/buffer.h"
 #include "gpu/pass_timers.h"
-#include "gpu/program.h"
 #include "simulate/births.h"
 #include "simulate/execution_path.h"
-#include "simulate/fused_kernel.h"
+#include "simulate/group_kernel.h"
 #include "simulate/molecule_contact.h"
 #include "simulate/school.h"
 #include "simulate/state_view.h"
-#include "simulate/step.h"
-#include "simulate/tables.h"
 
 namespace shoal {
 
@@ -32,7 +28,7 @@ class Fused : public ExecutionPath {
 
     void step(const Frame& frame, gpu::PassTimers& timers) override;
     void computeNormals(gpu::PassTimers& timers) override;
-    StateView view() const override { return {nullptr, &state}; }
+    StateView view() const override { return {.buffers = &state}; }
     void write(size_t group, const GroupState& groupState, double time) override;
     GroupState read(size_t group) const override;
     GroupState readOne(size_t group, size_t molecule) const override {
@@ -45,7 +41,7 @@ class Fused : public ExecutionPath {
     bool alarmed() const override;
     void disarm() override;
     const ContactResult* contact() const override { return contact_.get(); }
-    Lanes lanes(size_t group) const override { return kernels_[group].options.lanes; }
+    Lanes lanes(size_t group) const override { return kernels_[group]->options().lanes; }
     LifeCounts lifeCounts(size_t group) const override { return births_->counts(group); }
     bool changeLife(size_t group, const Lifecycle& life) override;
     bool changeSchool(size_t group, const School& school) override;
@@ -53,36 +49,20 @@ class Fused : public ExecutionPath {
     std::vector<GroupBuffers> state;  // per group
 
   private:
-    struct Kernel {
-        KernelOptions options;
-        const gpu::Program *step = nullptr, *normals = nullptr;
-        std::unique_ptr<gpu::Program> own;  // the step, where numbers that change are constants of it
-        CorotatedStage stage;               // bdf2-corotated: of the matrix
-        gpu::Buffer factors;                // and the matrix, where it is not part of the program
-        gpu::Buffer springs;                // where their numbers are live
-        gpu::BufferTexture springTexels;
-    };
-    void makeStep(size_t index);
-    void makeFactors(size_t index);
-    void updateFactors(size_t index, const Frame& frame);
-    void updateSprings(size_t index, const Frame& frame);
     void run(const Frame& frame, gpu::PassTimers& timers);
-    void bind(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
-    void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part) const;
+    void dispatch(const gpu::Program& program, size_t index, const GroupBuffers::Part& part,
+                  KernelOptions::Work work) const;
 
-    gpu::Context* context_;
-    std::string shaderRoot_;
     const Plan* plan_;
-    const Tables* tables_;
     bool drawn_;
-    gpu::ProgramCache* cache_;
     gpu::Programs programs_;
-    std::vector<Kernel> kernels_;
-    gpu::Buffer alarm_;                         // one word; where watched
-    std::unique_ptr<MoleculeContact> contact_;  // null: there is none
-    std::unique_ptr<Births> births_;            // null: none is born and none dies
-    std::unique_ptr<Schooling> school_;         // null: none steers
-    double steeringEnd_ = 0;                    // s, of the frame
+    std::vector<std::unique_ptr<GroupKernel>> kernels_;  // per group, as the next
+    std::vector<const gpu::Program*> normals_;           // null: there are none
+    gpu::Buffer alarm_;                                  // one word; where watched
+    std::unique_ptr<MoleculeContact> contact_;           // null: there is none
+    std::unique_ptr<Births> births_;                     // null: none is born and none dies
+    std::unique_ptr<Schooling> school_;                  // null: none steers
+    double steeringEnd_ = 0;                             // s, of the frame
 };
 
 // Returns a context's limits, for compile/path.h.

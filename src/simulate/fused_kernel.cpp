@@ -32,11 +32,19 @@ void defineLife(const LifePlan& life, bool births, std::vector<std::string>& out
     if (const int runs = deathRunsOf(cycle)) out.push_back(concat("DEATH_RUNS ", runs));
 }
 
+using Work = KernelOptions::Work;
+
+bool writesNormals(const GroupPlan& group, const KernelOptions& options) {
+    return group.needs.normals && (options.normals || options.work == Work::normals);
+}
+
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
-    std::vector<std::string> out = group.layout().defines();
+    std::vector<std::string> out = group.layout().defines(options.fragments.has_value());
     out.push_back(concat("VERTICES ", group.vertexCount));
-    out.push_back(concat("LANES ", options.births ? birthLanes : workgroupLanes(group, options.lanes)));
+    const bool births = options.work == Work::births;
+    if (!options.fragments)
+        out.push_back(concat("LANES ", births ? birthLanes : workgroupLanes(group, options.lanes)));
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
     };
@@ -45,8 +53,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(!perLane, "SHARED_MOLECULE");
     define(options.software && perLane, "SOFTWARE");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
-    define(options.normals && needs.normals, "NORMALS");
-    if (options.watch && !options.onlyNormals) {
+    define(writesNormals(group, options), "NORMALS");
+    if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.fragments)) {
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
@@ -59,8 +67,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.actuation, "MUSCLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
-    define(options.births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
-    define(!options.births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
+    define(births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
+    define(!births && plan.fieldSampling == FieldSampling::moleculeFrame, "SAMPLE_MOLECULE");
     define(needs.forces, "FORCES");
     define(needs.thrust, "THRUST");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
@@ -68,7 +76,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.collide, "COLLIDE");
     define(group.rigid && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
-    if (needs.life) defineLife(*group.life, options.births, out);
+    if (needs.life) defineLife(*group.life, births, out);
     return out;
 }
 
@@ -79,9 +87,9 @@ std::string parameterLoads(const GroupPlan& group, const KernelOptions& options)
         if (need) out += concat("    load", what, "();\n");
     };
     load(group.needs.fields, "FieldParameters");
-    load(countsMuscles(group.needs) && !options.births, "MuscleAngles");
+    load(countsMuscles(group.needs) && options.work != Work::births, "MuscleAngles");
     load(group.forces.any(), "ForceParameters");
-    load(group.needs.collide && !options.births, "ColliderParameters");
+    load(group.needs.collide && options.work != Work::births, "ColliderParameters");
     return out + "}\n\n";
 }
 
@@ -101,7 +109,8 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "generated/scene_forces.glsl");
     include(true, "fused/step.glsl");
-    if (options.births) return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";
+    if (options.work == Work::births)
+        return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
@@ -113,7 +122,45 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.collide, "fused/contact.glsl");
     include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
     out += parameterLoads(group, options);
-    include(true, options.onlyNormals ? "fused/normals.comp" : "fused/frame.comp");
+    include(options.work == Work::frame, "fused/frame.glsl");
+    include(options.work == Work::normals, "fused/only_normals.glsl");
+    include(options.work == Work::watch, "fused/watch.frag");
+    return out;
+}
+
+// A function that writes the values to a buffer.
+std::string storeToBuffer(const std::vector<std::string>& values, const char* function, const char* elements,
+                          const char* buffer) {
+    std::string out = concat("\nvoid ", function,
+                             "(int molecule)\n{\n    int first = firstElement(molecule, ", elements, ");\n");
+    for (size_t e = 0; e < values.size(); ++e)
+        out += concat("    ", buffer, "[first + ", e * BufferLayout::block, "] = stored(", values[e], ");\n");
+    return out + "}\n";
+}
+
+// A function that writes some of the values to colour targets, and these.
+std::string storeToTargets(const std::vector<std::string>& values, const char* function,
+                           const KernelOptions::Targets& targets) {
+    std::string out = "\n", body;
+    for (int t = 0; t < targets.count; ++t) {
+        out += concat("layout(location = ", t, ") out vec4 target", t, ";\n");
+        body += concat("    target", t, " = ", values[size_t(targets.first + t)], ";\n");
+    }
+    return concat(out, "\nvoid ", function, "(int molecule)\n{\n", body, "}\n");
+}
+
+// How a lane loads and stores its molecule.
+std::string packingText(const GroupPlan& group, const KernelOptions& options) {
+    const KernelText& kernel = group.kernel;
+    if (options.fragments && options.work == Work::watch) return kernel.load;
+    if (options.fragments)
+        return kernel.load +
+               (options.work == Work::normals
+                    ? storeToTargets(kernel.normals, "storeNormals", *options.fragments)
+                    : storeToTargets(storedInFragments(group), "storeState", *options.fragments));
+    std::string out = kernel.load + storeToBuffer(kernel.state, "storeState", "STATE_ELEMENTS", "newState");
+    if (writesNormals(group, options))
+        out += storeToBuffer(kernel.normals, "storeNormals", "POSITION_ELEMENTS", "newNormals");
     return out;
 }
 
@@ -142,6 +189,12 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
 
 }  // namespace
 
+std::vector<std::string> storedInFragments(const GroupPlan& group) {
+    std::vector<std::string> out = group.kernel.state;
+    if (group.needs.records) out.emplace_back("recordNow()");
+    return out;
+}
+
 int workgroupLanes(const GroupPlan& group, Lanes lanes) {
     return lanes == Lanes::molecule ? group.layout().lanes()
                                     : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
@@ -150,19 +203,23 @@ int workgroupLanes(const GroupPlan& group, Lanes lanes) {
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOptions& options) {
     const GroupPlan& group = plan.groups[index];
     gpu::ProgramOptions out;
-    out.compute = "generated/fused.comp";
+    const std::string root = options.fragments ? "generated/fused.frag" : "generated/fused.comp";
+    if (options.fragments)
+        out.vertex = "passes/fullscreen.vert", out.fragment = root;
+    else
+        out.compute = root;
     out.defines = defines(plan, group, options);
-    out.generated = {{"generated/fused.comp", rootText(group, options)},
+    out.generated = {{root, rootText(group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},
                      {"generated/forces.glsl", group.kernel.forces},
                      {"generated/sweeps.glsl", group.kernel.sweeps},
                      {"generated/factors.glsl", factorsText(group, options)},
-                     {"generated/packing.glsl", group.kernel.packing},
+                     {"generated/packing.glsl", packingText(group, options)},
                      {"generated/fields.glsl", plan.fieldSource},
                      {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
                      {"generated/scene_forces.glsl", group.forces.source},
                      {"generated/colliders.glsl", plan.collideSource}};
-    out.label = concat(options.births ? "births of " : "fused step of ", group.name);
+    out.label = concat(options.work == Work::births ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         gpu::resolveConditions(source);
         expand(source, loops);
@@ -210,8 +267,9 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
 std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,
                          const KernelOptions& options) {
     const gpu::ProgramOptions program = kernelProgram(plan, group, options);
-    gpu::ShaderSource source =
-        gpu::resolveShader(shaderRoot, program.compute, program.defines, program.generated, gpu::header430());
+    gpu::ShaderSource source = gpu::resolveShader(
+        shaderRoot, options.fragments ? program.fragment : program.compute, program.defines,
+        program.generated, options.fragments ? gpu::header330() : gpu::header430());
     program.rewrite(source);
     return source.text;
 }

@@ -2,7 +2,9 @@
 // colliders, the solver, and the skeleton of shaders/fused, with only the branches that the group needs.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "compile/path.h"
 #include "gpu/program.h"
@@ -11,15 +13,29 @@
 namespace shoal {
 
 struct KernelOptions {
-    std::string factors = {};       // bdf2-corotated: its matrix as constants; empty: a uniform block
-    Lanes lanes = Lanes::molecule;  // not automatic
-    bool normals = false;           // written, where the shape has a surface
-    bool onlyNormals = false;       // of the state as it is; nothing moves
-    bool groupVote = false;         // ContextInfo::groupVote
-    bool software = false;          // what suits a CPU rasteriser
-    bool watch = false;             // for states that run away
-    bool births = false;            // of newborns instead of a step (shaders/particles/spawn.comp)
+    enum class Work {
+        frame,
+        normals,  // of the state as it is; nothing moves
+        watch,    // in fragments: whether the state as it is has run away
+        births,   // of newborns (shaders/particles/spawn.comp)
+    };
+    // Which of the 4-vectors that a molecule stores one draw writes, a colour target each.
+    struct Targets {
+        int first = 0, count = 0;
+    };
+    Work work = Work::frame;
+    std::optional<Targets> fragments = {};  // a fragment shader (OpenGL 3.3); else a compute shader
+    std::string factors = {};               // bdf2-corotated: its matrix as constants; empty: a uniform block
+    Lanes lanes = Lanes::molecule;          // not automatic
+    bool normals = false;                   // a frame writes them, where the shape has a surface
+    bool groupVote = false;                 // ContextInfo::groupVote
+    bool software = false;                  // what suits a CPU rasteriser
+    bool watch = false;                     // a frame looks for states that run away
 };
+
+// Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where
+// that changes, its record.
+std::vector<std::string> storedInFragments(const GroupPlan& group);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
 // Lanes of a workgroup of the step.

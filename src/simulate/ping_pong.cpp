@@ -1,7 +1,6 @@
 #include "simulate/ping_pong.h"
 
 #include "gpu/gl.h"
-#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -32,13 +31,6 @@ std::vector<std::string> defines(const GroupPlan& group) {
 
 static_assert(stateWidth == 1024, "shaders/state and shaders/passes address rows of 1024 texels");
 
-// Passes write every texel of their rows as it is, whatever a renderer left switched on.
-void drawPlainly() {
-    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
-        glDisable(state);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-}
-
 // Returns, as a key, what a program is given only once, or once a frame, and so must be equal where groups
 // share it.
 std::string setOnceFor(const GroupPlan& group) {
@@ -59,13 +51,8 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
       plan_(&plan),
       tables_(&tables),
       drawn_(options.drawn),
-      noAttributes_(context, "pass"),
-      traffic_(&context.traffic()) {
-    if (options.watchdog) {
-        GLuint id = 0;
-        glGenQueries(1, &id);
-        query_ = gpu::Handle<gpu::deleteQuery>(id);
-    }
+      noAttributes_(context, "pass") {
+    if (options.watchdog) query_ = std::make_unique<RunawayQuery>(context.traffic());
     programs_.resize(plan.groups.size());
     for (const PassPlan& pass : plan.passes) {
         const Program*& program = programs_[pass.group][size_t(pass.kind)];
@@ -92,7 +79,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {
     if (!drawn_) return;
-    drawPlainly();
+    gpu::drawPlainly();
     const Frame still;
     for (const PassPlan& pass : plan_->passes)
         if (pass.kind == PassKind::normals && pass.when == PassPlan::When::frameEnd)
@@ -111,7 +98,7 @@ void PingPong::runSubsteps(const Frame& frame, gpu::PassTimers& timers) {
 }
 
 void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
-    drawPlainly();
+    gpu::drawPlainly();
     if (!contact_) runSubsteps(frame, timers);
     const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
     for (int i = 0; i < steps; ++i) {
@@ -128,8 +115,7 @@ void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
 // All groups in one query, which the next frame reads. Nothing is drawn: the target is the side that is not
 // read, with its colours masked.
 void PingPong::watch(gpu::PassTimers& timers) {
-    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-    glBeginQuery(GL_ANY_SAMPLES_PASSED, query_.id());
+    const RunawayQuery::Asking asking(*query_);
     for (const PassPlan& pass : plan_->passes) {
         if (pass.kind != PassKind::watch) continue;
         const auto timer = timers.time(name(pass.kind));
@@ -137,17 +123,6 @@ void PingPong::watch(gpu::PassTimers& timers) {
         prepare(pass.kind, group, pass.group);
         drawState(group, {&state.velocity.write(pass.group)});
     }
-    glEndQuery(GL_ANY_SAMPLES_PASSED);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    asked_ = true;
-}
-
-bool PingPong::alarmed() const {
-    if (!asked_) return false;
-    GLuint raised = GL_FALSE;
-    glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &raised);
-    traffic_->countReadBack(gpu::Traffic::Kind::control, sizeof raised);
-    return raised != GL_FALSE;
 }
 
 void PingPong::runPass(const PassPlan& pass, const Step& step, gpu::PassTimers& timers) {

@@ -18,6 +18,7 @@
 #include "simulate/step.h"
 #include "simulate/tables.h"
 #include "simulate/texture_contact.h"
+#include "simulate/watchdog.h"
 
 namespace shoal {
 
@@ -29,7 +30,7 @@ class PingPong : public ExecutionPath {
 
     void step(const Frame& frame, gpu::PassTimers& timers) override;
     void computeNormals(gpu::PassTimers& timers) override;
-    StateView view() const override { return {&state, nullptr}; }
+    StateView view() const override { return {.textures = &state}; }
     void write(size_t group, const GroupState& groupState, double) override {
         state.write(plan_->groups[group], group, groupState);
     }
@@ -40,8 +41,10 @@ class PingPong : public ExecutionPath {
     std::vector<glm::vec3> readNormals(size_t group) const override {
         return state.readNormals(plan_->groups[group]);
     }
-    bool alarmed() const override;
-    void disarm() override { asked_ = false; }
+    bool alarmed() const override { return query_ && query_->raised(); }
+    void disarm() override {
+        if (query_) query_->disarm();
+    }
     const ContactResult* contact() const override { return contact_.get(); }
 
     TextureState state;
@@ -82,9 +85,7 @@ class PingPong : public ExecutionPath {
     gpu::Programs made_;
     std::vector<std::array<const gpu::Program*, 8>> programs_;  // per group, by PassKind
     gpu::VertexArray noAttributes_;
-    gpu::Handle<gpu::deleteQuery> query_;      // where watched
-    gpu::Traffic* traffic_;                    // the context's
-    bool asked_ = false;                       // the query has been put
+    std::unique_ptr<RunawayQuery> query_;      // null: not watched
     std::unique_ptr<TextureContact> contact_;  // null: there is none
 };
 

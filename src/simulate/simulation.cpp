@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/contract.h"
+#include "simulate/fragments.h"
 #include "simulate/fused.h"
 #include "simulate/ping_pong.h"
 
@@ -36,6 +37,14 @@ std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoo
                 {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
         return std::make_unique<PingPong>(*context_, shaderRoot, plan_, tables_, options_);
     };
+    if (choice_.path == Path::fragments) {
+        if (options_.inPlace || options_.lanes == Lanes::vertex)
+            warnings_.push_back(
+                {{},
+                 "one side of the state, and a lane for each vertex, need compute shaders: they "
+                 "change nothing here"});
+        return std::make_unique<Fragments>(*context_, shaderRoot, plan_, tables_, options_);
+    }
     if (choice_.path == Path::pingPong) return pingPong();
     if (options_.path != Path::automatic) return fused();
     // Takes what works: two sides, else one, else the other path.

@@ -160,7 +160,8 @@ const Framebuffer& TextureState::target(const std::vector<const Texture*>& color
     for (const Target& target : targets_)
         if (target.ids == ids) return target.framebuffer;
     const char* label = colors.front()->label().c_str();
-    targets_.push_back({std::move(ids), Framebuffer(*context_, colors, nullptr, label)});
+    targets_.push_back(
+        {std::move(ids), Framebuffer(*context_, {colors.begin(), colors.end()}, nullptr, label)});
     return targets_.back().framebuffer;
 }
 

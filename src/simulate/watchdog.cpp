@@ -59,6 +59,31 @@ std::string fastestDefine() {
     return concat("FASTEST_SQUARED ", runawaySpeed * runawaySpeed);
 }
 
+RunawayQuery::RunawayQuery(gpu::Traffic& traffic) : traffic_(&traffic) {
+    GLuint id = 0;
+    glGenQueries(1, &id);
+    query_ = gpu::Handle<gpu::deleteQuery>(id);
+}
+
+RunawayQuery::Asking::Asking(RunawayQuery& query) {
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    glBeginQuery(GL_ANY_SAMPLES_PASSED, query.query_.id());
+    query.asked_ = true;
+}
+
+RunawayQuery::Asking::~Asking() {
+    glEndQuery(GL_ANY_SAMPLES_PASSED);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+}
+
+bool RunawayQuery::raised() const {
+    if (!asked_) return false;
+    GLuint raised = GL_FALSE;
+    glGetQueryObjectuiv(query_.id(), GL_QUERY_RESULT, &raised);
+    traffic_->countReadBack(gpu::Traffic::Kind::control, sizeof raised);
+    return raised != GL_FALSE;
+}
+
 Alarm findAlarm(const SavedState& saved) {
     Alarm worst;
     worst.time = saved.time;

@@ -1,17 +1,19 @@
 // The watchdog: a state that is not finite, or faster than anything that the equations are meant for, stops
 // the run within a frame, and the state before it can still be saved.
 //
-// The GPU only notices: the fused kernels look at what they store and set one word
-// (shaders/fused/watch.glsl), the ping-pong path has a pass that draws what is wrong inside an occlusion
-// query (shaders/passes/watch.frag). The next frame reads that, 4 bytes, before it begins: so the frame
-// itself never waits, and the side of the state before the bad frame is still there. Which vertex it was, the
-// CPU finds in the states read back.
+// The GPU only notices: compute kernels look at what they store and set one word
+// (shaders/fused/watch.glsl); fragment passes draw what is wrong inside an occlusion query
+// (shaders/fused/watch.frag, shaders/passes/watch.frag). The next frame reads that, 4 bytes, before it
+// begins: so the frame itself never waits, and the side of the state before the bad frame is still there.
+// Which vertex it was, the CPU finds in the states read back.
 #pragma once
 
 #include <optional>
 #include <string>
 
 #include "core/error.h"
+#include "gpu/context.h"
+#include "gpu/gl.h"
 
 namespace shoal {
 
@@ -45,6 +47,29 @@ class Runaway : public Error {
 
   private:
     Alarm alarm_;
+};
+
+// Asks, inside an occlusion query, whether passes leave anything that is not discarded. The answer is read
+// later, so that nobody waits for it.
+class RunawayQuery {
+  public:
+    explicit RunawayQuery(gpu::Traffic& traffic);
+
+    // Passes that are drawn while it lives change no colours and are asked.
+    class Asking {
+      public:
+        explicit Asking(RunawayQuery& query);
+        Asking(const Asking&) = delete;
+        Asking& operator=(const Asking&) = delete;
+        ~Asking();
+    };
+    bool raised() const;  // waits for the answer, 4 bytes
+    void disarm() { asked_ = false; }
+
+  private:
+    gpu::Handle<gpu::deleteQuery> query_;
+    gpu::Traffic* traffic_;
+    bool asked_ = false;
 };
 
 // The fused path has two sides of positions and velocities but one of anchors and released pins, which a lane

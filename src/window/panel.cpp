@@ -240,13 +240,10 @@ Panel::Action Panel::drawMethod(Controls& controls, const Simulation& simulation
         ImGui::TextDisabled("these springs need %d substeps", simulation.parameters.substeps);
     const Path now = simulation.path().path;
     path = now;
-    const bool compute = simulation.context().info().computeShaders;
-    ImGui::BeginDisabled(!compute);
-    if (ImGui::RadioButton("fused", now == Path::fused)) path = Path::fused;
-    ImGui::EndDisabled();
+    if (ImGui::RadioButton("fused", now != Path::pingPong)) path = Path::fused;
     ImGui::SameLine();
     if (ImGui::RadioButton("ping-pong", now == Path::pingPong)) path = Path::pingPong;
-    if (!compute) ImGui::TextDisabled("fused needs OpenGL 4.3");
+    if (now == Path::fragments) ImGui::TextDisabled("fused runs in fragment shaders");
     if (ImGui::Button("Measure error")) action = Action::measure;
     tip("A few molecules of the scene's start against the double-precision reference, with\n"
         "this solver and these substeps. The window waits for it some seconds.");

@@ -65,8 +65,9 @@ std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
     SimulationOptions wanted;
     wanted.timing = gpu::PassTimers::suitedTo(context_->info());
     wanted.path = path;
-    // what was asked of the fused path does not bind the other
-    if (path != Path::pingPong) wanted.inPlace = request_.inPlace, wanted.lanes = request_.lanes;
+    // what was asked of compute shaders does not bind the other paths
+    if (path == Path::automatic || path == Path::fused)
+        wanted.inPlace = request_.inPlace, wanted.lanes = request_.lanes;
     wanted.cache = cache_;
     return std::make_unique<Simulation>(*context_, shaderRoot(), std::move(plan), wanted);
 }

@@ -109,8 +109,8 @@ TEST_CASE("info names each context and why one is missing", "[cli]") {
         CHECK(member(contexts[i], "maxTextureSize").number >= 1024);
         const std::vector<JsonValue>& paths = member(contexts[i], "paths").items;
         const bool fused = member(contexts[i], "computeShaders").boolean;
-        REQUIRE(paths.size() == (fused ? 2 : 1));
-        CHECK(paths.front().text == (fused ? "fused" : "ping-pong"));
+        REQUIRE(paths.size() == (fused ? 3 : 2));
+        CHECK(paths.front().text == (fused ? "fused" : "fragments"));
         CHECK(paths.back().text == "ping-pong");
     }
     CHECK_FALSE(member(contexts[0], "available").boolean);

@@ -61,11 +61,15 @@ TEST_CASE("a run names its path", "[cli]") {
     CHECK(hashOf(report({"--lanes", "molecule"})) == hashOf(fused));
 }
 
-TEST_CASE("below OpenGL 4.3 auto takes the ping-pong path, and the other is refused", "[cli]") {
+TEST_CASE("below OpenGL 4.3 the fused path runs in fragments, to the same bits", "[cli]") {
     const JsonValue run = report({}, on33);
-    CHECK(member(run, "path").text == "ping-pong");
-    refusal(runWords({"--path", "fused"}), "the fused path needs OpenGL 4.3; this context has 3.3", on33);
-    refusal(runWords({"--field-sampling", "vertexFrame"}), "no path can run this scene", on33);
+    CHECK(member(run, "path").text == "fragments");
+    CHECK(hashOf(run) == hashOf(report()));
+    CHECK(hashOf(report({"--path", "fused"}, on33)) == hashOf(run));
+    CHECK(hashOf(report({"--path", "fragments"})) == hashOf(run));
+    CHECK(member(report({"--field-sampling", "vertexFrame"}, on33), "path").text == "fragments");
+    refusal({"run", sourceFile("models/fire/fire.scene.json"), "--headless", "--frames", "1"},
+            "the birth and death of molecules needs compute shaders (OpenGL 4.3)", on33);
 }
 
 TEST_CASE("fields are read as often as is asked", "[cli]") {
@@ -106,6 +110,8 @@ TEST_CASE("explain prints the kernels, in which no slider's value occurs", "[cli
     CHECK(kernels({"--substeps", "9", "--dt", "0.011", "--count", "77", "--seed", "3"}) == text);
     CHECK(kernels({"--solver", "euler"}) != text);
     CHECK_THAT(kernels({"--lanes", "vertex"}), Catch::Contains("uniform sampler2D topology"));
+    CHECK_THAT(kernels({"--path", "fragments"}),
+               Catch::Contains("#version 330 core") && Catch::Contains("out vec4 target0;"));
 }
 
 TEST_CASE("programs are kept for the next start", "[cli]") {

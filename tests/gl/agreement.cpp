@@ -73,9 +73,13 @@ Agreement::Agreement(const Scene& scene, const SimulationOptions& first, const S
     : plan_(compile(scene)), first_(on(scene, first)), second_(on(scene, second)) {
     if (scene.colliders.empty()) return;
     const Scene touching = everySubstep(scene);
-    const SimulationOptions pingPong{.path = Path::pingPong};
-    touching_.emplace(testContext(), shaders, compile(touching), pingPong);
-    free_.emplace(testContext(), shaders, compile(withoutColliders(touching)), pingPong);
+    const Plan plan = compile(touching);
+    const bool implicit = std::any_of(plan.groups.begin(), plan.groups.end(), [](const GroupPlan& group) {
+        return shoal::solver(group.solver).implicit;
+    });
+    const SimulationOptions options{.path = implicit ? first.path : Path::pingPong};
+    touching_.emplace(testContext(), shaders, plan, options);
+    free_.emplace(testContext(), shaders, compile(withoutColliders(touching)), options);
 }
 
 Comparison Agreement::at(int frame) {

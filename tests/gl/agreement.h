@@ -39,7 +39,7 @@ class Agreement {
     Plan plan_;
     Simulation first_, second_;
     std::optional<Simulation> touching_,
-        free_;  // ping-pong, with and without colliders, where there are some
+        free_;  // with and without colliders, where there are some; by passes where these have the solver
 };
 
 // Whether the context has the fused path; warns where it does not.

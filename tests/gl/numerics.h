@@ -94,10 +94,14 @@ constexpr SolverKind explicitSolvers[] = {SolverKind::euler, SolverKind::leapfro
 // All that the tested path runs.
 inline std::vector<SolverKind> solversHere() {
     std::vector<SolverKind> out;
-    const bool fused = testContext().info().computeShaders && testPath() != Path::pingPong;
     for (const Solver& one : solvers())
-        if (fused || !one.implicit) out.push_back(one.kind);
+        if (testPath() != Path::pingPong || !one.implicit) out.push_back(one.kind);
     return out;
+}
+
+// Whether this keeps a molecule in one lane, as implicit solvers demand.
+inline bool inOneLane(const SimulationOptions& options) {
+    return options.path == Path::fragments || (options.path == Path::fused && options.lanes != Lanes::vertex);
 }
 
 inline int orderOf(SolverKind kind) {

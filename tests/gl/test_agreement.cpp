@@ -1,8 +1,9 @@
-// The two paths agree: from the same state, one frame on each. And each repeats itself to the bit.
+// The paths agree: from the same state, one frame on each. And each repeats itself to the bit.
 #include <algorithm>
 
 #include "gl/agreement.h"
 #include "gl/feature_scenes.h"
+#include "simulate/fused.h"
 #include "support/catch.h"
 
 namespace shoal {
@@ -13,21 +14,43 @@ namespace {
 
 constexpr const char* shaders = SHOAL_SOURCE_DIR "/shaders";
 
+bool runsInFragments(const Plan& plan) {
+    try {
+        choosePath(plan, Path::fragments, limitsOf(testContext().info()));
+        return true;
+    } catch (const Error&) {
+        return false;
+    }
+}
+
+// With compute shaders where there are some, else in fragments, which as yet leave contact to the passes.
+Path fusedPath(const Plan& plan) {
+    if (testContext().info().computeShaders) return Path::fused;
+    return runsInFragments(plan) ? Path::fragments : Path::pingPong;
+}
+
+std::vector<Path> pathsOf(const Plan& plan) {
+    std::vector<Path> out = {Path::pingPong};
+    if (testContext().info().computeShaders) out.push_back(Path::fused);
+    if (runsInFragments(plan)) out.push_back(Path::fragments);
+    return out;
+}
+
 Simulation on(Path path, const Plan& plan) {
     return Simulation(testContext(), shaders, plan, {.path = path});
 }
 
 }  // namespace
 
-TEST_CASE("the two paths agree on every scene", "[fused][agreement][long]") {
-    if (!test::canFuse()) return;
+TEST_CASE("the fused path and passes agree on every scene", "[fused][agreement][long]") {
     std::vector<FeatureScene> scenes = test::shippedScenes(100);
     REQUIRE(scenes.size() >= 2);
     for (FeatureScene& one : test::featureScenes())
         scenes.push_back(std::move(one));
     int contacts = 0, releases = 0;
     for (const FeatureScene& one : scenes) {
-        test::Agreement agreement(one.scene, {.path = Path::fused}, {.path = Path::pingPong});
+        test::Agreement agreement(one.scene, {.path = fusedPath(compile(one.scene))},
+                                  {.path = Path::pingPong});
         for (const int frame : {0, 60, 120}) {
             const test::Comparison c = agreement.at(frame);
             UNSCOPED_INFO(one.name << ", frame " << frame << ": " << text(c));
@@ -42,14 +65,41 @@ TEST_CASE("the two paths agree on every scene", "[fused][agreement][long]") {
     CHECK(releases > 50);
 }
 
+// Below 4.3 the test above has every scene in fragments.
+TEST_CASE("compute shaders and fragments agree with every solver", "[fused][agreement][long]") {
+    if (!test::canFuse()) return;
+    std::vector<FeatureScene> scenes = test::shippedScenes(100);
+    for (const Solver& solver : solvers()) {
+        FeatureScene one = test::featureScenes().back();  // of two groups, every field, two colliders
+        one.scene.groups[0].release = Release{{}, 1.0, 0};
+        one.name += concat(", ", solver.name);
+        one.scene.solver.kind = solver.kind;
+        test::setStableSubsteps(one.scene);
+        scenes.push_back(std::move(one));
+    }
+    int compared = 0;
+    for (const FeatureScene& one : scenes) {
+        if (!runsInFragments(compile(one.scene))) continue;
+        ++compared;
+        test::Agreement agreement(one.scene, {.path = Path::fused}, {.path = Path::fragments});
+        for (const int frame : {0, 60}) {
+            const test::Comparison c = agreement.at(frame);
+            UNSCOPED_INFO(one.name << ", frame " << frame << ": " << text(c));
+            CHECK(c.wrong == 0);
+            CHECK(c.excepted < 0.05 * c.molecules);
+            CHECK(c.normal < test::Agreement::normalTolerance);
+        }
+    }
+    CHECK(compared > 9);
+}
+
 TEST_CASE("a run repeats itself, starts again and goes on from a saved state, bit for bit",
           "[fused][agreement]") {
-    if (!test::canFuse()) return;
     for (const FeatureScene& one : test::featureScenes()) {
         // what differs between scenes here is the layout and what is carried on: a share of them will do
         if (one.name.find("field") == 0 || one.name.find("euler") != std::string::npos) continue;
         const Plan plan = compile(one.scene);
-        for (const Path path : {Path::fused, Path::pingPong}) {
+        for (const Path path : pathsOf(plan)) {
             INFO(one.name << " on the " << name(path) << " path");
             Simulation first = on(path, plan), other = on(path, plan);
             test::run(first, 7);
@@ -78,28 +128,30 @@ TEST_CASE("a run repeats itself, starts again and goes on from a saved state, bi
     }
 }
 
-TEST_CASE("a state crosses from one path to the other and back without a bit lost", "[fused][agreement]") {
-    if (!test::canFuse()) return;
+TEST_CASE("a state crosses from one path to the others and back without a bit lost", "[fused][agreement]") {
     for (const int count : {1, 31, 64, 1030}) {
         Scene scene = test::swarm(test::sheet(3, 3, true), count, SolverKind::leapfrog, {1e5, 2, 0});
         scene.gravity = {0, -9.81, 0};
         scene.groups[0].release = Release{{}, 5.0, 0};
         test::setStableSubsteps(scene);
         const Plan plan = compile(scene);
-        Simulation fused = on(Path::fused, plan), pingPong = on(Path::pingPong, plan);
-        CHECK(fused.save().groups == pingPong.save().groups);  // the same start
+        Simulation fused = on(fusedPath(plan), plan);
         CHECK(fused.save().groups[0] == plan.groups[0].start);
         test::run(fused, 5);
         const SavedState saved = fused.save();
         const auto released = std::count(saved.groups[0].released.begin(), saved.groups[0].released.end(), 1);
         if (count > 1) CHECK((released > 0 && released < count));
-        pingPong.load(saved);
-        CHECK(pingPong.save().groups == saved.groups);
-        CHECK(pingPong.hash() == fused.hash());
-        fused.restart();
-        fused.load(pingPong.save());
-        CHECK(fused.save().groups == saved.groups);
-        CHECK(fused.frames() == 5);
+        for (const Path path : {Path::pingPong, Path::fragments}) {
+            Simulation other = on(path, plan);
+            CHECK(other.save().groups[0] == plan.groups[0].start);
+            other.load(saved);
+            CHECK(other.save().groups == saved.groups);
+            CHECK(other.hash() == fused.hash());
+            fused.restart();
+            fused.load(other.save());
+            CHECK(fused.save().groups == saved.groups);
+            CHECK(fused.frames() == 5);
+        }
     }
 }
 

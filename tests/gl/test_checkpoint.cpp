@@ -55,8 +55,7 @@ void saveTo(const std::string& file, const Simulation& simulation) {
 std::vector<SolverKind> solversOf(const SimulationOptions& options) {
     std::vector<SolverKind> out;
     for (const SolverKind solver : {SolverKind::euler, SolverKind::leapfrog, SolverKind::bdf2Xpbd}) {
-        const bool lane = options.path == Path::fused && options.lanes != Lanes::vertex;
-        if (lane || !shoal::solver(solver).implicit) out.push_back(solver);
+        if (inOneLane(options) || !shoal::solver(solver).implicit) out.push_back(solver);
     }
     return out;
 }
@@ -67,7 +66,8 @@ struct Way {
 };
 
 std::vector<Way> ways() {
-    std::vector<Way> out = {{"ping-pong", {.path = Path::pingPong}}};
+    std::vector<Way> out = {{"ping-pong", {.path = Path::pingPong}},
+                            {"fragments", {.path = Path::fragments}}};
     if (!testContext().info().computeShaders) return out;
     out.push_back({"fused", {.path = Path::fused}});
     out.push_back({"in place", {.path = Path::fused, .inPlace = true}});
@@ -115,13 +115,15 @@ TEST_CASE("a run saved on one path goes on on the other from the same state", "[
     const std::string file = scratch.path("x.shoal"), back = scratch.path("y.shoal");
     const Plan plan = storm(SolverKind::leapfrog);
     Simulation fused = make(plan, {.path = Path::fused}), inPlace = make(plan, {.inPlace = true});
-    Simulation pingPong = make(plan, {.path = Path::pingPong});
     run(fused, 20);
     saveTo(file, fused);
-    goOn(pingPong, file);
-    CHECK(pingPong.save().groups == fused.save().groups);
-    saveTo(back, pingPong);
-    CHECK(readFile(back) == readFile(file));
+    for (const Path path : {Path::pingPong, Path::fragments}) {
+        Simulation other = make(plan, {.path = path});
+        goOn(other, file);
+        CHECK(other.save().groups == fused.save().groups);
+        saveTo(back, other);
+        CHECK(readFile(back) == readFile(file));
+    }
     goOn(inPlace, back);
     run(inPlace, 5);
     run(fused, 5);

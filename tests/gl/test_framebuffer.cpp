@@ -108,8 +108,8 @@ TEST_CASE("more samples than the context has are reduced", "[framebuffer]") {
 
 TEST_CASE("more draw buffers than the context has are refused", "[framebuffer]") {
     const Texture texture(testContext(), Format::rgba8, 2, 2, "one of many");
-    const std::vector<const Texture*> many(static_cast<size_t>(testContext().info().maxColorAttachments) + 1,
-                                           &texture);
+    const std::vector<ColorTarget> many(static_cast<size_t>(testContext().info().maxColorAttachments) + 1,
+                                        &texture);
     CHECK_THROWS_WITH(Framebuffer(testContext(), many, nullptr, "many"),
                       Catch::Contains("\"many\"") && Catch::Contains("this context allows"));
     CHECK_THROWS_AS(Framebuffer::multisampled(testContext(), Format::rgba8, false, 1,

@@ -142,19 +142,20 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
     }
 }
 
-TEST_CASE("without OpenGL 4.3 the fused path is refused, and auto goes on without it", "[errors]") {
+TEST_CASE("without OpenGL 4.3 the fused path runs in fragments and says why", "[errors]") {
     if (testContext().info().computeShaders) return;
     Scene scene = leafScene();
     const auto make = [&](Path path) {
         return Simulation(testContext(), shaders, compile(scene), {.path = path}).path();
     };
-    CHECK_THAT(messageOf([&] { make(Path::fused); }),
-               Catch::Contains("the fused path needs OpenGL 4.3; this context has 3.3"));
-    CHECK(make(Path::automatic).path == Path::pingPong);
-    CHECK_THAT(make(Path::automatic).why, Catch::Contains("needs OpenGL 4.3"));
+    CHECK(make(Path::fused).path == Path::fragments);
+    CHECK_THAT(make(Path::fused).why, Catch::Contains("OpenGL 3.3 has no compute shaders"));
+    CHECK(make(Path::automatic).path == Path::fragments);
+    CHECK_THAT(make(Path::automatic).why, Catch::Contains("need OpenGL 4.3; this context has 3.3"));
+    scene.groups[0].molecule = test::sheet(66, 1, true);
     scene.solver.fieldSampling = FieldSampling::vertexFrame;
     CHECK_THAT(messageOf([&] { make(Path::automatic); }), Catch::Contains("no path can run this scene") &&
-                                                              Catch::Contains("OpenGL 4.3") &&
+                                                              Catch::Contains("a lane holds at most 64") &&
                                                               Catch::Contains("vertexFrame"));
 }
 

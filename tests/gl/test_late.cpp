@@ -77,7 +77,9 @@ struct Way {
 };
 
 std::vector<Way> ways() {
-    std::vector<Way> out = {{"ping-pong", {.drawn = false, .path = Path::pingPong}}};
+    std::vector<Way> out = {{"ping-pong", {.drawn = false, .path = Path::pingPong}},
+                            {"fragments", {.drawn = false, .path = Path::fragments}},
+                            {"live springs in fragments", {.drawn = false, .path = Path::fragments}, true}};
     if (!test::canFuse()) return out;
     out.push_back({"fused", {.drawn = false, .path = Path::fused}});
     out.push_back({"a lane a vertex", {.drawn = false, .path = Path::fused, .lanes = Lanes::vertex}});
@@ -107,9 +109,7 @@ TEST_CASE("muscles of any frequencies are in phase after a day", "[numerics][lat
         leaf.springs[i].actuation = Actuation{0.1, 0.7 + 0.31 * double(i), 0.5 * double(i)};
     for (const Way& way : ways()) {
         for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::bdf2Xpbd}) {
-            if (shoal::solver(solver).implicit &&
-                (way.options.path != Path::fused || way.options.lanes == Lanes::vertex))
-                continue;
+            if (shoal::solver(solver).implicit && !test::inOneLane(way.options)) continue;
             Scene scene = test::sceneOf(leaf, solver, {at({1, 2, 1}, test::turned(), 0.75), at({0, 1, 0})});
             scene.groups[0].phaseSpread = 2;
             test::setSteps(scene, 1 / 60.0, 4);

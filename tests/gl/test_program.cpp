@@ -25,7 +25,7 @@ static ProgramOptions withFragment(const std::string& fragment) {
 }
 
 // Fills a 2 x 2 float texture and gives its first texel.
-static std::vector<float> draw(const Program& program, const std::vector<const Texture*>& targets) {
+static std::vector<float> draw(const Program& program, const std::vector<ColorTarget>& targets) {
     const Framebuffer framebuffer(testContext(), targets, nullptr, "target");
     framebuffer.bind();
     const VertexArray none(testContext());
@@ -33,7 +33,7 @@ static std::vector<float> draw(const Program& program, const std::vector<const T
     program.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
     std::vector<float> texels(16);
-    targets.front()->download(Traffic::Kind::control, 0, 0, 2, 2, texels.data(), 64);
+    targets.front().texture->download(Traffic::Kind::control, 0, 0, 2, 2, texels.data(), 64);
     texels.resize(4);
     testContext().checkErrors("drawing");
     return texels;

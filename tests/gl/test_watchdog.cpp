@@ -27,12 +27,18 @@ struct Way {
 std::vector<Way> ways() {
     std::vector<Way> out;
     out.push_back({"ping-pong", {.path = Path::pingPong}});
+    out.push_back({"fragments", {.path = Path::fragments}});
     if (testContext().info().computeShaders) {
         out.push_back({"fused", {.path = Path::fused, .lanes = Lanes::molecule}});
         out.push_back({"fused, a lane a vertex", {.path = Path::fused, .lanes = Lanes::vertex}});
         out.push_back({"fused, in place", {.path = Path::fused, .inPlace = true}});
     }
     return out;
+}
+
+// Whether the state before the last frame is still there.
+bool hasTwoSides(const SimulationOptions& options) {
+    return options.path != Path::pingPong && !options.inPlace;
 }
 
 Simulation make(const Plan& plan, const SimulationOptions& options) {
@@ -84,7 +90,7 @@ TEST_CASE("what is not finite is noticed in the next frame, at its vertex", "[wa
                 CHECK(alarm->molecule == 4321);
                 CHECK_FALSE(alarm->finite);
                 // where only the state after the frame is left, springs have carried it to every vertex
-                const bool twoSides = way.options.path == Path::fused && !way.options.inPlace;
+                const bool twoSides = hasTwoSides(way.options);
                 CHECK(alarm->vertex == (twoSides ? 2 : alarm->vertex));
                 CHECK(alarm->frame == (twoSides ? 2 : 3));
                 CHECK(simulation.frames() == 3);
@@ -245,7 +251,7 @@ TEST_CASE("a run that blows up is stopped before it is lost", "[watchdog]") {
         const std::optional<Alarm> alarm = alarmOf(simulation, 200);
         REQUIRE(alarm);
         const std::optional<SavedState> before = simulation.saveBefore();
-        CHECK(before.has_value() == (way.options.path == Path::fused && !way.options.inPlace));
+        CHECK(before.has_value() == hasTwoSides(way.options));
         if (!before) continue;
         CHECK_FALSE(runsAway(findAlarm(*before)));
         // the same again from there

@@ -103,9 +103,7 @@ void holds(const std::string& name, const HardCase& hardCase) {
 }
 
 bool onPingPong() {
-    if (testPath() != Path::automatic) return testPath() == Path::pingPong;
-    const auto& info = testContext().info();
-    return !limitsOf(info).compute;
+    return testPath() == Path::pingPong;
 }
 
 Simulation hardSimulation(const Scene& scene, bool drawn) {

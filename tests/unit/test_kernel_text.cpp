@@ -150,24 +150,22 @@ TEST_CASE("packing moves every float once, for 1 to 40 vertices", "[kernel]") {
     for (int vertices = 1; vertices <= 40; ++vertices) {
         Molecule molecule;
         molecule.vertices.resize(size_t(vertices));
-        const std::string text = kernelText(molecule, needs, solver(SolverKind::leapfrog)).packing;
+        const KernelText text = kernelText(molecule, needs, solver(SolverKind::leapfrog));
         const BufferLayout layout{vertices};
         const int elements = layout.positionElements(), floats = 3 * vertices;
-        INFO(vertices << " vertices\n" << text);
+        INFO(vertices << " vertices\n"
+                      << text.load << joined(text.state, "\n") << joined(text.normals, "\n"));
         CHECK(4 * elements >= floats);
         CHECK(4 * elements < floats + 4);
 
         // float k of x in component k % 4 of element k / 4; v behind it; normals in a buffer of their own
         const std::regex load(
-            R"(e = texelFetch\(oldState, first \+ (\d+)\)|([xv]\[\d+\][.xyz]*) = e\.([xyzw]+);)");
+            R"(e = element\(oldState, first, (\d+)\)|([xv]\[\d+\][.xyz]*) = e\.([xyzw]+);)");
         int element = -1, loaded = 0;
         bool right = true;
-        const std::string loads = text.substr(0, text.find("storeState"));
-        for (const std::smatch& line : matches(loads, load)) {
+        for (const std::smatch& line : matches(text.load, load)) {
             if (line[1].matched) {
-                const int offset = std::stoi(line[1]);
-                right &= offset % BufferLayout::block == 0 && offset / BufferLayout::block == element + 1;
-                element = offset / BufferLayout::block;
+                right &= std::stoi(line[1]) == ++element;
                 continue;
             }
             const bool isVelocity = line[2].str()[0] == 'v';
@@ -184,15 +182,17 @@ TEST_CASE("packing moves every float once, for 1 to 40 vertices", "[kernel]") {
         CHECK(loaded == 2 * floats);
         CHECK(element == 2 * elements - 1);
 
-        const std::regex store(R"((newState|newNormals)\[first \+ (\d+)\] = stored\(vec4\(([^()]*)\)\);)");
+        std::vector<std::string> all = text.state;
+        all.insert(all.end(), text.normals.begin(), text.normals.end());
+        REQUIRE(all.size() == size_t(3 * elements));
         std::map<std::string, int> stored;
         bool rightToo = true;
-        for (const std::smatch& line : matches(text, store)) {
-            const int at = std::stoi(line[2]) / BufferLayout::block;
-            const bool isNormal = line[1] == "newNormals";
-            const std::string array = isNormal ? "normal" : at < elements ? "x" : "v";
-            int slot = 4 * (array == "v" ? at - elements : at);
-            std::istringstream parts(line[3].str());
+        for (int at = 0; at < 3 * elements; ++at) {
+            const std::string array = at < elements ? "x" : at < 2 * elements ? "v" : "normal";
+            int slot = 4 * (at % elements);
+            const std::string& value = all[size_t(at)];
+            REQUIRE(value.substr(0, 5) == "vec4(");
+            std::istringstream parts(value.substr(5, value.size() - 6));
             for (std::string part; std::getline(parts >> std::ws, part, ',');) {
                 if (part == "0.0") {
                     rightToo &= slot++ >= floats;

@@ -223,19 +223,26 @@ TEST_CASE("more than the textures hold is refused with what would fit", "[plan]"
     CHECK(choosePath(small, Path::pingPong, limits).path == Path::pingPong);
     CHECK(choosePath(large, Path::automatic, limits).path == Path::fused);
     limits.compute = false;
-    CHECK_THROWS_AS(choosePath(large, Path::automatic, limits), Error);
-    CHECK(choosePath(small, Path::automatic, limits).path == Path::pingPong);
+    CHECK(choosePath(large, Path::automatic, limits).path == Path::fragments);
+    limits.maxTextureSize = 64;  // molecules are texels in fragments
+    CHECK_THAT(messageOf([&] { choosePath(large, Path::fragments, limits); }),
+               Catch::Contains("100000 molecules") && Catch::Contains("at most 65536"));
+    limits.maxTextureLayers = 35;
+    CHECK_THAT(messageOf([&] { choosePath(small, Path::fragments, limits); }),
+               Catch::Contains("takes 36 layers") && Catch::Contains("has 35"));
 }
 
-TEST_CASE("the fused path is refused without compute shaders, with the version", "[plan]") {
+TEST_CASE("without compute shaders the fused path runs in fragments and says so, with the version",
+          "[plan]") {
     PathLimits limits;
     limits.compute = false;
     limits.version = "3.3";
     const Plan plan = compile(sceneWith("quad"));
-    CHECK_THAT(messageOf([&] { choosePath(plan, Path::fused, limits); }),
-               Catch::Contains("OpenGL 4.3") && Catch::Contains("3.3"));
+    const PathChoice asked = choosePath(plan, Path::fused, limits);
+    CHECK(asked.path == Path::fragments);
+    CHECK_THAT(asked.why, Catch::Contains("OpenGL 3.3 has no compute shaders"));
     const PathChoice choice = choosePath(plan, Path::automatic, limits);
-    CHECK(choice.path == Path::pingPong);
+    CHECK(choice.path == Path::fragments);
     CHECK_THAT(choice.why, Catch::Contains("OpenGL 4.3"));
 }
 
@@ -259,4 +266,6 @@ TEST_CASE("the bytes of a quad on the fused path", "[plan]") {
     CHECK(stateBytes(plan, Path::fused, false) == 1024 * 208);
     CHECK(stateBytes(plan, Path::fused, false, true) == 1024 * 112);
     CHECK(stateBytes(plan, Path::fused, true) == 1024 * 256);
+    // in fragments the record has two sides
+    CHECK(stateBytes(plan, Path::fragments, true) == 1024 * 272);
 }

@@ -78,12 +78,29 @@ class Validator {
     }
     void addKernel(const Plan& plan, const KernelOptions& options) {
         const gpu::ProgramOptions program = kernelProgram(plan, 0, options);
-        const char* header = gpu::header430();
-        gpu::ShaderSource source =
-            gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", program.compute, program.defines,
-                               program.generated, header);
-        program.rewrite(source);
-        add(program.compute, program.defines, header, std::move(source));
+        const std::string& file = options.fragments ? program.fragment : program.compute;
+        for (const char* header :
+             options.fragments ? std::vector{gpu::header330(), header300es} : std::vector{gpu::header430()}) {
+            gpu::ShaderSource source = gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file,
+                                                          program.defines, program.generated, header);
+            program.rewrite(source);
+            add(file, program.defines, header, std::move(source));
+        }
+    }
+    // All draws of a group's frame in fragments, its normals and its watchdog.
+    void addFragments(const Plan& plan, KernelOptions options) {
+        const auto addDraws = [&](KernelOptions::Work work, size_t values) {
+            options.work = work;
+            for (int first = 0; first < int(values); first += 4) {
+                options.fragments = {first, std::min(4, int(values) - first)};
+                addKernel(plan, options);
+            }
+        };
+        addDraws(KernelOptions::Work::frame, storedInFragments(plan.groups[0]).size());
+        addDraws(KernelOptions::Work::normals, plan.groups[0].kernel.normals.size());
+        options.work = KernelOptions::Work::watch;
+        options.fragments.emplace();
+        addKernel(plan, options);
     }
     void addBoth(const std::string& file, Defines defines) {
         defines.emplace_back("TEXTURES");
@@ -283,6 +300,25 @@ TEST_CASE("each field and each collider is sound GLSL by itself", "[shaders]") {
     validator.check();
 }
 
+TEST_CASE("the kernels in fragments are sound GLSL, of WebGL 2 as well", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const Solver& solver : solvers()) {
+        for (const char* more : {"colliders", "fields", "muscles", "release"}) {
+            Scene scene = leafScene({"springs", "triangles", "drag by direction", "forces", "pins", more},
+                                    solver.kind, FieldSampling::vertexSubstep);
+            scene.groups[0].place.scale = {0.5, 0.6};
+            const bool live = solver.kind != SolverKind::bdf2Corotated && more == std::string("muscles");
+            validator.addFragments(compile(scene, {.liveSprings = live}), {});
+        }
+    }
+    for (const FieldSampling sampling : {FieldSampling::vertexFrame, FieldSampling::moleculeFrame})
+        validator.addFragments(compile(leafScene({"fields"}, SolverKind::euler, sampling)),
+                               {.software = true});
+    CHECK(validator.count() > 150);
+    validator.check();
+}
+
 TEST_CASE("names of fields and colliders cannot leave their comment", "[shaders]") {
     if (!hasValidator()) return;
     std::vector<Field> fields{field(UniformField{})};
@@ -330,7 +366,8 @@ TEST_CASE("the kernels of every device and use are sound GLSL", "[shaders]") {
                     options.normals = (bits & 4) != 0;
                     options.watch = options.normals;
                     validator.addKernel(plan, options);
-                    options.onlyNormals = options.normals;
+                    options.work =
+                        options.normals ? KernelOptions::Work::normals : KernelOptions::Work::frame;
                     validator.addKernel(plan, options);
                 }
             }

@@ -22,9 +22,7 @@ constexpr size_t mostPlayed = 3600;  // frames that one can go back to: a minute
 // Whether the same programs run both: their text holds all but the springs' numbers and the start.
 bool sameProgram(const Plan& a, const Plan& b) {
     const GroupPlan &one = a.groups[0], &other = b.groups[0];
-    return one.kernel.molecule == other.kernel.molecule && one.kernel.forces == other.kernel.forces &&
-           one.kernel.sweeps == other.kernel.sweeps && one.kernel.packing == other.kernel.packing &&
-           one.solver == other.solver && one.springCount == other.springCount &&
+    return one.kernel == other.kernel && one.solver == other.solver && one.springCount == other.springCount &&
            a.fieldSource == b.fieldSource && a.fieldParameters == b.fieldParameters &&
            a.collideSource == b.collideSource && a.gravity == b.gravity && a.substeps == b.substeps &&
            one.colliderParameters == other.colliderParameters && one.drag.normal == other.drag.normal &&

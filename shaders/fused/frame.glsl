@@ -53,7 +53,7 @@ void main()
 #endif
     watch();
 #endif
-#ifdef RECORDS
+#if defined(RECORDS) && !defined(LAYERED)
     if (writesRecord() && (moved || released != wasReleased)) newRecords[molecule] = recordNow();
 #endif
 #ifdef NORMALS

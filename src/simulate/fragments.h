@@ -1,0 +1,63 @@
+// The fused step in fragments (OpenGL 3.3): the kernels of the fused path as fragment shaders, a fragment a
+// molecule. One draw writes as many of a molecule's 4-vectors as the context has colour targets; what is left
+// takes further draws, each of which does the whole step again and writes other 4-vectors.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "gpu/buffer.h"
+#include "gpu/pass_timers.h"
+#include "gpu/program.h"
+#include "simulate/execution_path.h"
+#include "simulate/group_kernel.h"
+#include "simulate/layer_state.h"
+#include "simulate/state_view.h"
+#include "simulate/watchdog.h"
+
+namespace shoal {
+
+class Fragments : public ExecutionPath {
+  public:
+    // Borrows the plan and the tables. Error: out of memory; the driver refuses a kernel.
+    Fragments(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+              const SimulationOptions& options);
+
+    void step(const Frame& frame, gpu::PassTimers& timers) override;
+    void computeNormals(gpu::PassTimers& timers) override;
+    StateView view() const override { return {.layers = &state}; }
+    void write(size_t group, const GroupState& groupState, double) override {
+        state[group].write(plan_->groups[group], groupState);
+    }
+    GroupState read(size_t group) const override { return state[group].read(plan_->groups[group]); }
+    GroupState readOne(size_t group, size_t molecule) const override {
+        return state[group].readOne(molecule);
+    }
+    std::vector<glm::vec3> readNormals(size_t group) const override {
+        return state[group].readNormals(plan_->groups[group]);
+    }
+    std::optional<std::vector<GroupState>> readBefore() const override;
+    bool alarmed() const override { return query_ && query_->raised(); }
+    void disarm() override;
+    const ContactResult* contact() const override { return nullptr; }
+    Lanes lanes(size_t) const override { return Lanes::molecule; }
+
+    std::vector<GroupLayers> state;  // per group
+
+  private:
+    struct Programs {
+        std::unique_ptr<GroupKernel> kernel;
+        std::vector<const gpu::Program*> normals;  // for each draw; none: nothing is drawn, or has no surface
+        const gpu::Program* watch = nullptr;       // where watched
+    };
+    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target) const;
+    void watch(gpu::PassTimers& timers);
+
+    const Plan* plan_;
+    gpu::Programs made_;
+    std::vector<Programs> programs_;  // per group
+    gpu::VertexArray noAttributes_;
+    std::unique_ptr<RunawayQuery> query_;  // null: not watched
+};
+
+}  // namespace shoal

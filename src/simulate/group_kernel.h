@@ -1,0 +1,74 @@
+// The programs of one group's fused step, with all that they are given beside the state: for a dispatch of
+// compute shaders (simulate/fused.h), or for draws of fragment shaders (simulate/fragments.h).
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compile/corotated.h"
+#include "gpu/buffer.h"
+#include "gpu/program.h"
+#include "gpu/texture.h"
+#include "simulate/fused_kernel.h"
+#include "simulate/step.h"
+#include "simulate/tables.h"
+
+namespace shoal {
+
+// Where programs of a group find what they read.
+namespace kernel_unit {
+constexpr int oldState = 0, oldRecords = 1, constants = 2, samples = 3, topology = 4, springs = 5,
+              steering = 6;
+}
+
+// All kernels of a path borrow these.
+struct KernelSource {
+    gpu::Context* context;
+    std::string shaderRoot;
+    const Plan* plan;
+    const Tables* tables;
+    gpu::ProgramCache* cache;
+};
+
+class GroupKernel {
+  public:
+    // `draws`: of a frame in fragments, each with its targets; empty: with compute. Borrows `programs`.
+    // Error: the driver refuses a kernel.
+    GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options,
+                const std::vector<KernelOptions::Targets>& draws, gpu::Programs& programs);
+
+    const KernelOptions& options() const { return options_; }
+    // The number of programs that a frame takes.
+    size_t steps() const { return steps_.size(); }
+    // Brings what changes from frame to frame up to date, once a frame.
+    void update(const Frame& frame);
+    // Returns a program of the step, in use, with the numbers of the frame.
+    const gpu::Program& useStep(const Frame& frame, size_t index = 0) const;
+    // Returns another program for the same group: its options with this work and these targets.
+    const gpu::Program& also(KernelOptions::Work work, std::optional<KernelOptions::Targets> targets = {});
+    // Binds all that a program of this group reads beside the state.
+    void bindTables(const gpu::Program& program) const;
+
+  private:
+    void makeSteps();
+    void makeFactors();
+    void updateFactors(const Frame& frame);
+    void updateSprings(const Frame& frame);
+    const GroupPlan& group() const { return source_.plan->groups[group_]; }
+    const gpu::Program& make(const KernelOptions& options);
+
+    KernelSource source_;
+    size_t group_;
+    KernelOptions options_;
+    std::vector<KernelOptions::Targets> draws_;
+    gpu::Programs* programs_;
+    std::vector<const gpu::Program*> steps_;
+    std::vector<std::unique_ptr<gpu::Program>>
+        own_;               // the steps, where numbers that change are constants of them
+    CorotatedStage stage_;  // bdf2-corotated: of the matrix
+    gpu::Buffer factors_;   // and the matrix, where it is not part of the program
+    gpu::Texture springs_;  // where their numbers are live
+};
+
+}  // namespace shoal

@@ -1,0 +1,119 @@
+#include "simulate/layer_state.h"
+
+#include <algorithm>
+
+#include "core/error.h"
+
+namespace shoal {
+
+using gpu::Framebuffer;
+using gpu::Texture;
+using gpu::Traffic;
+
+namespace {
+
+size_t paddedToRows(int count) {
+    return (size_t(count) + stateWidth - 1) / stateWidth * stateWidth;
+}
+
+// Framebuffers for so many of these at once, in their order.
+std::vector<Framebuffer> framebuffersOf(gpu::Context& context, const std::vector<gpu::ColorTarget>& all,
+                                        int targets, const char* label) {
+    std::vector<Framebuffer> out;
+    for (size_t first = 0; first < all.size(); first += size_t(targets)) {
+        const size_t end = std::min(all.size(), first + size_t(targets));
+        out.emplace_back(context,
+                         std::vector<gpu::ColorTarget>(all.begin() + std::ptrdiff_t(first),
+                                                       all.begin() + std::ptrdiff_t(end)),
+                         nullptr, label);
+    }
+    return out;
+}
+
+void addLayers(const Texture& texture, std::vector<gpu::ColorTarget>& out) {
+    for (int layer = 0; layer < texture.layers(); ++layer)
+        out.emplace_back(&texture, layer);
+}
+
+}  // namespace
+
+GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool normals, int targets)
+    : PackedState(group, paddedToRows(group.count), paddedToRows(group.count)) {
+    const auto make = [&](Values values, const char* what) {
+        try {
+            return Texture(context, gpu::Format::rgba32f, stateWidth, int(molecules() / stateWidth),
+                           concat(what, " of ", group.name).c_str(), elements(values));
+        } catch (const gpu::OutOfMemory& error) {
+            throw gpu::OutOfMemory(group.location, concat(error.message(), ", for ",
+                                                          many(group.count, "molecule", "molecules")));
+        }
+    };
+    for (Texture& side : state_)
+        side = make(Values::state, "state");
+    records_[0] = make(Values::records, "records");
+    if (group.needs.records) records_[1] = make(Values::records, "records");
+    if (group.needs.scale || group.needs.phase) {
+        constants_ = make(Values::constants, "constants");
+        writeConstants(group);
+    }
+    for (size_t now = 0; now < 2; ++now) {
+        std::vector<gpu::ColorTarget> all;
+        addLayers(state_[1 - now], all);
+        if (records_[1]) addLayers(records_[1 - now], all);
+        newState_[now] = framebuffersOf(context, all, targets, "new state");
+    }
+    if (!normals || !group.needs.normals) return;
+    normals_ = make(Values::normals, "normals");
+    std::vector<gpu::ColorTarget> all;
+    addLayers(normals_, all);
+    newNormals_ = framebuffersOf(context, all, targets, "normals");
+}
+
+template <typename Self>
+auto& GroupLayers::textureOf(Self& self, Values values) {
+    const size_t now = size_t(self.current_);
+    switch (values) {
+    case Values::state:
+        return self.state_[now];
+    case Values::stateBefore:
+        return self.state_[1 - now];
+    case Values::records:
+        return self.records_[self.records_[1] ? now : 0];
+    case Values::recordsBefore:
+        return self.records_[self.records_[1] ? 1 - now : 0];
+    case Values::constants:
+        return self.constants_;
+    case Values::steering:
+    case Values::normals:
+        break;
+    }
+    return self.normals_;
+}
+
+void GroupLayers::upload(Values values, const std::vector<glm::vec4>& packed) {
+    const auto kind = values == Values::constants ? Traffic::Kind::parameters : Traffic::Kind::state;
+    Texture& texture = textureOf(*this, values);
+    for (int layer = 0; layer < texture.layers(); ++layer)
+        texture.upload(kind, 0, 0, texture.width(), texture.height(), &packed[size_t(layer) * molecules()],
+                       molecules() * sizeof(glm::vec4), layer);
+}
+
+std::vector<glm::vec4> GroupLayers::download(Values values) const {
+    const Texture& texture = textureOf(*this, values);
+    std::vector<glm::vec4> out(molecules() * size_t(texture.layers()));
+    for (int layer = 0; layer < texture.layers(); ++layer)
+        texture.download(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
+                         &out[size_t(layer) * molecules()], molecules() * sizeof(glm::vec4), layer);
+    return out;
+}
+
+std::vector<glm::vec4> GroupLayers::download(Values values, size_t molecule) const {
+    const Texture& texture = textureOf(*this, values);
+    std::vector<glm::vec4> out(size_t(texture.layers()));
+    for (int layer = 0; layer < texture.layers(); ++layer)
+        texture.download(Traffic::Kind::state, int(molecule % stateWidth), int(molecule / stateWidth), 1, 1,
+                         &out[size_t(layer)], sizeof(glm::vec4), layer);
+    return out;
+}
+
+}  // namespace shoal

@@ -1,0 +1,57 @@
+// The state of the fused step in fragments: float textures, a set for each group, packed as
+// shaders/fused/state.glsl says.
+//
+//   an array texture is 1024 texels wide: 4-vector e of molecule m lies in layer e at (m mod 1024, m / 1024)
+//
+//   state     positions, then velocities (then the last changes of both), 3 floats a vertex    (two sides)
+//   record    xyz anchor, m; w: 1 + seed, negative once pins are released    (two sides where it changes)
+//   constant  x scale, y phase, rad; only where instances differ
+//   normal    3 floats a vertex, unit; only where something is drawn
+//
+// Texels past the last molecule, up to the end of its row, do what it does.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "gpu/framebuffer.h"
+#include "gpu/texture.h"
+#include "simulate/packed_state.h"
+
+namespace shoal {
+
+class GroupLayers : public PackedState {
+  public:
+    // A draw writes at most so many `targets`.
+    // Error: out of memory; says of which group and how much it would take.
+    GroupLayers(gpu::Context& context, const GroupPlan& group, bool normals, int targets);
+
+    const gpu::Texture& state() const { return state_[size_t(current_)]; }
+    const gpu::Texture& records() const { return records_[records_[1] ? size_t(current_) : 0]; }
+    const gpu::Texture& constants() const { return constants_; }
+    const gpu::Texture& normals() const { return normals_; }
+    // One for each draw of a frame, into the other side; and of normals.
+    const std::vector<gpu::Framebuffer>& newState() const { return newState_[size_t(current_)]; }
+    const std::vector<gpu::Framebuffer>& newNormals() const { return newNormals_; }
+    void flip() { current_ = 1 - current_; }
+
+    bool hasConstants() const override { return bool(constants_); }
+    bool hasNormals() const override { return bool(normals_); }
+
+  private:
+    template <typename Self>
+    static auto& textureOf(Self& self, Values values);
+    bool hasSteering() const override { return false; }
+    void upload(Values values, const std::vector<glm::vec4>& packed) override;
+    std::vector<glm::vec4> download(Values values) const override;
+    std::vector<glm::vec4> download(Values values, size_t molecule) const override;
+
+    int current_ = 0;
+    std::array<gpu::Texture, 2> state_, records_;
+    gpu::Texture constants_, normals_;
+    std::array<std::vector<gpu::Framebuffer>, 2> newState_;
+    std::vector<gpu::Framebuffer> newNormals_;
+};
+
+}  // namespace shoal

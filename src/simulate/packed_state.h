@@ -1,0 +1,54 @@
+// The state of a group as the fused step keeps it, packed into 4-vectors as shaders/fused/state.glsl says,
+// wherever these lie: in buffers (simulate/buffer_state.h) or in the layers of textures
+// (simulate/layer_state.h). This packs and unpacks them.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "compile/plan.h"
+
+namespace shoal {
+
+class PackedState {
+  public:
+    virtual ~PackedState() = default;
+
+    void write(const GroupPlan& group, const GroupState& state);
+    GroupState read(const GroupPlan& group) const { return readSide(group, false); }
+    // Reads one molecule, and little beside it. Its scale and phase are in `looks`.
+    GroupState readOne(size_t molecule) const;
+    // The side before the last frame, with two of them.
+    GroupState readBefore(const GroupPlan& group) const { return readSide(group, true); }
+    std::vector<glm::vec3> readNormals(
+        const GroupPlan& group) const;  // index = molecule * vertexCount + vertex
+
+    const BufferLayout& layout() const { return layout_; }
+    virtual bool hasConstants() const = 0;
+    virtual bool hasNormals() const = 0;
+
+  protected:
+    enum class Values { state, stateBefore, records, recordsBefore, constants, steering, normals };
+
+    // `molecules`: with what the last are padded to; `together`: those that lie in one block.
+    PackedState(const GroupPlan& group, size_t molecules, size_t together);
+    int elements(Values values) const;  // 4-vectors a molecule
+    size_t molecules() const { return molecules_; }
+    // Scales and phases at the start.
+    void writeConstants(const GroupPlan& group);
+
+    virtual void upload(Values values, const std::vector<glm::vec4>& packed) = 0;
+    virtual std::vector<glm::vec4> download(Values values) const = 0;
+    // The 4-vectors of one molecule.
+    virtual std::vector<glm::vec4> download(Values values, size_t molecule) const = 0;
+    virtual bool hasSteering() const = 0;
+
+  private:
+    GroupState readSide(const GroupPlan& group, bool before) const;
+
+    BufferLayout layout_;
+    size_t molecules_, together_;
+    std::vector<uint32_t> seeds_;
+};
+
+}  // namespace shoal
