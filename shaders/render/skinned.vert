@@ -11,7 +11,8 @@
 layout(location = 0) in vec2 cornerUv;
 layout(location = 1) in vec3 offsets;  // along the molecule's normal: of the place, m; of the tangents
 // The vertex, its weight for the place, and its weights for the two tangents.
-layout(location = 2) in vec4 influences[SKIN_WEIGHTS];
+layout(location = 2) in mat4 influences;      // of the first four
+layout(location = 6) in mat4 moreInfluences;  // and of four more
 
 uniform mat4 toClip;
 
@@ -21,6 +22,11 @@ out vec3 place;
 out vec3 normal;
 flat out vec3 color;
 #endif
+
+vec4 influenceAt(int k)
+{
+    return k < 4 ? influences[min(k, 3)] : moreInfluences[max(k - 4, 0)];
+}
 
 // Sums over the influences, of places from the first one's: what is far from the eye keeps its digits.
 struct Sums
@@ -46,9 +52,9 @@ void main()
 {
     int molecule;
     bool drawn = findDrawn(gl_InstanceID, gl_InstanceID + 1, molecule);
-    vec3 first = drawnPlace(molecule, int(influences[0].x));
+    vec3 first = drawnPlace(molecule, int(influenceAt(0).x));
     Sums sums = Sums(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    for (int k = 0; k < SKIN_WEIGHTS; ++k) addInfluence(sums, molecule, first, influences[k]);
+    for (int k = 0; k < SKIN_WEIGHTS; ++k) addInfluence(sums, molecule, first, influenceAt(k));
 #ifdef SKIN_OFFSETS
     float size = length(sums.normal);
     vec3 outward = size > 0.0 ? sums.normal / size : vec3(0.0);
