@@ -87,7 +87,7 @@ void resolveContacts(int done)
     for (int n = 0; n < VERTICES; ++n) {
         if (!isHeld(pinned[n]) &&
             margin(anchor, touchPosition[n], driftedBy[n], substep, contactTime(done)) < 0.0) {
-            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(touchPosition[n]),
+            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(anchor, touchPosition[n]),
                                    Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime(done));
             changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
             touchPosition[n] = c.position;
@@ -106,7 +106,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(touchPosition[k]),
+            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]),
                                  Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;

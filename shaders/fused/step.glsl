@@ -1,8 +1,7 @@
 // The parts of a substep that a solver calls beside the springs: fields, drag and gravity, the release of
-// pins. Needs fused/state.glsl, generated/molecule.glsl, generated/scene_forces.glsl and, with FIELDS,
-// generated/fields.glsl. Times are in s since the frame's start.
-#include "physics/drag.glsl"
+// pins. Needs fused/state.glsl and generated/molecule.glsl. Times are in s since the frame's start.
 #include "physics/random.glsl"
+#include "step/drag.glsl"
 
 // m/s^2 on vertex i beside drag and springs.
 #if defined(FORCES) || defined(STEERED)
@@ -10,16 +9,6 @@
 #else
 #define FALL(i) gravity
 #endif
-
-// Returns gravity and the forces' acceleration at any position (m), in m/s^2, without steering.
-vec3 fallAt(vec3 position)
-{
-#ifdef FORCES
-    return gravity + forceAcceleration(anchor, position);
-#else
-    return gravity;
-#endif
-}
 
 bool isHeld(bool pinned)
 {
@@ -41,13 +30,6 @@ void letGo(int step)
 #endif
 }
 
-#ifdef FIELDS
-vec3 fieldAt(vec3 position, float time)
-{
-    return wind * fluidVelocity(anchor, position, time);
-}
-#endif
-
 // Fields that are read once a frame are read where the molecule will be in the middle of it.
 void sampleFrame()
 {
@@ -61,13 +43,13 @@ void sampleFrame()
     }
 #ifdef SAMPLE_MOLECULE
     waitForGroup();
-    vec3 u = fieldAt(meanProbe(), middle);
+    vec3 u = fieldAt(anchor, meanProbe(), middle);
     for (int i = 0; i < VERTICES; ++i) {
         fluid[i] = u;
     }
 #else
     for (int j = 0; j < VERTICES; ++j) {
-        fluid[j] = fieldAt(probe[j], middle);
+        fluid[j] = fieldAt(anchor, probe[j], middle);
     }
 #endif
 #endif
@@ -95,7 +77,7 @@ void sampleSubstep(float time)
 #endif
 #if defined(FIELDS) && defined(SAMPLE_SUBSTEPS)
     for (int j = 0; j < VERTICES; ++j) {
-        fluid[j] = fieldAt(probe[j], time);
+        fluid[j] = fieldAt(anchor, probe[j], time);
     }
 #endif
 }
@@ -159,48 +141,10 @@ void thrust(bool whole)
 #endif
 }
 
-// Returns the fluid's velocity: u of the fields, if there are any, and the wind among the forces.
-vec3 fluidOf(vec3 u)
-{
-#ifndef FIELDS
-    u = vec3(0.0);
-#endif
-    return withWind(u);
-}
-
-// Drag towards u and the acceleration a, gravity and forces, by factors of which `decays` and `phis` are across and along
-// the surface, whose normal is n.
-vec3 draggedBy(vec3 velocity, vec3 u, vec3 a, vec3 n, vec2 decays, vec2 phis)
-{
-    u = fluidOf(u);
-#ifdef DIRECTIONAL_DRAG
-    return directionalDragAndGravity(velocity, u, a, n, decays, phis);
-#else
-    return dragAndGravity(velocity, u, a, decays.y, phis.y);
-#endif
-}
-
-// Over a substep, exactly.
-vec3 dragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
-{
-    return draggedBy(velocity, u, a, n, decay, phi);
-}
-
 // Inside an implicit stage, where the velocity that drags is the one that results.
 vec3 stageDragged(vec3 velocity, vec3 u, vec3 a, vec3 n)
 {
     return draggedBy(velocity, u, a, n, stageDecay, stagePhi);
-}
-
-// As an acceleration now, with `a` of gravity and forces.
-vec3 dragAcceleration(vec3 velocity, vec3 u, vec3 a, vec3 n)
-{
-    vec3 slip = fluidOf(u) - velocity;
-    a += slip * dragRate.y;
-#ifdef DIRECTIONAL_DRAG
-    a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
-#endif
-    return a;
 }
 
 // How far drag and the acceleration carry over a substep, exactly.

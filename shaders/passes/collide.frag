@@ -3,7 +3,9 @@
 // it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
 #include "state/textures.glsl"
 #include "generated/colliders.glsl"
-#include "passes/fall.glsl"
+
+uniform vec3 gravity;  // m/s^2
+#include "step/fall.glsl"
 
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
 uniform float contactTime;  // s, of the substep's end since the frame's start; 0 where no collider moves

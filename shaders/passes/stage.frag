@@ -1,39 +1,20 @@
 // stage: one of the four evaluations of a Runge-Kutta step (rk4). positions and velocities are the stage's; its rates
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
-#include "physics/anchor.glsl"
-#include "passes/fall.glsl"
-#include "passes/fluid.glsl"
+#include "passes/step.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
 uniform sampler2D sumVelocities;     // of share v
 uniform sampler2D sumAccelerations;  // of share a
-uniform sampler2D vertexNormals;     // at the stage's positions
-uniform float time;       // s, of the stage, since the frame's start
-uniform float substep;    // h, s
 uniform float share;      // of this stage in the step
 uniform float ahead;      // s, from the start to the next stage
 uniform int stage;        // 0 to 3
-uniform vec2 dragRate;    // 1/s, across and along the surface
-uniform int moveAnchors;  // 1 in the first substep
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
 layout(location = 2) out vec4 newSumVelocity;
 layout(location = 3) out vec4 newSumAcceleration;
-
-vec3 dragAcceleration(vec3 v, vec3 anchor, vec3 x, ivec2 texel)
-{
-    vec3 a = fallAt(anchor, x);
-    vec3 slip = fluidAt(anchor, x, time) - v;
-    a += slip * dragRate.y;
-#ifdef DIRECTIONAL_DRAG
-    vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
-    a += n * (dot(slip, n) * (dragRate.x - dragRate.y));
-#endif
-    return a;
-}
 
 void main()
 {
@@ -45,10 +26,7 @@ void main()
     newSumAcceleration = vec4(0.0);
     if (isPadding(own.y)) return;
     vec3 start = texelFetch(startPositions, texel, 0).xyz;
-    vec3 shift = vec3(0.0);
-#ifdef RECORDS
-    if (moveAnchors == 1) shift = anchorShift(texelFetch(startPositions, stateTexel(0, own.y), 0).xyz);
-#endif
+    vec3 shift = anchorMove(startPositions, own.y);
     start -= shift;
     vec4 vertexInertia = inertia(own.x);
     if (isHeld(vertexInertia, own.y)) {
@@ -59,7 +37,7 @@ void main()
     if (stage == 0) x -= shift;
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-    vec3 a = dragAcceleration(v, anchor, x, texel);
+    vec3 a = dragAcceleration(v, fieldAt(anchor, x, time), fallAt(anchor, x), texelFetch(vertexNormals, texel, 0).xyz);
 #ifdef SPRINGS
     a += springForces(own.x, own.y) * vertexInertia.x;
 #endif

@@ -106,8 +106,6 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, "generated/molecule.glsl");
     include(group.needs.steers, "fused/steering.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
-    include(group.needs.fields, "generated/fields.glsl");
-    include(true, "generated/scene_forces.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
         return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";

@@ -1,9 +1,7 @@
-// Gravity and the scene's forces on a vertex.
+// Gravity and the scene's forces on a vertex. Needs `gravity`, m/s^2.
 #include "generated/scene_forces.glsl"
 
-uniform vec3 gravity;  // m/s^2
-
-// m/s^2
+// Returns their acceleration at a position (m, from the anchor), in m/s^2, without steering.
 vec3 fallAt(vec3 anchor, vec3 position)
 {
 #ifdef FORCES
