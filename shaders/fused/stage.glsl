@@ -20,10 +20,12 @@ float acrossLess;  // 1 - (weight across the surface) / (weight along it)
 
 #define RELAXED(a, b) q[a], q[b], x[a] - x[b], z[a] - z[b], weight[a], weight[b], normal[a], normal[b]
 
-// One spring; n is d / |d|, and nothing moves where ends coincide.
+// One spring of stiffness N/m and damping kg/s; n is d / |d|, and nothing moves where ends coincide.
 void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, float alongB, vec3 normalA,
-           vec3 normalB, inout float pushed, float stiffness, float dampingRate, float restLength)
+           vec3 normalB, inout float pushed, float stiffness, float damping, float restLength, float inverseEta)
 {
+    stiffness *= stiffnessFactor;
+    float dampingRate = damping * dampingFactor * inverseEta;
     vec3 moved = qa - qb;
     vec3 d = apart + moved;
     float squared = dot(d, d);

@@ -1,15 +1,14 @@
 // normals: each vertex sums the area vectors of its triangles (Decker, section 3.5).
 // For directional drag the shape is taken where advect will need it: after leapfrog's first half drift.
 #include "state/textures.glsl"
-#include "physics/normal.glsl"
 
 uniform float aheadTime;  // s: h/2 before leapfrog's advect, else 0
 
 layout(location = 0) out vec4 normal;
 
-vec3 positionAhead(int vertex, int molecule)
+vec3 surfacePlace(int vertex)
 {
-    ivec2 texel = stateTexel(vertex, molecule);
+    ivec2 texel = stateTexel(vertex, ownAddress().y);
     vec3 x = texelFetch(positions, texel, 0).xyz;
 #if defined(LEAPFROG) && defined(DIRECTIONAL_DRAG)
     if (aheadTime > 0.0) {
@@ -23,21 +22,10 @@ vec3 positionAhead(int vertex, int molecule)
     return x;
 }
 
+#include "step/gather_normal.glsl"
+
 void main()
 {
     ivec2 own = ownAddress();
-    if (isPadding(own.y)) {
-        normal = vec4(0.0);
-        return;
-    }
-    vec4 spans = table(topologyBase + own.x);
-    vec3 x = positionAhead(own.x, own.y);
-    vec3 sum = vec3(0.0);
-    int first = int(spans.z);
-    int count = int(spans.w);
-    for (int i = 0; i < count; ++i) {
-        vec4 corners = table(first + i);
-        sum += areaVector(positionAhead(int(corners.x), own.y) - x, positionAhead(int(corners.y), own.y) - x);
-    }
-    normal = vec4(unitNormal(sum, count > 0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0)), 0.0);
+    normal = isPadding(own.y) ? vec4(0.0) : vec4(gatheredNormal(own.x), 0.0);
 }

@@ -1,4 +1,4 @@
-// Hooke's spring with damping along it: the force on end i,
+// Hooke's spring with damping along it: the force on end i, N,
 //   -[k (l - L) + c n.(vi - vj)] n,  n = (xi - xj) / l.
 // The length's guard turns 0/0 of coincident ends into no force. Read as C++ through GLM by the tests.
 
@@ -12,8 +12,15 @@ vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, 
     return d * (squared > 1e-24f ? stiffness * stretch - damping * approach : 0.0f);
 }
 
-// A muscle's rest length at a phase (2 pi f t + phi), in radians, in a body whose bend asks for a share of it.
-float bentLength(float restLength, float amplitude, float phase, float bend)
+// Returns the share by which a muscle lengthens its spring at a time, s: xyz its amplitude, rate (rad/s) and phase (rad).
+// angle: rad, of the rate when the time begins; phase: rad, of the molecule.
+float musclePull(vec3 muscle, float angle, float time, float phase)
 {
-    return restLength * (1.0f + amplitude * sin(phase) + bend);
+    return muscle.x * sin(muscle.y * time + (muscle.z + angle) + phase);
+}
+
+// Returns a rest length, m, that a muscle lengthens by a share, and a body's bend by another.
+float bentLength(float restLength, float pull, float bend)
+{
+    return restLength * (1.0f + pull + bend);
 }

@@ -70,17 +70,20 @@ struct SpringText {
     bool damped = true;
 };
 
+const char* phaseText(const Needs& needs) {
+    return needs.phase ? "phase" : "0.0";
+}
+
 SpringText liveText(const Molecule& molecule, size_t index, const Needs& needs) {
+    const double bend = needs.steers ? bendOf(molecule, molecule.springs[index]) : 0;
     SpringText out;
     out.load = concat("    s = texelFetch(liveSprings, ivec2(", 2 * index,
                       ", 0), 0);\n    m = texelFetch(liveSprings, ivec2(", 2 * index + 1, ", 0), 0);\n");
-    out.stiffness = "s.x * stiffnessFactor";
-    out.damping = "s.y * dampingFactor";
-    out.restLength =
-        concat("bentLength(s.z", needs.scale ? " * scale" : "", ", m.x, m.y * ",
-               needs.steers ? "swimClock(time) + m.z" : "time + (m.z + m.w)", needs.phase ? " + phase" : "");
-    const double bend = needs.steers ? bendOf(molecule, molecule.springs[index]) : 0;
-    out.restLength += bend != 0 ? concat(", ", glslLiteral(bend), " * curvature)") : ", 0.0)";
+    out.stiffness = "s.x";
+    out.damping = "s.y";
+    out.restLength = concat("bentLength(s.z", needs.scale ? " * scale" : "", ", musclePull(m.xyz, ",
+                            needs.steers ? "0.0, swimClock(time), " : "m.w, time, ", phaseText(needs), "), ",
+                            bend != 0 ? concat(glslLiteral(bend), " * curvature)") : "0.0)");
     return out;
 }
 
@@ -91,28 +94,28 @@ std::string restLength(const Molecule& molecule, const Spring& spring, const Nee
     if (!spring.actuation || spring.actuation->amplitude == 0) return length;
     const Actuation& muscle = *spring.actuation;
     const size_t number = muscleNumber(muscleFrequencies(molecule), spring);
-    return concat("bentLength(", length, ", ", glslLiteral(muscle.amplitude), ", ",
-                  glslLiteral(2 * std::numbers::pi * muscle.frequency), " * time + (",
-                  glslLiteral(muscle.phase), " + muscleAngles[", number / 4, "].", "xyzw"[number % 4],
-                  needs.phase ? ") + phase, 0.0)" : "), 0.0)");
+    return concat("bentLength(", length, ", musclePull(vec3(", glslLiteral(muscle.amplitude), ", ",
+                  glslLiteral(2 * std::numbers::pi * muscle.frequency), ", ", glslLiteral(muscle.phase),
+                  "), muscleAngles[", number / 4, "].", "xyzw"[number % 4], ", time, ", phaseText(needs),
+                  "), 0.0)");
 }
 
 SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs) {
     if (needs.liveSprings) return liveText(molecule, index, needs);
     const Spring& spring = molecule.springs[index];
     SpringText out;
-    out.stiffness = concat(glslLiteral(spring.stiffness), " * stiffnessFactor");
-    out.damping = concat(glslLiteral(spring.damping), " * dampingFactor");
+    out.stiffness = glslLiteral(spring.stiffness);
+    out.damping = glslLiteral(spring.damping);
     out.restLength = restLength(molecule, spring, needs);
     out.damped = spring.damping > 0;
     return out;
 }
 
-// To a distance constraint (shaders/solver/verlet.glsl).
-std::string bounded(const Molecule& molecule, const Spring& spring, const std::string& stiffness) {
+// The stiffness of a distance constraint (shaders/solver/verlet.glsl).
+std::string mostStiffness(const Molecule& molecule, const Spring& spring) {
     const double weight =
         1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
-    return concat("min(", stiffness, ", ", glslLiteral(1 / weight), " / (substep * substep))");
+    return concat(glslLiteral(1 / weight), " / (substep * substep)");
 }
 
 const char* springVariables(const Needs& needs) {
@@ -121,9 +124,9 @@ const char* springVariables(const Needs& needs) {
 
 // The force of a spring, added to its ends: of the way between these, and of their relative velocity.
 std::string forceText(const Spring& spring, const SpringText& numbers, const std::string& way,
-                      const std::string& relative, const std::string& stiffness) {
-    return concat(numbers.load, "    f = springForce(", way, ", ", numbers.damped ? relative : "vec3(0.0)",
-                  ", ", stiffness, ", ", numbers.damping, ", ", numbers.restLength, ");\n    ",
+                      const std::string& relative, const std::string& most) {
+    return concat(numbers.load, "    f = sprung(", way, ", ", numbers.damped ? relative : "vec3(0.0)", ", ",
+                  numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", ", most, ");\n    ",
                   at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
 }
 
@@ -135,10 +138,10 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
         springVariables(needs), MuscleWaves(molecule, needs).text());
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
-        const SpringText numbers = numbersOf(molecule, i, needs);
-        out += forceText(spring, numbers, concat(at("x", spring.a), " - ", at("x", spring.b)),
+        out += forceText(spring, numbersOf(molecule, i, needs),
+                         concat(at("x", spring.a), " - ", at("x", spring.b)),
                          concat(at("w", spring.a), " - ", at("w", spring.b)),
-                         isBounded ? bounded(molecule, spring, numbers.stiffness) : numbers.stiffness);
+                         isBounded ? mostStiffness(molecule, spring) : "0.0");
     }
     return out + "}\n";
 }
@@ -154,11 +157,10 @@ std::string sweepText(const Molecule& molecule, const Needs& needs, bool forward
         const size_t index = order[forward ? i : count - 1 - i];
         const Spring& spring = molecule.springs[index];
         const SpringText numbers = numbersOf(molecule, index, needs);
-        const std::string damping = numbers.damped ? concat(numbers.damping, " * inverseEta") : "0.0";
         out += numbers.load;
         if (forward) out += concat("    lambda[", index, "] = 0.0;\n");
         out += concat("    relax(RELAXED(", spring.a, ", ", spring.b, "), lambda[", index, "], ",
-                      numbers.stiffness, ", ", damping, ", ", numbers.restLength, ");\n");
+                      numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", inverseEta);\n");
     }
     return out + "}\n";
 }
@@ -171,11 +173,10 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
     out += MuscleWaves(molecule, needs).text();
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
-        const SpringText numbers = numbersOf(molecule, i, needs);
         const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
-        out += forceText(spring, numbers, concat("(x", a, " - x", b, ") + (q", a, " - q", b, ")"),
-                         concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"),
-                         numbers.stiffness);
+        out += forceText(spring, numbersOf(molecule, i, needs),
+                         concat("(x", a, " - x", b, ") + (q", a, " - q", b, ")"),
+                         concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"), "0.0");
     }
     return out + "}\n";
 }
@@ -333,7 +334,7 @@ std::vector<size_t> sweepOrder(const Molecule& molecule) {
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
     KernelText text;
     text.molecule = moleculeText(molecule, needs);
-    text.forces = "#include \"physics/normal.glsl\"\n#include \"physics/spring.glsl\"\n\n";
+    text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";
     if (needs.springs) text.forces += springText(molecule, needs, solver.kind == SolverKind::verlet);

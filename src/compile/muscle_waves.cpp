@@ -51,20 +51,20 @@ std::string MuscleWaves::text() const {
     if (waves_.empty()) return {};
     std::string out = "    float clock = swimClock(time);\n";
     for (size_t i = 0; i < waves_.size(); ++i)
-        out += concat("    float wave", i, " = sin(", glslLiteral(2 * std::numbers::pi * waves_[i].frequency),
-                      " * clock + ", glslLiteral(waves_[i].phase), phased_ ? " + phase);\n" : ");\n");
+        out += concat("    float wave", i, " = musclePull(vec3(1.0, ",
+                      glslLiteral(2 * std::numbers::pi * waves_[i].frequency), ", ",
+                      glslLiteral(waves_[i].phase), "), 0.0, clock, ", phased_ ? "phase);\n" : "0.0);\n");
     return out;
 }
 
 std::string MuscleWaves::lengthOf(const std::string& length, const Spring& spring) const {
     const double bend = bendOf(*molecule_, spring);
     if (!moves(spring) && bend == 0) return length;
-    std::string out = concat(length, " * (1.0");
-    if (moves(spring))
-        out += concat(" + ", glslLiteral(spring.actuation->amplitude * signOf(*spring.actuation)), " * wave",
-                      waveOf(*spring.actuation));
-    if (bend != 0) out += concat(" + ", glslLiteral(bend), " * curvature");
-    return out + ")";
+    const std::string pull =
+        moves(spring) ? concat(glslLiteral(spring.actuation->amplitude * signOf(*spring.actuation)),
+                               " * wave", waveOf(*spring.actuation))
+                      : "0.0";
+    return concat("bentLength(", length, ", ", pull, ", ", glslLiteral(bend), " * curvature)");
 }
 
 }  // namespace shoal

@@ -108,17 +108,16 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
     needs.springs = needs.springDamping = needs.actuation = needs.scale = needs.phase = true;
     const Molecule molecule = awkward();
     const KernelText text = kernelText(molecule, needs, solver(SolverKind::leapfrog));
-    const std::string number = "([-+.e0-9]+)", muscle = R"(bentLength\()" + number + R"( \* scale, )" +
-                                                        number + ", " + number + R"( \* time \+ \()" +
-                                                        number +
-                                                        R"( \+ muscleAngles\[0\]\.x\) \+ phase, 0\.0\))";
+    const std::string number = "([-+.e0-9]+)", muscle = R"(bentLength\()" + number +
+                                                        R"( \* scale, musclePull\(vec3\()" + number + ", " +
+                                                        number + ", " + number +
+                                                        R"(\), muscleAngles\[0\]\.x, time, phase\), 0\.0\))";
     const auto springs = matches(
-        text.forces,
-        std::regex(R"(f = springForce\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" + number +
-                   R"( \* stiffnessFactor, )" + number + R"( \* dampingFactor, (?:)" + number +
-                   R"( \* scale|)" + muscle + R"()\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
+        text.forces, std::regex(R"(f = sprung\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" +
+                                number + ", " + number + ", (?:" + number + R"( \* scale|)" + muscle +
+                                R"(), 0\.0\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
     REQUIRE(springs.size() == 6);
-    CHECK(matches(text.forces, std::regex("springForce\\(")).size() == 6);
+    CHECK(matches(text.forces, std::regex("sprung\\(")).size() == 6);
     for (size_t i = 0; i < 6; ++i) {
         const Spring& spring = molecule.springs[i];
         const std::smatch& found = springs[i];
@@ -299,7 +298,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
         {"FIELDS", {"gustVelocity(", "fieldParameters"}, [](Scene& s) { s.fields.clear(); }},
         {"PINS", {"pullOnPins()\n{", "bool[](true"}, [](Scene& s) { s.groups[0].held = false; }},
         {"RELEASE", {"pullOnPins()\n{"}, [](Scene& s) { s.groups[0].release.reset(); }},
-        {"SPRINGS", {"= springForce("}, [](Scene& s) { s.groups[0].molecule.springs.clear(); }},
+        {"SPRINGS", {"= sprung("}, [](Scene& s) { s.groups[0].molecule.springs.clear(); }},
         {"DIRECTIONAL_DRAG",
          {},
          [](Scene& s) {
@@ -307,7 +306,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
          }},
         {"LEAPFROG", {}, [](Scene& s) { s.solver.kind = SolverKind::euler, s.solver.substeps = 32; }},
         {"CONSTANTS",
-         {"* scale, ", "+ phase"},
+         {"* scale, ", "time, phase)"},
          [](Scene& s) {
              s.groups[0].phaseSpread = 0, s.groups[0].place.scale = {1, 1};
          }},

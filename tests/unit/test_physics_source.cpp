@@ -152,7 +152,10 @@ TEST_CASE("shader springs agree with the reference", "[physics]") {
     CHECK(shader::springForce(vec3(0), vec3(1), 300, 2, 1) == vec3(0));
     CHECK(shader::springForce(vec3(1e-13f, 0, 0), vec3(1), 300, 2, 1) == vec3(0));
     CHECK(shader::springForce(vec3(1, 0, 0), vec3(0), 300, 2, 1) == vec3(0));
-    CHECK(shader::bentLength(2, 0.25f, std::numbers::pi_v<float> / 2, -0.5f) == Approx(1.5));
+    const float pull =
+        shader::musclePull({0.25f, 3, 0.5f}, 0.25f, 0.5f, std::numbers::pi_v<float> / 2 - 2.25f);
+    CHECK(pull == Approx(0.25));
+    CHECK(shader::bentLength(2, pull, -0.5f) == Approx(1.5));
 }
 
 TEST_CASE("shader drag agrees with the reference's step", "[physics]") {
