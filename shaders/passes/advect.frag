@@ -5,6 +5,7 @@
 // The scene's forces join gravity, a wind among them the fields.
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
 #include "passes/step.glsl"
+#include "step/drift.glsl"
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -27,25 +28,18 @@ void main()
     }
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
     vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
+    float ahead = 0.0;  // s, to where drag and gravity are taken
 #ifdef LEAPFROG
-    float halfStep = 0.5 * substep;
+    ahead = 0.5 * substep;
 #ifdef SPRINGS
-    v += texelFetch(accelerations, texel, 0).xyz * halfStep;
+    v += texelFetch(accelerations, texel, 0).xyz * ahead;
 #endif
-    vec3 probe = x + v * halfStep;
-    vec3 before = v;
-    v = dragged(v, fieldAt(anchor, probe, time + halfStep), fallAt(anchor, probe), n);
-    x += ((slips == 1 ? v : before) + v) * halfStep;  // added at once: one rounding, so that contact can take a drift back exactly
-#else
-    v = dragged(v, fieldAt(anchor, x, time), fallAt(anchor, x), n);
-#ifdef VERLET
+#endif
+    vec3 probe = x + v * ahead;
     vec3 before = x;
-    x += v * substep;
-    v = (x - before) / substep;
-#else
-    x += v * substep;
-#endif
-#endif
+    vec3 ended = dragged(v, fieldAt(anchor, probe, time + ahead), fallAt(anchor, probe), n);
+    x += driftOf(v, ended);
+    v = velocityAfter(ended, x - before);
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);
 }

@@ -2,14 +2,13 @@
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "passes/step.glsl"
+#include "step/rk4.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
-uniform sampler2D sumVelocities;     // of share v
-uniform sampler2D sumAccelerations;  // of share a
-uniform float share;      // of this stage in the step
-uniform float ahead;      // s, from the start to the next stage
-uniform int stage;        // 0 to 3
+uniform sampler2D sumVelocities;     // of shareOf(stage) v
+uniform sampler2D sumAccelerations;  // of shareOf(stage) a
+uniform int stage;                   // 0 to 3
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -41,16 +40,15 @@ void main()
 #ifdef SPRINGS
     a += springForces(own.x, own.y) * vertexInertia.x;
 #endif
-    vec3 sumV = v * share;
-    vec3 sumA = a * share;
+    vec3 sumV = v * shareOf(stage);
+    vec3 sumA = a * shareOf(stage);
     if (stage > 0) {
         sumV += texelFetch(sumVelocities, texel, 0).xyz;
         sumA += texelFetch(sumAccelerations, texel, 0).xyz;
     }
     vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
-    bool last = stage == 3;
-    newPosition = vec4(start + (last ? sumV * substep : v * ahead), 0.0);
-    newVelocity = vec4(startVelocity + (last ? sumA * substep : a * ahead), 0.0);
+    newPosition = vec4(afterStage(stage, start, v, sumV), 0.0);
+    newVelocity = vec4(afterStage(stage, startVelocity, a, sumA), 0.0);
     newSumVelocity = vec4(sumV, 0.0);
     newSumAcceleration = vec4(sumA, 0.0);
 }

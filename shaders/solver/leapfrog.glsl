@@ -4,6 +4,7 @@
 // A thrust acts over h/2 before and after all of it.
 // The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
+#include "step/drift.glsl"
 
 #ifdef SPRINGS
 PER_VERTEX acceleration[VERTICES];  // m/s^2, of the springs
@@ -54,10 +55,9 @@ void advance(int step)
     sampleSubstep((float(step) + 0.5) * substep);
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) {
-            vec3 before = v[i];
-            v[i] = dragged(v[i], fluid[i], FALL(i), normal[i]);
-            // added at once: one rounding, so that contact can take a drift back exactly
-            x[i] += ((slips != 0 ? v[i] : before) + v[i]) * halfStep;
+            vec3 ended = dragged(v[i], fluid[i], FALL(i), normal[i]);
+            x[i] += driftOf(v[i], ended);
+            v[i] = ended;
         }
     }
 }

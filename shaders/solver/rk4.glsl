@@ -1,4 +1,5 @@
 // rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
+#include "step/rk4.glsl"
 
 PER_VERTEX startPosition[VERTICES];
 PER_VERTEX startVelocity[VERTICES];
@@ -9,9 +10,9 @@ void beginSolver()
 {
 }
 
-// The accelerations of a stage at x, v; adds them up and moves x, v to the next.
+// Stage s: adds up its rates at x, v and moves x, v to the next, or to the substep's end.
 // `step`: 0 in the frame's first stage, where pins may be released.
-void stage(int step, float time, float share, float ahead)
+void stage(int s, int step, float time)
 {
 #ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
@@ -26,11 +27,12 @@ void stage(int step, float time, float share, float ahead)
 #ifdef SPRINGS
         a += force[i] * inverseMass[i];
 #endif
-        sumVelocity[i] += v[i] * share;
-        sumAcceleration[i] += a * share;
-        bool held = isHeld(pinned[i]);
-        x[i] = held ? x[i] : startPosition[i] + v[i] * ahead;
-        v[i] = held ? v[i] : startVelocity[i] + a * ahead;
+        sumVelocity[i] += v[i] * shareOf(s);
+        sumAcceleration[i] += a * shareOf(s);
+        if (!isHeld(pinned[i])) {
+            x[i] = afterStage(s, startPosition[i], v[i], sumVelocity[i]);
+            v[i] = afterStage(s, startVelocity[i], a, sumAcceleration[i]);
+        }
     }
 }
 
@@ -46,16 +48,7 @@ void advance(int step)
     }
     float start = float(step) * substep;
     for (int s = 0; s < 4; ++s) {
-        bool outer = s == 0 || s == 3;
-        float at = s == 0 ? 0.0 : s == 3 ? 1.0 : 0.5;
-        float ahead = s == 2 ? 1.0 : s == 3 ? 0.0 : 0.5;
-        stage(s == 0 ? step : 1, start + at * substep, outer ? 1.0 / 6.0 : 1.0 / 3.0, ahead * substep);
-    }
-    for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) {
-            x[i] = startPosition[i] + sumVelocity[i] * substep;
-            v[i] = startVelocity[i] + sumAcceleration[i] * substep;
-        }
+        stage(s, s == 0 ? step : 1, start + (s == 0 ? 0.0 : s == 3 ? 1.0 : 0.5) * substep);
     }
     thrust(false);
 }

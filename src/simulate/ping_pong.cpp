@@ -288,7 +288,7 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
 
 // Stage s of a substep reads side s - 1 of the stages, or the state, and writes side s, or the new state.
 void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int s) {
-    constexpr double shares[] = {1 / 6.0, 1 / 3.0, 1 / 3.0, 1 / 6.0}, at[] = {0, 0.5, 0.5, 1};
+    constexpr double at[] = {0, 0.5, 0.5, 1};
     const size_t read = size_t(s + 1) % 2, write = size_t(s) % 2;
     const Texture& position = s == 0 ? state.position.read(index) : state.stagePosition[read];
     const Texture& velocity = s == 0 ? state.velocity.read(index) : state.stageVelocity[read];
@@ -310,8 +310,6 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     program.texture("sumAccelerations", 11, state.sumAcceleration[read]);
     program.set("time", float(time - step.frame.time));
     program.set("substep", float(step.h));
-    program.set("share", float(shares[s]));
-    program.set("ahead", float(s < 3 ? at[s + 1] * step.h : 0));
     program.set("stage", s);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     program.set("wind", float(step.frame.parameters.wind));
