@@ -21,6 +21,7 @@ layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
 
 #ifdef WALLS
 #include "generated/colliders.glsl"
+#include "step/wall.glsl"
 
 uniform float wallTime;   // s, since the frame's start
 uniform float wallStep;   // s, of a contact step
@@ -36,9 +37,7 @@ void findWall(int sphere, vec3 anchor, vec3 position, vec3 velocity, float radiu
     vec4 wall = vec4(0.0, 1.0, 0.0, 1e30);
     bool near = distance < 0.25 * radius + length(velocity) * wallStep;
     while (near) {
-        vec3 slope = vec3(clearance(anchor, position + vec3(wallNudge, 0.0, 0.0), wallTime),
-                          clearance(anchor, position + vec3(0.0, wallNudge, 0.0), wallTime),
-                          clearance(anchor, position + vec3(0.0, 0.0, wallNudge), wallTime)) - distance;
+        vec3 slope = wallSlope(anchor, position, wallTime, wallNudge, distance);
         float steep = length(slope);
         if (steep > 0.1 * wallNudge && steep < 1e20) wall = vec4(slope / steep, max(distance, 0.0));
         near = false;

@@ -1,8 +1,12 @@
 // Contact of the molecule's vertices with the colliders, after a substep's drift. Needs fused/step.glsl and
 // generated/colliders.glsl.
-//
-// Leapfrog still owes the velocity half a kick of the springs: contact acts on the velocity that will have it, or friction
-// would cancel only half of what the springs do in a step.
+
+// m/s, of the springs' kicks: what leapfrog still owes to the velocity of vertex i.
+#if defined(LEAPFROG) && defined(SPRINGS)
+#define OWED(i) (acceleration[i] * (0.5 * substep))
+#else
+#define OWED(i) vec3(0.0)
+#endif
 
 // The loops work on copies, so that x and v stay in registers where these loops are kept (a long text for many
 // colliders).
@@ -70,10 +74,7 @@ void resolveContacts(int done)
 {
     for (int i = 0; i < VERTICES; ++i) {
         touchPosition[i] = x[i];
-        touchVelocity[i] = v[i];
-#if defined(LEAPFROG) && defined(SPRINGS)
-        touchVelocity[i] += acceleration[i] * (0.5 * substep);
-#endif
+        touchVelocity[i] = v[i] + OWED(i);
 #if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
         driftedBy[i] = v[i];
 #endif
@@ -121,17 +122,10 @@ void resolveContacts(int done)
     answerAsBody();
 #endif
     for (int i = 0; i < VERTICES; ++i) {
-        vec3 whole = v[i];
-#if defined(LEAPFROG) && defined(SPRINGS)
-        vec3 kick = acceleration[i] * (0.5 * substep);
-        whole += kick;
-        v[i] = touchVelocity[i] != whole ? touchVelocity[i] - kick : v[i];
-#else
-        v[i] = touchVelocity[i];
-#endif
 #ifdef TOUCH_COUNTS
-        touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != whole;
+        touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != v[i] + OWED(i);
 #endif
+        v[i] = withoutKick(touchVelocity[i], v[i], OWED(i));
         x[i] = touchPosition[i];
     }
 #ifdef HISTORY

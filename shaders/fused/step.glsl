@@ -26,7 +26,7 @@ void letGo(int step)
 #ifdef RELEASE
     if (step > 0 || released) return;
     waitForGroup();
-    released = pullOnPins() > releaseForce || uniformFrom(hashSeed(seed, uint(frame))) < releaseChance;
+    released = isReleased(pullOnPins(), releaseForce, seed, frame, releaseChance);
 #endif
 }
 

@@ -1,6 +1,5 @@
 // collide: vertices that entered a collider bounce, slide or rest on its surface.
-// Leapfrog's velocity here still lacks the springs' second half kick: contact acts on the velocity that will have
-// it, or friction would cancel only half of what the springs do in a step and what it holds would creep.
+// Leapfrog's velocity here still lacks the springs' second half kick.
 #include "state/textures.glsl"
 #include "generated/colliders.glsl"
 
@@ -36,7 +35,7 @@ void main()
         Contact contact = collideAll(anchor, x, whole, fall, drifted);
 #endif
         x = contact.position;
-        if (contact.velocity != whole) v = contact.velocity - kick;
+        v = withoutKick(contact.velocity, v, kick);
     }
     newPosition = vec4(x, 0.0);
     newVelocity = vec4(v, 0.0);

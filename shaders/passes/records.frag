@@ -5,9 +5,7 @@
 #ifdef RELEASE
 #include "passes/springs.glsl"
 #include "physics/random.glsl"
-#endif
 
-#ifdef RELEASE
 uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule are released
 uniform float releaseChance;  // in this frame
 uniform int frame;
@@ -28,7 +26,7 @@ void main()
             for (int v = 0; v < vertexCount; ++v)
                 if (inertia(v).y > 0.5) pull = max(pull, length(springForces(v, molecule)));
             uint seed = uint(texelFetch(constants, texel, 0).x);
-            if (pull > releaseForce || uniformFrom(hashSeed(seed, uint(frame))) < releaseChance) record.w = 1.0;
+            if (isReleased(pull, releaseForce, seed, frame, releaseChance)) record.w = 1.0;
         }
 #endif
     }

@@ -108,6 +108,13 @@ Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float 
                    outside ? v : (rests ? vec3(0.0f) : v + change));
 }
 
+// Returns what contact has made of a velocity v to which the solver still owes a kick, without it, all in m/s. Contact acts on
+// v + kick, or friction would cancel only half of what the springs do in a step and what it holds would creep.
+vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
+{
+    return answered != v + kick ? answered - kick : v;
+}
+
 // As the solver takes contact.
 Contact answer(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
 {

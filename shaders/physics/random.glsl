@@ -13,3 +13,9 @@ float uniformFrom(uint hash)
 {
     return float(hash >> 8u) / 16777216.0f;
 }
+
+// Whether a molecule's pins are released in a frame: by a pull (N) above a limit, or by chance.
+bool isReleased(float pull, float limit, uint seed, int frame, float chance)
+{
+    return pull > limit || uniformFrom(hashSeed(seed, uint(frame))) < chance;
+}

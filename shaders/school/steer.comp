@@ -34,6 +34,7 @@ layout(std430, binding = 0) buffer Steering { vec4 steering[]; };
 
 #ifdef WALLS
 #include "generated/colliders.glsl"
+#include "step/wall.glsl"
 
 uniform vec3 wallAnchor;  // m, what places are relative to here: the schools' origin, or the world's where that is near
 uniform vec2 walls;  // m, in which they are turned from; s, how far ahead
@@ -52,9 +53,7 @@ vec3 fromWalls(vec3 place, vec3 velocity)
     bool near = distance < walls.x;
     while (near) {
         float nudge = 0.1 * walls.x;
-        float here = wallDistance(ahead);
-        vec3 slope = vec3(wallDistance(ahead + vec3(nudge, 0.0, 0.0)), wallDistance(ahead + vec3(0.0, nudge, 0.0)),
-                          wallDistance(ahead + vec3(0.0, 0.0, nudge))) - here;
+        vec3 slope = wallSlope(wallAnchor, ahead, 0.5 * duration, nudge, wallDistance(ahead));
         float steep = length(slope);
         if (steep > 0.01 * nudge && steep < 1e20)
             a = slope * (speeds.w * clamp(2.0 - 2.0 * distance / walls.x, 0.0, 1.0) / steep);
