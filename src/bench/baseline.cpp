@@ -6,6 +6,7 @@
 
 #include "bench/baseline_kernels.h"
 #include "bench/baseline_threads.h"
+#include "compile/pack.h"
 #include "core/contract.h"
 
 namespace shoal::bench {
@@ -44,11 +45,6 @@ Kernel kernelFor(const KernelSet& set, const Molecule& molecule) {
     if (matches<Cross>(molecule)) return set.cross;
     if (matches<Fish>(molecule)) return set.fish;
     return set.any;
-}
-
-// The lattice point nearest to where the molecule's first vertex is.
-vec3 anchorOf(vec3 p) {
-    return glm::floor(p * 16.0f + 0.5f) * 0.0625f;
 }
 
 // ---- `scalar`: an array of vertices, loops over springs and vertices. What the compiler vectorises by
@@ -122,7 +118,7 @@ void respond(ScalarVertex& vertex, float distance, const BaselineStep& step) {
 void moveAnchor(std::span<ScalarVertex> vertices, vec3& anchor) {
     const vec3 p = vertices[0].position;
     if (std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && std::abs(p.z) <= 1) return;
-    const vec3 shift = anchorOf(p);
+    const vec3 shift = latticePoint(p);
     anchor += shift;
     for (ScalarVertex& vertex : vertices)
         vertex.position -= shift;
@@ -256,7 +252,7 @@ void Baseline::set(std::span<const vec3> positions, std::span<const vec3> veloci
     const int places = d.kernels ? d.blockCount * d.kernels->lanes : d.count;
     for (int place = 0; place < places; ++place) {
         const int m = std::min(place, d.count - 1);  // the last block is filled up with copies
-        const vec3 anchor = anchorOf(positions[first(m)]);
+        const vec3 anchor = latticePoint(positions[first(m)]);
         for (int i = 0; i < d.vertexCount; ++i) {
             for (int k = 0; k < 3; ++k) {
                 d.at(place, i, k) = positions[first(m) + size_t(i)][k] - anchor[k];

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "bench/baseline_threads.h"
+#include "compile/pack.h"
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "gpu/program.h"
@@ -193,7 +194,7 @@ BenchStart::BenchStart(const BenchCase& one, const Molecule& molecule, int cores
     baseline.get(positions, velocities);
     packed.velocities = velocities;
     for (size_t m = 0; m < packed.anchors.size(); ++m) {
-        packed.anchors[m] = glm::floor(positions[m * vertices] * 16.0f + 0.5f) / 16.0f;
+        packed.anchors[m] = latticePoint(positions[m * vertices]);
         for (size_t i = m * vertices; i < (m + 1) * vertices; ++i)
             packed.positions[i] = positions[i] - packed.anchors[m];
     }

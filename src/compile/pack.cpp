@@ -10,10 +10,6 @@
 
 namespace shoal {
 
-glm::dvec3 latticePoint(const glm::dvec3& position) {
-    return glm::floor(position * 16.0 + 0.5) / 16.0;
-}
-
 SplitPoint splitPoint(const glm::dvec3& point) {
     constexpr double enough = 1e-6;  // m
     const glm::dvec3 off = glm::abs(point - glm::dvec3(glm::vec3(point)));

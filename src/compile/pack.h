@@ -5,8 +5,11 @@
 
 namespace shoal {
 
-// The point of the anchors' lattice, of 1/16 m, nearest to a position (shaders/physics/anchor.glsl).
-glm::dvec3 latticePoint(const glm::dvec3& position);
+// The point of the anchors' lattice, of 1/16 m, nearest to a position, m (shaders/physics/anchor.glsl).
+template <typename Number>
+glm::vec<3, Number> latticePoint(const glm::vec<3, Number>& position) {
+    return glm::floor(position * Number(16) + Number(0.5)) * Number(0.0625);
+}
 
 // A point of the scene in two parts of which each is a float: a point of the lattice, whose difference to an
 // anchor is exact, and the rest. Where one float holds the point to a micrometre it is all rest.

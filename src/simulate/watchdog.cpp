@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compile/choose_solver.h"
+#include "compile/pack.h"
 #include "compile/plan.h"
 #include "simulate/simulation.h"
 
@@ -17,7 +18,7 @@ bool finiteSquare(const glm::vec3& value) {
 
 glm::vec3 anchorShift(const glm::vec3& p) {
     if (std::abs(p.x) <= 1 && std::abs(p.y) <= 1 && std::abs(p.z) <= 1) return glm::vec3(0);
-    return glm::floor(p * 16.0f + 0.5f) * 0.0625f;
+    return latticePoint(p);
 }
 
 // In world coordinates.
