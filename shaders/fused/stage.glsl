@@ -53,12 +53,6 @@ void relax(inout vec3 qa, inout vec3 qb, vec3 apart, vec3 known, float alongA, f
 void releasePins(int step)
 {
 #ifdef RELEASE
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        w[i] = v[i];
-    }
-    springForces(float(step) * substep);
-#endif
-    letGo(step);
+    springForcesNow(step, float(step) * substep);
 #endif
 }

@@ -1,6 +1,7 @@
 // The parts of a substep that a solver calls beside the springs: fields, drag and gravity, the release of
 // pins. Needs fused/state.glsl and generated/molecule.glsl. Times are in s since the frame's start.
 #include "physics/random.glsl"
+#include "step/advance.glsl"
 #include "step/drag.glsl"
 
 // m/s^2 on vertex i beside drag and springs.
@@ -94,8 +95,8 @@ void sampleHere(float time)
     sampleSubstep(time);
 }
 
-// The springs' kick over the whole substep: v += h F(x, v, t) / m.
-void kickWhole(int step, float time)
+// The springs' forces at a time, from x and v, and whether the pins hold them.
+void springForcesNow(int step, float time)
 {
 #ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
@@ -104,11 +105,30 @@ void kickWhole(int step, float time)
     springForces(time);
 #endif
     letGo(step);
+}
+
+// The springs' kick over the whole substep: v += h F(x, v, t) / m.
+void kickWhole(int step, float time)
+{
+    springForcesNow(step, time);
 #ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
         if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
     }
 #endif
+}
+
+// Drag and gravity over the substep on all that is not held, and its drift.
+void driftAll()
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        if (!isHeld(pinned[i])) {
+            vec3 before = x[i];
+            vec3 ended = dragged(v[i], fluid[i], FALL(i), normal[i]);
+            x[i] += driftOf(v[i], ended);
+            v[i] = velocityAfter(ended, x[i] - before);
+        }
+    }
 }
 
 #ifdef THRUST

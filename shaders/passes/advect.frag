@@ -5,7 +5,6 @@
 // The scene's forces join gravity, a wind among them the fields.
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
 #include "passes/step.glsl"
-#include "step/drift.glsl"
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -20,7 +19,6 @@ void main()
         return;
     }
     vec3 x = texelFetch(positions, texel, 0).xyz - anchorMove(positions, own.y);
-    vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (isHeld(inertia(own.x), own.y)) {
         newPosition = vec4(x, 0.0);
         newVelocity = vec4(0.0);
@@ -28,13 +26,12 @@ void main()
     }
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
     vec3 n = texelFetch(vertexNormals, texel, 0).xyz;
-    float ahead = 0.0;  // s, to where drag and gravity are taken
 #ifdef LEAPFROG
-    ahead = 0.5 * substep;
-#ifdef SPRINGS
-    v += texelFetch(accelerations, texel, 0).xyz * ahead;
+    float ahead = 0.5 * substep;  // s, to where drag and gravity are taken
+#else
+    float ahead = 0.0;
 #endif
-#endif
+    vec3 v = kickedVelocity(texel, ahead);
     vec3 probe = x + v * ahead;
     vec3 before = x;
     vec3 ended = dragged(v, fieldAt(anchor, probe, time + ahead), fallAt(anchor, probe), n);

@@ -10,14 +10,8 @@ vec3 surfacePlace(int vertex)
 {
     ivec2 texel = stateTexel(vertex, ownAddress().y);
     vec3 x = texelFetch(positions, texel, 0).xyz;
-#if defined(LEAPFROG) && defined(DIRECTIONAL_DRAG)
-    if (aheadTime > 0.0) {
-        vec3 v = texelFetch(velocities, texel, 0).xyz;
-#ifdef SPRINGS
-        v += texelFetch(accelerations, texel, 0).xyz * aheadTime;
-#endif
-        x += v * aheadTime;
-    }
+#ifdef DIRECTIONAL_DRAG
+    if (aheadTime > 0.0) x += kickedVelocity(texel, aheadTime) * aheadTime;
 #endif
     return x;
 }

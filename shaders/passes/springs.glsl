@@ -14,21 +14,12 @@ int sprungMolecule;  // whose springs are asked for
 float scale;         // of its rest lengths
 float phase;         // of its muscles, rad
 
-vec3 springVelocity(int vertex)
-{
-    vec3 v = vec3(0.0);
-#ifdef SPRING_DAMPING
-    ivec2 texel = stateTexel(vertex, sprungMolecule);
-    v = texelFetch(velocities, texel, 0).xyz;
-#if defined(LEAPFROG) && defined(SPRINGS)
-    // at a frame's start there is no acceleration yet, and what the texture holds may not be a number
-    if (predictTime > 0.0) v += texelFetch(accelerations, texel, 0).xyz * predictTime;
-#endif
-#endif
-    return v;
-}
-
 #define springPlace(vertex) texelFetch(positions, stateTexel(vertex, sprungMolecule), 0).xyz
+#ifdef SPRING_DAMPING
+#define springVelocity(vertex) kickedVelocity(stateTexel(vertex, sprungMolecule), predictTime)
+#else
+#define springVelocity(vertex) vec3(0.0)
+#endif
 #define mostStiffness(vertex, other) (stepsSquared / (inertia(vertex).x + inertia(other).x))
 #include "step/gather_springs.glsl"
 

@@ -2,7 +2,6 @@
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "passes/step.glsl"
-#include "step/rk4.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;

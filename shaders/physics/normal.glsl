@@ -7,9 +7,9 @@ vec3 areaVector(vec3 b, vec3 c)
     return cross(b, c);
 }
 
-// Unit normal of a sum of area vectors; `fallback` where the sum vanishes.
-vec3 unitNormal(vec3 sum, vec3 fallback)
+// Unit normal of a sum of area vectors; up where the sum vanishes.
+vec3 unitNormal(vec3 sum)
 {
     float squared = dot(sum, sum);
-    return squared > 1e-30f ? sum / sqrt(squared) : fallback;
+    return squared > 1e-30f ? sum / sqrt(squared) : vec3(0.0f, 1.0f, 0.0f);
 }

@@ -1,7 +1,6 @@
 // euler: symplectic Euler with drag and gravity taken exactly (Latta, 3 and 8), order 1.
 //   v by the thrust over h;  v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
 // VERLET: the same, then v = (x' - x) / h (solver/verlet.glsl).
-#include "step/drift.glsl"
 
 void beginSolver()
 {
@@ -14,14 +13,7 @@ void advance(int step)
     thrust(true);
     kickWhole(step, time);
     sampleHere(time);
-    for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) {
-            vec3 before = x[i];
-            vec3 ended = dragged(v[i], fluid[i], FALL(i), normal[i]);
-            x[i] += driftOf(v[i], ended);
-            v[i] = velocityAfter(ended, x[i] - before);
-        }
-    }
+    driftAll();
 }
 
 void finishSolver()

@@ -4,7 +4,6 @@
 // A thrust acts over h/2 before and after all of it.
 // The loop over the substeps is turned so that contact is its end: the second half kick of a substep opens the next
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
-#include "step/drift.glsl"
 
 #ifdef SPRINGS
 PER_VERTEX acceleration[VERTICES];  // m/s^2, of the springs
@@ -53,13 +52,7 @@ void advance(int step)
     surfaceNormals();
 #endif
     sampleSubstep((float(step) + 0.5) * substep);
-    for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) {
-            vec3 ended = dragged(v[i], fluid[i], FALL(i), normal[i]);
-            x[i] += driftOf(v[i], ended);
-            v[i] = ended;
-        }
-    }
+    driftAll();
 }
 
 void finishSolver()

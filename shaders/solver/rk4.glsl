@@ -1,5 +1,4 @@
 // rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
-#include "step/rk4.glsl"
 
 PER_VERTEX startPosition[VERTICES];
 PER_VERTEX startVelocity[VERTICES];
@@ -14,13 +13,7 @@ void beginSolver()
 // `step`: 0 in the frame's first stage, where pins may be released.
 void stage(int s, int step, float time)
 {
-#ifdef SPRINGS
-    for (int i = 0; i < VERTICES; ++i) {
-        w[i] = v[i];
-    }
-    springForces(time);
-#endif
-    letGo(step);
+    springForcesNow(step, time);
     sampleHere(time);
     for (int i = 0; i < VERTICES; ++i) {
         vec3 a = dragAcceleration(v[i], fluid[i], FALL(i), normal[i]);

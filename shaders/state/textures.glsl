@@ -37,6 +37,17 @@ bool isPadding(int molecule)
     return molecule >= moleculeCount;
 }
 
+// Returns the velocity of a texel, m/s, after leapfrog's kick by the springs over a time, s.
+vec3 kickedVelocity(ivec2 texel, float time)
+{
+    vec3 v = texelFetch(velocities, texel, 0).xyz;
+#if defined(LEAPFROG) && defined(SPRINGS)
+    // at a frame's start there is no acceleration yet, and what the texture holds may not be a number
+    if (time > 0.0) v += texelFetch(accelerations, texel, 0).xyz * time;
+#endif
+    return v;
+}
+
 // x 1/mass, y pinned, z mass
 vec4 inertia(int vertex)
 {

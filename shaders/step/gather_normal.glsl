@@ -14,5 +14,5 @@ vec3 gatheredNormal(int vertex)
         vec4 corners = table(first + t);
         sum += areaVector(surfacePlace(int(corners.x)) - place, surfacePlace(int(corners.y)) - place);
     }
-    return unitNormal(sum, count > 0 ? vec3(0.0, 1.0, 0.0) : vec3(0.0));
+    return count > 0 ? unitNormal(sum) : vec3(0.0);
 }

@@ -195,8 +195,7 @@ std::string normalText(const Molecule& molecule) {
         }
     }
     for (size_t v = 0; v < covered.size(); ++v)
-        if (covered[v])
-            out += concat("    normal[", v, "] = unitNormal(normal[", v, "], vec3(0.0, 1.0, 0.0));\n");
+        if (covered[v]) out += concat("    normal[", v, "] = unitNormal(normal[", v, "]);\n");
     return out + "}\n";
 }
 
