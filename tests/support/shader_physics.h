@@ -1,4 +1,5 @@
-// shaders/physics as C++: the text that the GPU runs, compiled through GLM, so that a test can call it.
+// shaders/physics and step/advance.glsl as C++: the text that the GPU runs, compiled through GLM, so that a
+// test can call it.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,6 +10,7 @@
 #pragma GCC diagnostic ignored "-Wfloat-conversion"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wmissing-declarations"
 
 namespace shoal::shader {
@@ -35,6 +37,11 @@ namespace {
 #include "physics/solid.glsl"
 #include "physics/spring.glsl"
 // clang-format on
+float substep = 0;
+int slips = 0;
+#define LEAPFROG
+#include "step/advance.glsl"
+#undef LEAPFROG
 
 }  // namespace
 

@@ -231,6 +231,43 @@ TEST_CASE("random numbers are uniform and hang on both seed and counter", "[phys
     CHECK(shader::hashSeed(1, 2) != shader::hashSeed(2, 1));
 }
 
+TEST_CASE("pins are released by a pull above the limit, or by chance", "[physics]") {
+    CHECK(shader::isReleased(2, 1, 7, 3, 0));
+    CHECK_FALSE(shader::isReleased(1, 1, 7, 3, 0));
+    CHECK(shader::isReleased(0, 1, 7, 3, 1));
+    int released = 0;
+    for (uint32_t seed = 0; seed < 10000; ++seed)
+        released += shader::isReleased(0, 1, seed, 3, 0.25f);
+    CHECK(released == Approx(2500).margin(130));  // three standard errors
+}
+
+TEST_CASE("contact leaves a velocity without the kick that is owed, and as it was where nothing touches",
+          "[physics]") {
+    const vec3 v(0.1f, -3, 0.7f), kick(1e-3f, 0.3f, 7);
+    CHECK(shader::withoutKick(v + kick, v, kick) == v);
+    CHECK(shader::withoutKick(vec3(0), v, kick) == -kick);
+}
+
+TEST_CASE("leapfrog drifts by half of the old and half of the new velocity, where it slips by the new one",
+          "[physics]") {
+    const vec3 v(1, -2, 3), dragged(3, 2, -1);
+    shader::substep = 0.25f, shader::slips = 0;
+    CHECK(shader::driftOf(v, dragged) == vec3(0.5f, 0, 0.25f));
+    shader::slips = 1;
+    CHECK(shader::driftOf(v, dragged) == vec3(0.75f, 0.5f, -0.25f));
+}
+
+TEST_CASE("the stages of rk4 add up to its polynomial", "[physics]") {
+    const float h = 0.5f, start = 1;
+    shader::substep = h;
+    vec3 x(start), sum(0);  // of dx/dt = x
+    for (int s = 0; s < 4; ++s) {
+        sum += x * shader::shareOf(s);
+        x = shader::afterStage(s, vec3(start), x, sum);
+    }
+    CHECK(x.x == Approx(1 + h + h * h / 2 + h * h * h / 6 + h * h * h * h / 24).epsilon(1e-6));
+}
+
 TEST_CASE("bilinear heights", "[physics]") {
     CHECK(shader::bilinear(1, 2, 3, 4, {0, 0}) == 1);
     CHECK(shader::bilinear(1, 2, 3, 4, {1, 0}) == 2);
