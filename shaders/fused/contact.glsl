@@ -1,11 +1,13 @@
 // Contact of the molecule's vertices with the colliders, after a substep's drift. Needs fused/step.glsl and
 // generated/colliders.glsl.
 
-// m/s, of the springs' kicks: what leapfrog still owes to the velocity of vertex i.
+// m/s, of the springs' kicks: what leapfrog still owes to the velocity of vertex i, and what contact answers without it.
 #if defined(LEAPFROG) && defined(SPRINGS)
 #define OWED(i) (acceleration[i] * (0.5 * substep))
+#define ANSWERED(i) withoutKick(touchVelocity[i], v[i], OWED(i))
 #else
 #define OWED(i) vec3(0.0)
+#define ANSWERED(i) touchVelocity[i]
 #endif
 
 // The loops work on copies, so that x and v stay in registers where these loops are kept (a long text for many
@@ -125,7 +127,7 @@ void resolveContacts(int done)
 #ifdef TOUCH_COUNTS
         touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != v[i] + OWED(i);
 #endif
-        v[i] = withoutKick(touchVelocity[i], v[i], OWED(i));
+        v[i] = ANSWERED(i);
         x[i] = touchPosition[i];
     }
 #ifdef HISTORY
