@@ -120,11 +120,11 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
         Lanes lanes;
     };
     const Case cases[] = {
-        {"solver/euler.glsl", "v[i] = dragged(", Lanes::molecule},  // in a loop that is written out
-        {"solver/euler.glsl", "v[i] = dragged(", Lanes::vertex},    // and spread over lanes
+        {"fused/step.glsl", "vec3 ended = dragged(", Lanes::molecule},  // in a loop that is written out
+        {"fused/step.glsl", "vec3 ended = dragged(", Lanes::vertex},    // and spread over lanes
         {"solver/euler.glsl", "sampleHere(time);", Lanes::molecule},
         {"physics/spring.glsl", "float squared = dot(d, d);", Lanes::molecule},
-        {"fused/step.glsl", "return dragAndGravity(", Lanes::molecule},
+        {"step/drag.glsl", "return dragAndGravity(", Lanes::molecule},
     };
     for (const auto& [file, text, lanes] : cases) {
         fs::remove_all(root);
