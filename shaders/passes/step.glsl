@@ -13,6 +13,9 @@ uniform vec2 dragRate;     // gamma, 1/s, across and along the surface
 uniform int slips;         // not 0: drag is so heavy that positions drift by the new velocity alone
 uniform bool moveAnchors;  // in the first substep: to where the records pass has just set them
 
+#ifdef FIELDS
+#include "generated/fields.glsl"
+#endif
 #include "step/advance.glsl"
 #include "step/drag.glsl"
 

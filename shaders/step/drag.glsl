@@ -1,11 +1,8 @@
 // Drag on a vertex towards the fluid around it. Below, u is the fields' velocity (m/s), a the acceleration of gravity and
 // forces (m/s^2) and n the normal of the surface, where drag has a direction.
-// Needs `gravity`, `wind`, the factor on the fields, and `decay`, `phi` and `dragRate` of shaders/fused/state.glsl.
+// Needs generated/fields.glsl, where there are FIELDS, `gravity`, `wind`, the factor on the fields, and `decay`, `phi` and `dragRate` of shaders/fused/state.glsl.
 #include "physics/drag.glsl"
 #include "step/fall.glsl"
-#ifdef FIELDS
-#include "generated/fields.glsl"
-#endif
 
 // Returns the fields' velocity at a position (m, from the anchor) and a time (s since the frame's start), in m/s.
 vec3 fieldAt(vec3 anchor, vec3 position, float time)

@@ -106,6 +106,8 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(true, "generated/molecule.glsl");
     include(group.needs.steers, "fused/steering.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
+    // never under a condition: what it includes would be left out with it, and not come again
+    include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
         return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";
