@@ -3,7 +3,6 @@
 
 #include "app/commands.h"
 #include "core/description_text.h"
-#include "molecule/molecule_json.h"
 #include "scene/field_files/field_file.h"
 #include "scene/scene.h"
 
@@ -22,7 +21,9 @@ void addPlaces(std::vector<Place>& out, const Place& place) {
     out.push_back(place);
     for (const Key& key : place.object->keys()) {
         const std::string inner = concat(place.path, ".", key.name);
-        if (key.kind == Key::Kind::object) addPlaces(out, {inner, key.name, key.objects[0]});
+        if (key.kind == Key::Kind::object || key.kind == Key::Kind::byHand)
+            for (const Description* one : key.objects)
+                addPlaces(out, {inner, key.name, one});
         if (key.kind == Key::Kind::list) addPlaces(out, {inner + "[]", key.name, key.objects[0]});
         if (key.kind != Key::Kind::variant) continue;
         for (const Description* one : key.objects)
@@ -34,7 +35,6 @@ std::vector<Place> allPlaces() {
     std::vector<Place> out;
     addPlaces(out, {"scene", "scene", &describe(static_cast<const Scene*>(nullptr))});
     addPlaces(out, {"molecule", "molecule", &describe(static_cast<const Molecule*>(nullptr))});
-    addPlaces(out, {"molecule.defaults", "defaults", &describeDefaults()});
     addPlaces(out, {"layout", "layout", &describe(static_cast<const RawLayout*>(nullptr))});
     return out;
 }

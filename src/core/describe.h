@@ -125,13 +125,13 @@ class Describe {
         addAlternatives<M>(variantIn(static_cast<const M*>(nullptr)));
         return needed();
     }
-    // A key that `read` takes; `schema` is the JSON Schema of its value.
+    // A key that `read` takes.
     template <typename Context = void>
-    Describe& byHand(const char* name, std::string schema, Says says,
+    Describe& byHand(const char* name, Form form, Says says,
                      std::type_identity_t<std::function<void(JsonReader&, S&, Context*)>> read,
                      std::function<JsonValue(const S&, const void*)> write = {}) {
         Key& key = addKey(name, Key::Kind::byHand, std::move(says));
-        key.schema = std::move(schema);
+        key.form = std::move(form);
         key.read = [read](JsonReader& reader, void* object, void* context) {
             read(reader, *static_cast<S*>(object), static_cast<Context*>(context));
         };
@@ -139,7 +139,7 @@ class Describe {
         return *this;
     }
 
-    // The struct that the word "keys" stands for in the JSON Schema of the key before, which is read by hand.
+    // The struct whose keys the key before holds, which is read by hand.
     Describe& of(const Description& keys) {
         last().objects = {&keys};
         return *this;
@@ -149,8 +149,8 @@ class Describe {
     Describe& format(const std::string& name) {
         it_.format_ = name;
         const auto nothing = [](JsonReader&, S&, void*) {};
-        byHand("$schema", R"({"type": "string"})", {"string", "The schema, for editors."}, nothing);
-        byHand("format", concat("{\"const\": \"", name, "\"}"),
+        byHand("$schema", {}, {"string", "The schema, for editors."}, nothing);
+        byHand("format", {.constant = name},
                {concat("`\"", name, "\"`"), "The format of the file and its version."}, nothing);
         return needed();
     }

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <string>
 #include <typeinfo>
@@ -61,6 +62,20 @@ struct Condition {
     std::string because;             // goes on from the name of the key that means nothing
 };
 
+// The value of a key that a function beside the description reads: one value, or lists of them.
+struct Form {
+    enum class Of { text, number, whole, keys, numberOrKeys };
+    struct List {
+        size_t least = 0, most = std::numeric_limits<size_t>::max();
+    };
+    Of of = Of::text;
+    std::vector<List> lists = {};  // how many each holds, the outermost first
+    Range range = {};              // of each number
+    std::optional<double> usual = {};
+    std::string constant = {};  // the only text that it may be
+    bool notEmpty = false;      // a text has at least one character
+};
+
 struct Key {
     enum class Kind {
         number,
@@ -97,7 +112,7 @@ struct Key {
     std::vector<std::string> words;
     Member member;
     std::vector<const Description*> objects;  // of an object or a list: one; of a variant: its alternatives
-    std::string schema;  // byHand: the JSON Schema of its value, in which "keys" stands for that of `objects`
+    Form form;                                // byHand; its keys are those of `objects`
     std::function<void(JsonReader&, void* object, void* context)> read;  // byHand, and instead of a member
     // byHand, and where what is written is not the member itself; null: the key is left out
     std::function<JsonValue(const void* object, const void* context)> write;

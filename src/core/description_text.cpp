@@ -84,10 +84,7 @@ std::string usualText(const Key& key, const Description& of) {
     if (key.needed) return "required";
     if (!key.usual.empty()) return key.usual;
     JsonValue usual = key.unlessZero ? JsonValue() : of.usualValue(key);
-    if (key.kind == Kind::byHand) {
-        const JsonValue schema = parseJson(key.schema, "the schema of " + key.name);
-        if (const JsonValue* value = schema.find("default")) usual = *value;
-    }
+    if (key.form.usual) usual = JsonValue::makeNumber(*key.form.usual);
     if (key.kind == Kind::object && !key.member.optional) return "as below";
     if (usual.kind == JsonValue::Kind::null) return "none";
     std::string out = writeJsonLine(usual);

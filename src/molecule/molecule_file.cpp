@@ -296,15 +296,15 @@ const Description& describe(const Molecule*) {
     using M = Molecule;
     static const auto readSkinOf = [](JsonReader& r, M& molecule, void*) { readSkin(r, molecule); };
     static const auto writeSkinOf = [](const M& molecule, const void*) {
-        return molecule.skin.vertices.empty() ? JsonValue() : skinJson(molecule.skin);
+        return molecule.skin.vertices.empty() ? JsonValue() : describeSkin().write(molecule.skin);
     };
-    static const char* const triples = R"({"type": "array", "maxItems": 1048576, "items":
-        {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}})";
+    static const Form triples = {
+        .of = Form::Of::whole, .lists = {{.most = maxMoleculeTriangles}, {3, 3}}, .range = Range::atLeast(0)};
     static const Description it =
         Describe<M>("molecule", "A small mass-spring mesh that every instance of a group shares.")
             .format("shoal-molecule-1")
             .key("name", &M::name, {"", "Its name, and that of groups that have none."})
-            .byHand<Defaults>("defaults", R"("keys")",
+            .byHand<Defaults>("defaults", {.of = Form::Of::keys},
                               {"object", "Values of elements that do not give their own."}, readDefaults,
                               writeDefaults)
             .of(describeDefaults())
@@ -316,10 +316,9 @@ const Description& describe(const Molecule*) {
                                "Three different vertices each, anticlockwise seen from the front, at most "
                                "1,048,576. They are drawn, and give normals and directional drag."},
                               readTriangles, writeTriangles)
-            .byHand("skin", skinSchema,
-                    {"object",
-                     "A finer mesh that is drawn instead of the triangles and moves with the vertices."},
-                    readSkinOf, writeSkinOf)
+            .byHand("skin", {.of = Form::Of::keys}, {"object", describeSkin().sentence()}, readSkinOf,
+                    writeSkinOf)
+            .of(describeSkin())
             .key("material", &M::material, {"", "How it looks."})
             .derive(findPlaces)
             .rule(checkParts, R"({"properties": {"vertices": {"minItems": 1, "maxItems": 65536},

@@ -40,21 +40,12 @@ std::pair<double, int> commonest(const std::vector<Element>& elements, double El
 // `spelled`: every vertex and spring says its own mass, stiffness and damping, and there are no defaults.
 JsonValue toJson(const Molecule& molecule, bool spelled);
 
-// The key "skin" of a molecule file:
-//
-//   "skin": { "weights":   [[vertex, weight, vertex, weight, ...], ...],   one array a vertex of the skin
-//             "uvs":       [[u, v], ...],                                  as many; all (0, 0) when absent
-//             "offsets":   [m, ...],                                       as many; all 0 when absent
-//             "triangles": [[a, b, c], ...] }                              vertices of the skin
-//
-// Positions are not in the file: they follow from the weights and the molecule's rest shape.
-
-extern const char* const skinSchema;  // the JSON Schema of its value
-
+// The key "skin" of its file. Positions are not in the file: they follow from the weights and the molecule's
+// rest shape.
+const Description& describeSkin();
 // After the molecule's vertices and triangles. Error: located.
 void readSkin(JsonReader& root, Molecule& molecule);
 // Applies the reader's rules to a skin that was made in code.
 void checkSkin(const Molecule& molecule, const Where& where);
-JsonValue skinJson(const Skin& skin);
 
 }  // namespace shoal

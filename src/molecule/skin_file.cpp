@@ -1,25 +1,12 @@
+#include <algorithm>
 #include <cmath>
 
+#include "core/describe.h"
 #include "molecule/molecule_file.h"
 #include "molecule/molecule_json.h"
 #include "molecule/skin.h"
 
 namespace shoal {
-
-const char* const skinSchema = R"({"type": "object", "additionalProperties": false,
-    "required": ["weights", "triangles"], "properties": {
-        "comment": {"$ref": "#/$defs/comment"},
-        "weights": {"description": "For each vertex of the skin: a vertex of the molecule and its weight, up to 8 times; the weights add up to 1.",
-            "type": "array", "maxItems": 262144,
-            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 16}},
-        "uvs": {"description": "Texture coordinates, as many; all (0, 0) when absent.",
-            "type": "array", "maxItems": 262144,
-            "items": {"type": "array", "items": {"type": "number"}, "minItems": 2, "maxItems": 2}},
-        "offsets": {"description": "How far each stands off along the molecule's normal, as many; all 0 when absent. [m]",
-            "type": "array", "maxItems": 262144, "items": {"type": "number"}},
-        "triangles": {"description": "Three vertices of the skin each, anticlockwise seen from the front.",
-            "type": "array", "minItems": 1, "maxItems": 524288,
-            "items": {"type": "array", "items": {"type": "integer", "minimum": 0}, "minItems": 3, "maxItems": 3}}}})";
 
 namespace {
 
@@ -96,14 +83,16 @@ const Elements& numbersOf(const JsonValue& element, const Where& where) {
     return element.items;
 }
 
-void readWeights(const Elements& weights, const Molecule& molecule, Skin& skin, const Where& where) {
+void readWeights(JsonReader& reader, Skin& skin, const Molecule* molecule) {
+    const Elements& weights = *elementsOf(reader, "weights", maxSkinVertices);
+    const Where where(reader);
     for (size_t i = 0; i < weights.size(); ++i) {
         const Where here = where.in("weights", i);
         const Elements& numbers = numbersOf(weights[i], here);
         checkWeightCount(numbers.size(), here);
         SkinVertex vertex;
         for (size_t k = 0; k < numbers.size(); k += 2) {
-            checkIndex(numbers[k].number, molecule.vertices.size(), "the molecule", here.element(k));
+            checkIndex(numbers[k].number, molecule->vertices.size(), "the molecule", here.element(k));
             checkNumber(numbers[k + 1].number, here.element(k + 1));
             vertex.weights.push_back({int(numbers[k].number), numbers[k + 1].number});
         }
@@ -118,11 +107,14 @@ void checkCount(const Elements& elements, size_t count, const Location& where) {
                     elements.size());
 }
 
-void readUvs(const Elements& uvs, Skin& skin, const Where& where) {
-    checkCount(uvs, skin.vertices.size(), where.at("uvs"));
-    for (size_t i = 0; i < uvs.size(); ++i) {
+void readUvs(JsonReader& reader, Skin& skin, const Molecule*) {
+    const Elements* uvs = elementsOf(reader, "uvs", maxSkinVertices);
+    if (!uvs) return;
+    const Where where(reader);
+    checkCount(*uvs, skin.vertices.size(), where.at("uvs"));
+    for (size_t i = 0; i < uvs->size(); ++i) {
         const Where here = where.in("uvs", i);
-        const Elements& pair = numbersOf(uvs[i], here);
+        const Elements& pair = numbersOf((*uvs)[i], here);
         if (pair.size() != 2) throw Error(here.here(), "expected an array of 2 numbers, found ", pair.size());
         for (size_t k = 0; k < 2; ++k) {
             const double number = skin.vertices[i].uv[int(k)] = pair[k].number;
@@ -134,18 +126,25 @@ void readUvs(const Elements& uvs, Skin& skin, const Where& where) {
     }
 }
 
-void readOffsets(const Elements& offsets, const Molecule& molecule, Skin& skin, const Where& where) {
-    checkCount(offsets, skin.vertices.size(), where.at("offsets"));
-    for (size_t i = 0; i < offsets.size(); ++i) {
+void readOffsets(JsonReader& reader, Skin& skin, const Molecule* molecule) {
+    const Elements* offsets = elementsOf(reader, "offsets", maxSkinVertices);
+    if (!offsets) return;
+    const Where where(reader);
+    checkCount(*offsets, skin.vertices.size(), where.at("offsets"));
+    for (size_t i = 0; i < offsets->size(); ++i) {
         const Where here = where.in("offsets", i);
-        needKind(offsets[i], Kind::number, "a number", here);
-        checkNumber(offsets[i].number, here);
-        skin.vertices[i].offset = offsets[i].number;
-        checkOffset(skin.vertices[i], molecule, here);
+        const JsonValue& offset = (*offsets)[i];
+        needKind(offset, Kind::number, "a number", here);
+        checkNumber(offset.number, here);
+        skin.vertices[i].offset = offset.number;
+        checkOffset(skin.vertices[i], *molecule, here);
     }
 }
 
-void readSkinTriangles(const Elements& triangles, Skin& skin, const Where& where) {
+void readSkinTriangles(JsonReader& reader, Skin& skin, const Molecule*) {
+    const Elements& triangles = *elementsOf(reader, "triangles", maxSkinTriangles);
+    const Where where(reader);
+    if (triangles.empty()) throw Error(where.at("triangles"), "expected at least one triangle, found none");
     for (size_t i = 0; i < triangles.size(); ++i) {
         const Where here = where.in("triangles", i);
         const Elements& corners = numbersOf(triangles[i], here);
@@ -161,25 +160,85 @@ void readSkinTriangles(const Elements& triangles, Skin& skin, const Where& where
     }
 }
 
+// ---- Writing
+
+template <typename Element, typename ToJson>
+JsonValue listOf(const std::vector<Element>& elements, const ToJson& toJson) {
+    JsonValue out = JsonValue::makeArray();
+    for (const Element& element : elements)
+        out.items.push_back(toJson(element));
+    return out;
+}
+
+JsonValue writeWeights(const Skin& skin, const void*) {
+    return listOf(skin.vertices, [](const SkinVertex& vertex) {
+        JsonValue pairs = JsonValue::makeArray();
+        for (const SkinWeight& w : vertex.weights) {
+            pairs.items.push_back(JsonValue::makeNumber(w.vertex));
+            pairs.items.push_back(JsonValue::makeNumber(w.weight));
+        }
+        return pairs;
+    });
+}
+
+JsonValue writeUvs(const Skin& skin, const void*) {
+    const auto has = [](const SkinVertex& vertex) { return vertex.uv != glm::dvec2(0); };
+    if (std::none_of(skin.vertices.begin(), skin.vertices.end(), has)) return {};
+    return listOf(skin.vertices, [](const SkinVertex& vertex) { return JsonValue::makeVector(vertex.uv); });
+}
+
+JsonValue writeOffsets(const Skin& skin, const void*) {
+    const auto has = [](const SkinVertex& vertex) { return vertex.offset != 0; };
+    if (std::none_of(skin.vertices.begin(), skin.vertices.end(), has)) return {};
+    return listOf(skin.vertices,
+                  [](const SkinVertex& vertex) { return JsonValue::makeNumber(vertex.offset); });
+}
+
+JsonValue writeSkinTriangles(const Skin& skin, const void*) {
+    return listOf(skin.triangles,
+                  [](const SkinTriangle& t) { return JsonValue::makeVector(glm::dvec3(t.a, t.b, t.c)); });
+}
+
 }  // namespace
+
+const Description& describeSkin() {
+    using Of = Form::Of;
+    const Form::List vertices{.most = maxSkinVertices};
+    static const Description it =
+        Describe<Skin>("skin",
+                       "A finer mesh that is drawn instead of the triangles and moves with the vertices.")
+            .byHand<const Molecule>(
+                "weights", {.of = Of::number, .lists = {vertices, {2, size_t(2 * Skin::mostWeights)}}},
+                {"list of [vertex, weight, ...]",
+                 "For each vertex of the skin, at most 262,144: a vertex of the molecule and its weight, up "
+                 "to 8 times; the "
+                 "weights add up to 1, and may be below 0."},
+                readWeights, writeWeights)
+            .needed()
+            .byHand<const Molecule>("uvs", {.of = Of::number, .lists = {vertices, {2, 2}}},
+                                    {"list of [u, v]", "Texture coordinates, as many."}, readUvs, writeUvs)
+            .usually("all [0, 0]")
+            .byHand<const Molecule>("offsets", {.of = Of::number, .lists = {vertices}},
+                                    {"list of numbers, m",
+                                     "How far each stands off along the molecule's normal, as many; only "
+                                     "with `triangles` of the molecule."},
+                                    readOffsets, writeOffsets)
+            .usually("all 0")
+            .byHand<const Molecule>(
+                "triangles",
+                {.of = Of::whole, .lists = {{1, maxSkinTriangles}, {3, 3}}, .range = Range::atLeast(0)},
+                {"list of [a, b, c]",
+                 "Three vertices of the skin each, anticlockwise seen from the front, 1 to 524,288."},
+                readSkinTriangles, writeSkinTriangles)
+            .needed();
+    return it;
+}
 
 void readSkin(JsonReader& root, Molecule& molecule) {
     auto reader = root.object("skin");
     if (!reader) return;
-    reader->require("weights");
-    reader->require("triangles");
-    const Elements *weights = elementsOf(*reader, "weights", maxSkinVertices),
-                   *uvs = elementsOf(*reader, "uvs", maxSkinVertices),
-                   *offsets = elementsOf(*reader, "offsets", maxSkinVertices),
-                   *triangles = elementsOf(*reader, "triangles", maxSkinTriangles);
-    const Where where(*reader);
     Skin skin;
-    readWeights(*weights, molecule, skin, where);
-    if (uvs) readUvs(*uvs, skin, where);
-    if (offsets) readOffsets(*offsets, molecule, skin, where);
-    readSkinTriangles(*triangles, skin, where);
-    if (skin.triangles.empty())
-        throw Error(where.at("triangles"), "expected at least one triangle, found none");
+    describeSkin().read(*reader, skin, &molecule);
     reader->finish();
     molecule.skin = std::move(skin);
     placeSkin(molecule);
@@ -210,31 +269,6 @@ void checkSkin(const Molecule& molecule, const Where& where) {
             checkIndex(corner, skin.vertices.size(), "the skin", where.in("triangles", i));
         checkCorners({t.a, t.b, t.c}, where.in("triangles", i));
     }
-}
-
-JsonValue skinJson(const Skin& skin) {
-    JsonValue weights = JsonValue::makeArray(), uvs = weights, offsets = weights, triangles = weights;
-    bool anyUv = false, anyOffset = false;
-    for (const SkinVertex& vertex : skin.vertices) {
-        JsonValue pairs = JsonValue::makeArray();
-        for (const SkinWeight& w : vertex.weights) {
-            pairs.items.push_back(JsonValue::makeNumber(w.vertex));
-            pairs.items.push_back(JsonValue::makeNumber(w.weight));
-        }
-        weights.items.push_back(std::move(pairs));
-        uvs.items.push_back(JsonValue::makeVector(vertex.uv));
-        offsets.items.push_back(JsonValue::makeNumber(vertex.offset));
-        anyUv = anyUv || vertex.uv != glm::dvec2(0);
-        anyOffset = anyOffset || vertex.offset != 0;
-    }
-    for (const SkinTriangle& t : skin.triangles)
-        triangles.items.push_back(JsonValue::makeVector(glm::dvec3(t.a, t.b, t.c)));
-    JsonValue out = JsonValue::makeObject();
-    out.add("weights", std::move(weights));
-    if (anyUv) out.add("uvs", std::move(uvs));
-    if (anyOffset) out.add("offsets", std::move(offsets));
-    out.add("triangles", std::move(triangles));
-    return out;
 }
 
 }  // namespace shoal

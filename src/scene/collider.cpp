@@ -195,10 +195,8 @@ const Description& describe(const SurfaceRule*) {
     static const Description it =
         Describe<S>("surfacePair",
                     "Restitution and friction between two surfaces, in place of a collider's own.")
-            .byHand(
-                "between",
-                R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "string", "minLength": 1}})",
-                {"the names of two surfaces", "The two surfaces, in any order."}, readPair)
+            .byHand("between", {.lists = {{2, 2}}, .notEmpty = true},
+                    {"the names of two surfaces", "The two surfaces, in any order."}, readPair)
             .needed()
             .key("restitution", &S::restitution,
                  {"", "The speed after a bounce, as a share of that before.", Range::between(0, 1)})

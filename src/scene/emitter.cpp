@@ -153,9 +153,8 @@ const Description& describe(const Emitter*) {
             .needed()
             .only("from", {"box"}, "is of boxes")
             .byHand<const SceneReading>(
-                "model", R"({"type": "string"})",
-                {"the name of a model", "The model, of which every triangle emits by its area."}, readModel,
-                writeModel)
+                "model", {}, {"the name of a model", "The model, of which every triangle emits by its area."},
+                readModel, writeModel)
             .needed()
             .only("from", {"surface"}, "is of surfaces")
             .key("select", &E::select, {"", "Which part of the model; all of it without."})

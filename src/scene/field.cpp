@@ -105,8 +105,7 @@ const Description& describe(const ShearField*) {
     };
     static const Description it =
         Describe<F>("shear", "A velocity that grows evenly: velocity + gradient · (x − origin).")
-            .byHand("gradient",
-                    R"({"type": "array", "minItems": 3, "maxItems": 3, "items": {"$ref": "#/$defs/vector"}})",
+            .byHand("gradient", {.of = Form::Of::number, .lists = {{3, 3}, {3, 3}}},
                     {"three rows of three numbers, 1/s", "The gradient of the velocity."}, readGradient)
             .needed()
             .key("origin", &F::origin, {"m", "Where the velocity is as given."})

@@ -126,8 +126,8 @@ const Description& describe(const ParticleImage*) {
     const std::string flip = "is of flip-books: \"flipBook\" is not true";
     static const Description it =
         Describe<P>("image", "An image, cut into tiles of the same size.")
-            .byHand("file", R"({"type": "string", "minLength": 1})",
-                    {"the name of a PNG with alpha", "The image."}, readFileOf, writeFileOf)
+            .byHand("file", {.notEmpty = true}, {"the name of a PNG with alpha", "The image."}, readFileOf,
+                    writeFileOf)
             .needed()
             .key("columns", &P::columns,
                  {"", "The number of tiles from left to right.", Range::between(1, mostTiles)})
@@ -136,12 +136,10 @@ const Description& describe(const ParticleImage*) {
                   "The number of tiles from top to bottom; they count along the rows from 0 at the upper "
                   "left.",
                   Range::between(1, mostTiles)})
-            .byHand("tile", R"({"type": "integer", "minimum": 0})", {"whole number", "The only tile in use."},
-                    readTile, writeTile)
-            .byHand(
-                "tiles",
-                R"({"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 0}})",
-                {"[first, last]", "The tiles in use; all without it."}, readTiles, writeTiles)
+            .byHand("tile", {.of = Form::Of::whole, .range = Range::atLeast(0)},
+                    {"whole number", "The only tile in use."}, readTile, writeTile)
+            .byHand("tiles", {.of = Form::Of::whole, .lists = {{2, 2}}, .range = Range::atLeast(0)},
+                    {"[first, last]", "The tiles in use; all without it."}, readTiles, writeTiles)
             .key("flipBook", &P::flipBook,
                  {"",
                   "Whether each particle shows all tiles one after another; else it shows one, by its seed."})

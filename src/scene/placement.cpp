@@ -48,8 +48,7 @@ const Description& describe(const Placement*) {
                    "Random vertices of a model, each once before any twice; random points of its surface, "
                    "evenly by area; random points of a box; a grid, x fastest, then y, then z; or a list."})
             .needed()
-            .byHand<const SceneReading>("model", R"({"type": "string"})",
-                                        {"the name of a model", "The model."}, readModel)
+            .byHand<const SceneReading>("model", {}, {"the name of a model", "The model."}, readModel)
             .needed()
             .only("on", {"vertices", "surface"}, model)
             .key("select", &P::select, {"", "Which part of the model; all of it without."})

@@ -192,9 +192,7 @@ const Description& describe(const ColorScale*) {
             .key("to", &C::to, {"", "The quantity of the last colour, above `from`, and beyond it."})
             .needed()
             .byHand(
-                "colors",
-                R"({"type": "array", "minItems": 2, "maxItems": 8, "items": {"type": "array", "minItems": 3,
-                        "maxItems": 3, "items": {"type": "number", "minimum": 0, "maximum": 1}}})",
+                "colors", {.of = Form::Of::number, .lists = {{2, 8}, {3, 3}}, .range = Range::between(0, 1)},
                 {"2 to 8 colours, each from 0 to 1",
                  "Colours at even distances, linear between. Those of the default rise in lightness in even "
                  "steps, so that the picture can be read in grey as well."},

@@ -57,14 +57,36 @@ inline bool limited(const Range& range) {
 
 inline JsonValue schemaOf(const Description& description);
 
-// With the schema of a key's object in place of the word "keys".
-inline JsonValue withKeys(JsonValue schema, const Key& key) {
-    if (schema.kind == JsonValue::Kind::string && schema.text == "keys") return schemaOf(*key.objects.at(0));
-    for (JsonValue& item : schema.items)
-        item = withKeys(std::move(item), key);
-    for (auto& [name, member] : schema.members)
-        member = withKeys(std::move(member), key);
-    return schema;
+inline JsonValue textSchema(bool notEmpty) {
+    JsonValue out = object({{"type", text("string")}});
+    if (notEmpty) out.add("minLength", JsonValue::makeNumber(1));
+    return out;
+}
+
+inline JsonValue schemaOf(const Form& form, const Key& key) {
+    using Of = Form::Of;
+    if (!form.constant.empty()) return object({{"const", text(form.constant)}});
+    JsonValue out;
+    if (form.of == Of::text) out = textSchema(form.notEmpty);
+    if (form.of == Of::number) out = number("number", form.range);
+    if (form.of == Of::whole) out = number("integer", form.range);
+    if (form.of == Of::keys) out = schemaOf(*key.objects.at(0));
+    if (form.of == Of::numberOrKeys) {
+        JsonValue either = JsonValue::makeArray();
+        either.items = {number("number", form.range), schemaOf(*key.objects.at(0))};
+        out = object({{"anyOf", either}});
+    }
+    for (size_t i = form.lists.size(); i-- > 0;) {
+        JsonValue list = object({{"type", text("array")}});
+        const auto [least, most] = form.lists[i];
+        if (least > 0) list.add("minItems", JsonValue::makeNumber(double(least)));
+        if (most < std::numeric_limits<size_t>::max())
+            list.add("maxItems", JsonValue::makeNumber(double(most)));
+        list.add("items", std::move(out));
+        out = std::move(list);
+    }
+    if (form.usual) out.add("default", JsonValue::makeNumber(*form.usual));
+    return out;
 }
 
 inline JsonValue valueSchema(const Key& key) {
@@ -82,11 +104,8 @@ inline JsonValue valueSchema(const Key& key) {
         return number("integer", Range::atLeast(0));
     case Kind::flag:
         return object({{"type", text("boolean")}});
-    case Kind::text: {
-        JsonValue out = object({{"type", text("string")}});
-        if (key.notEmpty) out.add("minLength", JsonValue::makeNumber(1));
-        return out;
-    }
+    case Kind::text:
+        return textSchema(key.notEmpty);
     case Kind::texts:
         return object({{"type", text("array")},
                        {"minItems", JsonValue::makeNumber(1)},
@@ -116,7 +135,7 @@ inline JsonValue valueSchema(const Key& key) {
     case Kind::list:
         return object({{"type", text("array")}, {"items", schemaOf(*key.objects[0])}});
     case Kind::byHand:
-        return withKeys(parseJson(key.schema, "the schema of " + key.name), key);
+        return schemaOf(key.form, key);
     case Kind::variant:
         break;
     }

@@ -241,7 +241,8 @@ TEST_CASE("the tables of the formats say what the descriptions say", "[descripti
                                          {"vertex", descriptionOf<Vertex>()},
                                          {"spring", descriptionOf<Spring>()},
                                          {"actuation", descriptionOf<Actuation>()},
-                                         {"material", descriptionOf<Material>()}});
+                                         {"material", descriptionOf<Material>()},
+                                         {"skin", &describeSkin()}});
 }
 
 TEST_CASE("tables of keys say type, default and meaning", "[description]") {

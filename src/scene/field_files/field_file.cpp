@@ -206,7 +206,7 @@ const Description& describe(const FileSequence*) {
             .key("frameRate", &F::frameRate, {"Hz", "Files a second; required without `times`.", aboveZero()})
             .key("start", &F::start, {"s", "The time of the first file."})
             .only("frameRate", {}, "is with a \"frameRate\"")
-            .byHand("times", R"({"type": "array", "items": {"type": "number"}, "minItems": 2})",
+            .byHand("times", {.of = Form::Of::number, .lists = {{.least = 2}}},
                     {"list of numbers, s", "The times of the files, rising, instead of `frameRate`."},
                     readTimes)
             .key("repeats", &F::repeats, {"", "Whether the first file follows the last; else the ends hold."})

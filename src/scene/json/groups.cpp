@@ -177,8 +177,7 @@ const Description& describe(const Group*) {
     static const Description it =
         Describe<G>("group", "Molecules or particles of one kind.")
             .location(&G::location)
-            .byHand("molecule", R"({"type": "string", "minLength": 1})",
-                    {"the name of a file", "The molecule."}, readMoleculeOf)
+            .byHand("molecule", {.notEmpty = true}, {"the name of a file", "The molecule."}, readMoleculeOf)
             .usually("required, or `particle`")
             .key("particle", &G::particle, {"", "A type of point particle instead of a molecule."})
             .key("name", &G::name, {"", "Its name in messages and in the panel; no two have the same."})
@@ -195,7 +194,7 @@ const Description& describe(const Group*) {
                                               "What molecules or particles of the group are born from.")
             .writes(writeEmitters)
             .key("school", &G::school, {"", "How they steer by one another."})
-            .byHand("drag", R"({"anyOf": [{"type": "number", "minimum": 0}, "keys"], "default": 0})",
+            .byHand("drag", {.of = Form::Of::numberOrKeys, .range = Range::atLeast(0), .usual = 0},
                     {"number of at least 0, 1/s; or an object",
                      "Stokes drag rate: dv/dt = drag · (u − v) with the fluid's velocity u."},
                     readDrag)

@@ -68,7 +68,7 @@ const Description& describe(const Model*) {
     static const Description it =
         Describe<Model>("model",
                         "A mesh that stands still: it is drawn, carries molecules, and makes colliders.")
-            .byHand("file", R"({"type": "string", "minLength": 1})",
+            .byHand("file", {.notEmpty = true},
                     {"the name of a file",
                      "Any format that Assimp reads, within [limits of time and "
                      "memory](architecture.md#errors); transforms of nodes are applied, "
