@@ -1,6 +1,6 @@
 // apply: a texel a vertex of one group, into the state: what its sphere's contacts do.
 #include "state/textures.glsl"
-#include "contact/reading.glsl"
+#include "state/numbered.glsl"
 
 uniform UINTS slots;      // of a sphere
 uniform UINTS counts;

@@ -1,5 +1,5 @@
 // keys: what is sorted, two spheres a texel.
-#include "contact/reading.glsl"
+#include "state/numbered.glsl"
 #include "physics/cells.glsl"
 #include "contact/staggered.glsl"
 

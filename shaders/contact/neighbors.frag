@@ -4,7 +4,7 @@
 #include "contact/touch.glsl"
 
 #ifdef STAGGERED
-#include "contact/pairs.glsl"
+#include "sort/pairs.glsl"
 #include "contact/staggered.glsl"
 
 uniform usampler2D sorted;
@@ -22,7 +22,7 @@ void searchStaggered(int slot)
 {
     uint sphere = pairAt(sorted, slot).y;
     uint key = staggeredKey(ownCell, ownPlace, cell, keyMask);
-    int place = placeOfSphere(staggered, sphere, placeOfKey(staggered, key, count), count);
+    int place = placeOfNumber(staggered, sphere, placeOfKey(staggered, key, count), count);
     for (int k = -NEIGHBORS; k <= NEIGHBORS; ++k) {
         int at = place + k;
         if (k != 0 && at >= 0 && at < count) {

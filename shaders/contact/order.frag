@@ -1,6 +1,6 @@
 // order: a texel a slot: the records in the order of the keys, so that neighbours in space are read together.
-#include "contact/reading.glsl"
-#include "contact/pairs.glsl"
+#include "state/numbered.glsl"
+#include "sort/pairs.glsl"
 
 uniform usampler2D sorted;
 uniform UINTS spherePlaces;

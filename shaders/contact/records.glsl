@@ -6,7 +6,7 @@
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
 // With TEXTURES motions are by slot as well, and nothing here needs the spheres' numbers.
-#include "contact/reading.glsl"
+#include "state/numbered.glsl"
 #include "physics/cells.glsl"
 
 uniform int count;     // spheres

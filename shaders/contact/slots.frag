@@ -1,6 +1,6 @@
 // slots: a texel a sphere: its place in the order of the keys.
-#include "contact/reading.glsl"
-#include "contact/pairs.glsl"
+#include "state/numbered.glsl"
+#include "sort/pairs.glsl"
 #include "physics/cells.glsl"
 
 uniform usampler2D sorted;
@@ -16,5 +16,5 @@ void main()
     int sphere = ownNumber();
     if (sphere >= count) discard;
     uint key = cellKey(ivec3(fetch(sphereCells, sphere).xyz), uint(keyMask));
-    slot = uvec4(uint(placeOfSphere(sorted, uint(sphere), int(fetch(starts, int(key)).x), count)), 0u, 0u, 0u);
+    slot = uvec4(uint(placeOfNumber(sorted, uint(sphere), int(fetch(starts, int(key)).x), count)), 0u, 0u, 0u);
 }

@@ -1,6 +1,6 @@
 // spheres: a texel a sphere, of one group: from the state to records in the spheres' own order (contact/records.glsl).
 #include "state/textures.glsl"
-#include "contact/reading.glsl"
+#include "state/numbered.glsl"
 #include "physics/cells.glsl"
 
 uniform int firstSphere;   // of the group

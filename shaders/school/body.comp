@@ -1,59 +1,17 @@
-// A lane a molecule of one group: what others know of it, and what it knows of itself, in five 4-vectors.
-//   xyz place, m from the schools' origin         w  1 + seed; 0: it does not live
-//   xyz velocity, m/s                             w  unused
-//   xyz ahead, along its body; unit
-//   xyz up, on its upper side; unit, across `ahead`
-//   xyz turning of its body, rad/s
-// The body's axes are the moments by mass along z and y of the rest shape: what the body's bending leaves of them.
+// A lane a molecule of one group.
+#include "school/body.glsl"
+
 layout(local_size_x = 64) in;
 
-uniform samplerBuffer oldState;
-uniform samplerBuffer oldRecords;
 uniform int partMolecules;
 uniform int firstBody;  // of the part
-uniform vec3 origin;    // m
 
 layout(std430, binding = 0) writeonly buffer Bodies { vec4 bodies[]; };
-
-#include "state/packed.glsl"
-#include "generated/body.glsl"
-#include "physics/random.glsl"
-
-vec3 unit(vec3 v, vec3 otherwise)
-{
-    float size = length(v);
-    return size > 1e-12 ? v / size : otherwise;
-}
 
 void main()
 {
     int molecule = min(int(gl_GlobalInvocationID.x), partMolecules - 1);
-    int first = firstElement(molecule, STATE_ELEMENTS);
-    vec4 record = texelFetch(oldRecords, molecule);
-    vec3 middle;
-    vec3 along;
-    vec3 upward;
-    vec3 velocity;
-    vec3 turning;
-    vec3 rolling;
-    addUp(first, middle, along, upward, velocity, turning, rolling);
-    float label = abs(record.w);
-    // a body without a length goes where it moves; one that stands still has a direction from its seed
-    uint draw = hashSeed(uint(label), 0x5c0001u);
-    float angle = 6.2831853 * uniformFrom(draw);
-    vec3 forward = unit(length(along) > 1e-9 ? along : velocity, vec3(sin(angle), 0.0, cos(angle)));
-    vec3 upper = length(upward) > 1e-9 ? upward : vec3(0.0, 1.0, 0.0);
-    upper = unit(upper - forward * dot(upper, forward), unit(cross(forward, vec3(1.0, 0.0, 0.0)), vec3(0.0, 0.0, 1.0)));
-    vec3 spin = vec3(0.0);
-    if (length(along) > 1e-9) spin = cross(forward, turning) / length(along);
-    if (length(upward) > 1e-9) spin += forward * (dot(cross(upper, rolling), forward) / length(upward));
-#ifdef LIFE
-    label = packedLife(oldState, first).y > 0.0 ? label : 0.0;
-#endif
-    int at = 5 * (firstBody + molecule);
-    bodies[at] = vec4((record.xyz - origin) + middle, label);
-    bodies[at + 1] = vec4(velocity, 0.0);
-    bodies[at + 2] = vec4(forward, 0.0);
-    bodies[at + 3] = vec4(upper, 0.0);
-    bodies[at + 4] = vec4(spin, 0.0);
+    vec4 body[BODY_ELEMENTS];
+    findBody(molecule, body);
+    for (int e = 0; e < BODY_ELEMENTS; ++e) bodies[BODY_ELEMENTS * (firstBody + molecule) + e] = body[e];
 }

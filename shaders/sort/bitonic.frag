@@ -7,9 +7,19 @@ uniform bool crossed, sortedBefore, sortedAfter;
 
 layout(location = 0) out uvec4 kept;
 
+// Whether pair a has to stand before b.
+bool isBefore(uvec2 a, uvec2 b)
+{
+#ifdef TIES_BY_INDEX
+    return a.x < b.x || (a.x == b.x && a.y < b.y);
+#else
+    return a.x < b.x;
+#endif
+}
+
 uvec4 sortedTexel(uvec4 texel, int odd)
 {
-    return texel.z < texel.x && odd < count ? texel.zwxy : texel;
+    return isBefore(texel.zw, texel.xy) && odd < count ? texel.zwxy : texel;
 }
 
 void main()
@@ -28,8 +38,7 @@ void main()
     // The pairs that are compared: i and j, i + 1 and j + 1; crossed, i and j + 1, i + 1 and j.
     int cross = int(crossed);
     bvec2 inside = lessThan(max(ivec2(i, i + 1), ivec2(j + cross, j + 1 - cross)), ivec2(count));
-    bvec2 less = lessThan(other.xz, own.xz), greater = greaterThan(other.xz, own.xz);
-    if (inside.x && (lower ? less.x : greater.x)) own.xy = other.xy;
-    if (inside.y && (lower ? less.y : greater.y)) own.zw = other.zw;
+    if (inside.x && (lower ? isBefore(other.xy, own.xy) : isBefore(own.xy, other.xy))) own.xy = other.xy;
+    if (inside.y && (lower ? isBefore(other.zw, own.zw) : isBefore(own.zw, other.zw))) own.zw = other.zw;
     kept = sortedAfter ? sortedTexel(own, i + 1) : own;
 }

@@ -69,7 +69,7 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
         if (group.needs.life)
             throw Error(group.life->cycle.location, "birth and death need the fused path (OpenGL 4.3)");
     if (plan.school.any())
-        throw Error(plan.school.members[0].school.location, "schooling needs the fused path (OpenGL 4.3)");
+        throw Error(plan.school.members[0].school.location, "schooling needs the fused path");
     for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
             throw Error(group.location,
@@ -139,7 +139,6 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     };
     for (const GroupPlan& group : plan.groups)
         if (group.needs.life) refuse(group.life->cycle.location, "the birth and death of molecules");
-    if (plan.school.any()) refuse(plan.school.members[0].school.location, "schooling");
     if (plan.contact.any())
         refuse(plan.contact.settings.location, "contact between molecules on the fused path");
     checkUniforms(plan, limits);
@@ -254,7 +253,8 @@ static size_t layerBytes(const Plan& plan, bool drawn) {
         const BufferLayout layout = group.layout();
         const int layers = 2 * layout.stateElements() + (group.needs.records ? 2 : 1) +
                            (group.needs.scale || group.needs.phase ? 1 : 0) +
-                           (drawn && group.needs.normals ? layout.positionElements() : 0);
+                           (drawn && group.needs.normals ? layout.positionElements() : 0) +
+                           (group.needs.steers ? 2 * steeringElements : 0);
         texels += size_t(layers) * stateWidth * size_t((group.count + stateWidth - 1) / stateWidth);
     }
     return texels * sizeof(glm::vec4);

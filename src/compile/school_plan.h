@@ -20,9 +20,9 @@ namespace shoal {
 
 struct GroupPlan;
 
-// Number of 4-vectors of a molecule: what is known of it (shaders/school/body.comp), and what steers it
+// Number of 4-vectors of a molecule: what is known of it (shaders/school/body.glsl), and what steers it
 // (shaders/fused/steering.glsl).
-constexpr int bodyElements = 5, steeringElements = 3;
+constexpr int bodyElements = 4, steeringElements = 3;
 
 struct SchoolGrid {
     size_t group = 0;  // whose molecules

@@ -36,6 +36,8 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         for (const Targets& draw : drawsOf(group.kernel.normals.size(), targets))
             programs.normals.push_back(&programs.kernel->also(KernelOptions::Work::normals, draw));
     }
+    if (plan.school.any())
+        school_ = std::make_unique<TextureSchool>(context, shaderRoot, plan, tables, options.cache);
 }
 
 void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target) const {
@@ -50,14 +52,21 @@ void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffe
 }
 
 void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
+    if (school_) school_->step(frame, state, timers);
     {
         const auto timer = timers.time("fused");
         gpu::drawPlainly();
         for (size_t g = 0; g < state.size(); ++g) {
             GroupKernel& kernel = *programs_[g].kernel;
             kernel.update(frame);
-            for (size_t i = 0; i < kernel.steps(); ++i)
-                draw(kernel.useStep(frame, i), g, state[g].newState()[i]);
+            for (size_t i = 0; i < kernel.steps(); ++i) {
+                const Program& program = kernel.useStep(frame, i);
+                if (plan_->groups[g].needs.steers) {
+                    program.texture("steering", kernel_unit::steering, state[g].steering());
+                    program.set("givenSteeringEnd", float(frame.end - frame.time));
+                }
+                draw(program, g, state[g].newState()[i]);
+            }
             state[g].flip();
         }
     }
@@ -86,6 +95,7 @@ void Fragments::watch(gpu::PassTimers& timers) {
 }
 
 std::optional<std::vector<GroupState>> Fragments::readBefore() const {
+    if (school_) return {};  // the muscles' clocks have moved on
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g)
         out.push_back(state[g].readBefore(plan_->groups[g]));

@@ -13,6 +13,7 @@
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
 #include "simulate/state_view.h"
+#include "simulate/texture_school.h"
 #include "simulate/watchdog.h"
 
 namespace shoal {
@@ -37,6 +38,9 @@ class Fragments : public ExecutionPath {
         return state[group].readNormals(plan_->groups[group]);
     }
     std::optional<std::vector<GroupState>> readBefore() const override;
+    bool changeSchool(size_t group, const School& school) override {
+        return school_ && school_->change(group, school);
+    }
     bool alarmed() const override { return query_ && query_->raised(); }
     void disarm() override;
     const ContactResult* contact() const override { return nullptr; }
@@ -57,7 +61,8 @@ class Fragments : public ExecutionPath {
     gpu::Programs made_;
     std::vector<Programs> programs_;  // per group
     gpu::VertexArray noAttributes_;
-    std::unique_ptr<RunawayQuery> query_;  // null: not watched
+    std::unique_ptr<RunawayQuery> query_;    // null: not watched
+    std::unique_ptr<TextureSchool> school_;  // null: there is none
 };
 
 }  // namespace shoal

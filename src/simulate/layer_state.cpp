@@ -56,6 +56,13 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
         constants_ = make(Values::constants, "constants");
         writeConstants(group);
     }
+    for (size_t now = 0; now < 2 && group.needs.steers; ++now)
+        steering_[now] = make(Values::steering, "steering");
+    for (size_t now = 0; now < 2 && group.needs.steers; ++now) {
+        std::vector<gpu::ColorTarget> all;
+        addLayers(steering_[1 - now], all);
+        newSteering_[now] = Framebuffer(context, all, nullptr, "steering");
+    }
     for (size_t now = 0; now < 2; ++now) {
         std::vector<gpu::ColorTarget> all;
         addLayers(state_[1 - now], all);
@@ -84,6 +91,7 @@ auto& GroupLayers::textureOf(Self& self, Values values) {
     case Values::constants:
         return self.constants_;
     case Values::steering:
+        return self.steering_[size_t(self.steeringNow_)];
     case Values::normals:
         break;
     }

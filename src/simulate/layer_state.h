@@ -7,6 +7,7 @@
 //   record    xyz anchor, m; w: 1 + seed, negative once pins are released    (two sides where it changes)
 //   constant  x scale, y phase, rad; only where instances differ
 //   normal    3 floats a vertex, unit; only where something is drawn
+//   steering  as shaders/fused/steering.glsl says, only where they steer    (two sides)
 //
 // Texels past the last molecule, up to the end of its row, do what it does.
 #pragma once
@@ -35,6 +36,10 @@ class GroupLayers : public PackedState {
     const std::vector<gpu::Framebuffer>& newState() const { return newState_[size_t(current_)]; }
     const std::vector<gpu::Framebuffer>& newNormals() const { return newNormals_; }
     void flip() { current_ = 1 - current_; }
+    // What steers them, where they steer; one draw writes its other side.
+    const gpu::Texture& steering() const { return steering_[size_t(steeringNow_)]; }
+    const gpu::Framebuffer& newSteering() const { return newSteering_[size_t(steeringNow_)]; }
+    void flipSteering() { steeringNow_ = 1 - steeringNow_; }
 
     bool hasConstants() const override { return bool(constants_); }
     bool hasNormals() const override { return bool(normals_); }
@@ -42,16 +47,18 @@ class GroupLayers : public PackedState {
   private:
     template <typename Self>
     static auto& textureOf(Self& self, Values values);
-    bool hasSteering() const override { return false; }
+    bool hasSteering() const override { return bool(steering_[0]); }
     void upload(Values values, const std::vector<glm::vec4>& packed) override;
     std::vector<glm::vec4> download(Values values) const override;
     std::vector<glm::vec4> download(Values values, size_t molecule) const override;
 
     int current_ = 0;
-    std::array<gpu::Texture, 2> state_, records_;
+    int steeringNow_ = 0;
+    std::array<gpu::Texture, 2> state_, records_, steering_;
     gpu::Texture constants_, normals_;
     std::array<std::vector<gpu::Framebuffer>, 2> newState_;
     std::vector<gpu::Framebuffer> newNormals_;
+    std::array<gpu::Framebuffer, 2> newSteering_;
 };
 
 }  // namespace shoal

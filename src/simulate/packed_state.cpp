@@ -128,7 +128,11 @@ void PackedState::write(const GroupPlan& group, const GroupState& state) {
         // what another plan's state does not have
         std::vector<glm::vec4> steering = unsteered(molecules_);
         std::copy(state.steering.begin(), state.steering.end(), steering.begin());
-        upload(Values::steering, steering);
+        const Packer steeringPacker{layout_, steeringElements, together_};
+        std::vector<glm::vec4> packedSteering(steering.size());
+        for (size_t i = 0; i < steering.size(); ++i)
+            packedSteering[steeringPacker.at(i / steeringElements, int(i % steeringElements))] = steering[i];
+        upload(Values::steering, packedSteering);
     }
     if (hasConstants() && !state.looks.empty()) {
         std::vector<glm::vec4> looks(molecules_);
@@ -156,8 +160,11 @@ GroupState PackedState::readSide(const GroupPlan& group, bool before) const {
         state.released.push_back(std::signbit(records[m].w));
     }
     if (hasSteering()) {
-        state.steering = download(Values::steering);
-        state.steering.resize(count * steeringElements);
+        const std::vector<glm::vec4> steering = download(Values::steering);
+        const Packer steeringPacker{layout_, steeringElements, together_};
+        for (size_t i = 0; i < count * steeringElements; ++i)
+            state.steering.push_back(
+                steering[steeringPacker.at(i / steeringElements, int(i % steeringElements))]);
     }
     if (!layout_.life) return state;
     for (size_t m = 0; m < count; ++m) {

@@ -79,13 +79,15 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
                        concat("NEIGHBORS ", contact_->settings.neighbors)};
     if (staggered_) options.defines.emplace_back("STAGGERED");
     options.cache = cache;
+    options.fragment = "sort/starts.frag";
+    options.label = "contact starts";
+    starts_ = Program(context, shaderRoot, options);
     const auto make = [&](const char* file) {
         options.fragment = concat("contact/", file, ".frag");
         options.label = concat("contact ", file);
         return Program(context, shaderRoot, options);
     };
     keys_ = make("keys");
-    starts_ = make("starts");
     order_ = make("order");
     slots_ = make("slots");
     makeStages(options, make);

@@ -75,7 +75,7 @@ size_t NetworkSort::most(const gpu::ContextInfo& info, Kind kind) {
 }
 
 NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
-                         int rowLength, gpu::ProgramCache* cache)
+                         int rowLength, gpu::ProgramCache* cache, Ties ties)
     : kind_(kind),
       capacity_(checkedCapacity(context.info(), kind, capacity)),
       count_(capacity_),
@@ -91,6 +91,8 @@ NetworkSort::NetworkSort(gpu::Context& context, const std::string& shaderRoot, K
     options.fragment = kind == Kind::bitonic ? "sort/bitonic.frag" : "sort/odd_even_merge.frag";
     options.label = name(kind);
     options.cache = cache;
+    EXPECTS(ties == Ties::any || kind == Kind::bitonic);
+    if (ties == Ties::byIndex) options.defines.emplace_back("TIES_BY_INDEX");
     program_ = gpu::Program(context, shaderRoot, options);
 }
 
@@ -116,9 +118,7 @@ std::vector<KeyIndex> NetworkSort::download() const {
 }
 
 void NetworkSort::drawInto(const gpu::Framebuffer& target) const {
-    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
-        glDisable(state);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gpu::drawPlainly();
     target.bind(0, 0, target.width(), rows());
     noAttributes_.bind();
 }

@@ -1,5 +1,5 @@
 // Sorts pairs of a key and an index by a sorting network in fragment passes (OpenGL 3.3): reads one texture,
-// draws into the other, swaps. Not stable; the same bits at every repeat.
+// draws into the other, swaps. Not stable by itself; the same bits at every repeat.
 //
 // Pairs lie in rows of `rowLength`, a power of two; pair i is in row i / rowLength. A texel, unsigned
 // integers:
@@ -58,11 +58,14 @@ std::vector<BitonicPass> bitonicPasses(size_t block);
 class NetworkSort {
   public:
     enum class Kind { oddEvenMerge, bitonic };
+    // The order of pairs with equal keys: any, or by their indices, as of a stable sort of ascending ones.
+    // bitonic only.
+    enum class Ties { any, byIndex };
 
     // rowLength 0: one that makes the texture about as wide as high. Error: more pairs than fit into the
     // largest texture of the context, with how many do; out of memory.
     NetworkSort(gpu::Context& context, const std::string& shaderRoot, Kind kind, size_t capacity,
-                int rowLength = 0, gpu::ProgramCache* cache = nullptr);
+                int rowLength = 0, gpu::ProgramCache* cache = nullptr, Ties ties = Ties::any);
     static size_t most(const gpu::ContextInfo& info, Kind kind);
 
     // Sets what is sorted from now on: the first `count` pairs (at most the capacity). Ends a spread sort.

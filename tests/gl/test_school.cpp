@@ -22,7 +22,7 @@ namespace {
 constexpr double frameTime = 1.0 / 60;
 
 bool canRun() {
-    if (testContext().info().computeShaders && testPath() != Path::pingPong) return true;
+    if (testPath() != Path::pingPong) return true;
     WARN("skipped: schools need the fused path");
     return false;
 }
@@ -295,6 +295,36 @@ TEST_CASE("Other numbers take effect at once, and others' names do not", "[schoo
     run.frames(60);
     CHECK(meanOf(scene, run.simulation, 1).speed < 0.3);
     CHECK(meanOf(scene, run.simulation, 0).speed > 0.3);
+}
+
+TEST_CASE("Compute shaders and fragments steer and swim alike, and hand over to one another", "[school]") {
+    if (!testContext().info().computeShaders || !canRun()) return;
+    const Scene scene = pond(60);
+    Run compute(scene);
+    const Plan plan = compile(scene);
+    Simulation fragments(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                         {.drawn = false, .path = Path::fragments});
+    for (const int frames : {0, 20}) {
+        compute.frames(frames);
+        fragments.load(compute.simulation.save());
+        for (int i = 0; i < 3; ++i) {
+            compute.simulation.frame();
+            fragments.frame();
+        }
+        const SavedState a = compute.simulation.save(), b = fragments.save();
+        for (size_t g = 0; g < a.groups.size(); ++g) {
+            REQUIRE(b.groups[g].steering.size() == a.groups[g].steering.size());
+            double apart = 0;
+            for (size_t i = 0; i < a.groups[g].positions.size(); ++i)
+                apart = std::max(apart,
+                                 double(glm::distance(a.groups[g].positions[i], b.groups[g].positions[i])));
+            CHECK(apart < 1e-5 * plan.groups[g].size);
+            for (size_t i = 0; i < a.groups[g].steering.size(); ++i)
+                for (int c = 0; c < 4; ++c)
+                    REQUIRE(b.groups[g].steering[i][c] == Approx(a.groups[g].steering[i][c]).margin(1e-3));
+        }
+        compute.simulation.load(b);
+    }
 }
 
 TEST_CASE("The ping-pong path says that it has no schools", "[school]") {

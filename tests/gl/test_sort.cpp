@@ -180,6 +180,22 @@ TEST_CASE("the networks take the passes that their papers count", "[sort]") {
     CHECK(bitonicPasses(1024).size() == 45);  // a row
 }
 
+TEST_CASE("where asked, a bitonic sort leaves equal keys in the order of their indices", "[sort]") {
+    const size_t count = 777;
+    NetworkSort sort(testContext(), shaders, NetworkSort::Kind::bitonic, count, 64, nullptr,
+                     NetworkSort::Ties::byIndex);
+    std::vector<KeyIndex> pairs((count + 63) / 64 * 64);
+    for (uint32_t i = 0; i < count; ++i)
+        pairs[i] = {i * 7919 % 13, i};
+    sort.pairs().upload(gpu::Traffic::Kind::state, 0, 0, 32, int(pairs.size() / 64), pairs.data(),
+                        pairs.size() * sizeof(KeyIndex));
+    sort.sort();
+    pairs.resize(count);
+    std::stable_sort(pairs.begin(), pairs.end(),
+                     [](const KeyIndex& a, const KeyIndex& b) { return a.key < b.key; });
+    CHECK(sort.download() == pairs);
+}
+
 TEST_CASE("a sort larger than the context can hold says what fits", "[sort]") {
     for (const SortMethodRow& method : methodsHere()) {
         if (method.method == SortMethod::cpu) continue;

@@ -289,7 +289,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         set.insert(set.end(), textures.begin(), textures.end());
         validator.addBoth(std::string("contact/") + file + ".frag", set);
     };
-    for (const char* file : {"spheres", "keys", "starts", "order", "slots", "find", "neighbors", "nearest",
+    for (const char* file : {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest",
                              "effective", "apply"})
         contact(file);
     for (const char* stage : {"guess", "relax", "friction", "correction"}) {
@@ -527,6 +527,8 @@ TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
     Validator validator;
     for (const char* file : {"sort/odd_even_merge.frag", "sort/bitonic.frag"})
         validator.addBoth(file, {});
+    validator.addBoth("sort/bitonic.frag", {"TIES_BY_INDEX"});
+    validator.addBoth("sort/starts.frag", {"ROW_BITS 4"});
     const Defines sizes = {"LANES 256", "MOST_DIGITS 2048", "TILE_PAIRS 2048"};
     for (const char* file : {"sort/pieces_count.comp", "sort/pieces_scan.comp", "sort/pieces_scatter.comp",
                              "sort/tiles_count.comp", "sort/tiles_scan.comp", "sort/tiles_scatter.comp"})
@@ -548,20 +550,28 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     validator.generated["generated/body.glsl"] = plan.school.bodies.at(0).text;
     std::vector<glm::vec4> samples;
     validator.generated["generated/colliders.glsl"] = generateColliders(everyCollider(), samples).source;
-    validator.add("school/keys.comp", {}, gpu::header430());
-    validator.add("school/order.comp", {}, gpu::header430());
+    const auto addBothForms = [&](const std::string& name, Defines set) {
+        set.insert(set.end(), {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "GRIDS 3"});
+        Defines compute = set, fragments = set;
+        compute.emplace_back("BLOCK 16");
+        validator.add("school/" + name + ".comp", compute, gpu::header430());
+        fragments.insert(fragments.end(), {"ROW_BITS 4", "LAYERED", "STATE_WIDTH 1024"});
+        validator.addBoth("school/" + name + ".frag", fragments);
+    };
+    addBothForms("keys", {});
+    addBothForms("order", {});
     for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
                                Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
-        Defines sizes = {"BLOCK 16", "POSITION_ELEMENTS 2"};
+        Defines sizes = {"POSITION_ELEMENTS 2"};
         sizes.insert(sizes.end(), set.begin(), set.end());
-        validator.add("school/body.comp", sizes, gpu::header430());
+        addBothForms("body", sizes);
     }
     for (const Defines& set : {Defines{"TARGETS 0"}, Defines{"TARGETS 2"}, Defines{"TARGETS 1", "WALLS"}}) {
-        Defines all = {"CLOCK_PERIOD float(0.25)"};
+        Defines all = {"CLOCK_PERIOD float(0.25)", "POSITION_ELEMENTS 2", "STATE_ELEMENTS 4"};
         all.insert(all.end(), set.begin(), set.end());
-        validator.add("school/steer.comp", all, gpu::header430());
+        addBothForms("steer", all);
     }
-    CHECK(validator.count() == 8);
+    CHECK(validator.count() == 24);
     validator.check();
 }
 

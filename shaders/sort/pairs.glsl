@@ -1,4 +1,4 @@
-// Keys and numbers of spheres as the bitonic sort has them (src/sort/network_sort.h): two pairs a texel, in rows of the
+// Keys and numbers of what is sorted, as the bitonic sort has them (src/sort/network_sort.h): two pairs a texel, in rows of the
 // same 2^ROW_BITS texels as everything else. `count`: of all.
 uvec2 pairAt(usampler2D pairs, int i)
 {
@@ -21,11 +21,11 @@ int placeOfKey(usampler2D pairs, uint key, int count)
     return low;
 }
 
-// Returns the place of a sphere's pair, searched for from the first place of its key on: the sort is not
+// Returns the place of the pair of a number, searched for from the first place of its key on: the sort is not
 // stable, but keeps every pair.
-int placeOfSphere(usampler2D pairs, uint sphere, int from, int count)
+int placeOfNumber(usampler2D pairs, uint number, int from, int count)
 {
     int place = from;
-    while (place < count - 1 && pairAt(pairs, place).y != sphere) ++place;
+    while (place < count - 1 && pairAt(pairs, place).y != number) ++place;
     return place;
 }

@@ -1,6 +1,6 @@
-// How contact reads what it keeps, all of it by one number: from buffers, or with TEXTURES (the ping-pong path) from
-// textures in rows of 2^ROW_BITS texels (src/simulate/texture_contact.h). Written as macros because a texel is fetched
-// from either in the same words but not with the same types.
+// How contact and schools read what they keep, all of it by one number: from buffers, or with TEXTURES (OpenGL 3.3) from
+// textures in rows of 2^ROW_BITS texels. Written as macros because a texel is fetched from either in the same words but not
+// with the same types.
 #ifdef TEXTURES
 #define UINTS usampler2D
 #define FLOATS sampler2D

@@ -1,6 +1,6 @@
-// starts: a texel a key of the table of cells: the first slot whose key is not below it.
-#include "contact/reading.glsl"
-#include "contact/pairs.glsl"
+// starts: a texel a key: the first slot whose key is not below it.
+#include "state/numbered.glsl"
+#include "sort/pairs.glsl"
 
 uniform usampler2D sorted;
 uniform int count;

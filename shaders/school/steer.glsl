@@ -1,0 +1,215 @@
+// One of a school: what the others, enemies, walls and its own habits make of it, as one acceleration; and what that asks
+// of its body.
+#include "school/bodies.glsl"
+#include "school/grid.glsl"
+#include "physics/school.glsl"
+#include "physics/random.glsl"
+
+uniform UINTS starts;
+uniform FLOATS places;      // in the order of the grids: xyz place, w not 0: lives
+uniform FLOATS velocities;  // in the same: xyz velocity, w speed ahead, m/s
+uniform int firstBody;      // of the group
+
+uniform ivec4 grids[1 + TARGETS];     // first slot, slots, first key, keys; of its own, then of its targets
+uniform vec4 gridRules[1 + TARGETS];  // 1 / cell; radius, m; strength, m/s^2, below 0 where they are fled from
+
+uniform vec4 others;     // separation radius, separation, alignment, cohesion
+uniform vec4 speeds;     // slowest, cruise, fastest, m/s; most acceleration, m/s^2
+uniform vec4 habits;     // tangent of the steepest course; most turn, rad/s; reaction, s; wander, m/s^2
+uniform vec4 muscles;    // most curvature, 1/m; speed at which they run at their own frequency; fins; keel, 1/s
+uniform bool hasBody;    // which bends; else a point
+uniform float blindCosine;
+uniform float drag;      // 1/s, along the body
+uniform vec4 depth;      // lowest and highest y from the origin, m; strength, 1/s^2
+uniform vec4 homeLow;    // xyz of the box, or the middle of the ball; w strength, 1/s^2
+uniform vec4 homeHigh;   // xyz of the box; w radius of the ball, 0: a box
+uniform vec3 origin;     // m
+uniform float time;      // s, less whole periods of what wanders
+uniform float duration;  // s, of the frame
+
+#ifdef WALLS
+#include "generated/colliders.glsl"
+#include "step/wall.glsl"
+
+uniform vec3 wallAnchor;  // m, what places are relative to here: the schools' origin, or the world's where that is near
+uniform vec2 walls;  // m, in which they are turned from; s, how far ahead
+
+float wallDistance(vec3 place)
+{
+    return clearance(wallAnchor, place, 0.5 * duration);
+}
+
+// Away from the nearest surface, the more the nearer to it what is ahead is.
+vec3 fromWalls(vec3 place, vec3 velocity)
+{
+    vec3 ahead = place + velocity * walls.y;
+    float distance = min(wallDistance(ahead), wallDistance(place));
+    vec3 a = vec3(0.0);
+    bool near = distance < walls.x;
+    while (near) {
+        float nudge = 0.1 * walls.x;
+        vec3 slope = wallSlope(wallAnchor, ahead, 0.5 * duration, nudge, wallDistance(ahead));
+        float steep = length(slope);
+        if (steep > 0.01 * nudge && steep < 1e20)
+            a = slope * (speeds.w * clamp(2.0 - 2.0 * distance / walls.x, 0.0, 1.0) / steep);
+        near = false;
+    }
+    return a;
+}
+#endif
+
+// The slots of three cells of a row: from x up to below y, where those at `slots` and beyond start over.
+ivec2 runOf(ivec4 grid, ivec3 cell)
+{
+    int mask = grid.w - 1;
+    int from = (cellKey(cell, grid.w) - 1) & mask;
+    int to = from + 3;
+    bool over = to > grid.w;
+    int first = int(fetch(starts, grid.z + from).x);
+    int last = int(fetch(starts, grid.z + (over ? to - grid.w : to)).x);
+    return ivec2(first, over ? last + grid.y : last) - grid.x;
+}
+
+ivec3 rowBeside(ivec3 cell, int r)
+{
+    return cell + ivec3(0, r % 3 - 1, r / 3 - 1);
+}
+
+// Sums over the others that it sees.
+struct Others {
+    vec3 apart;
+    vec4 velocity;
+    vec3 place;  // relative to it, m
+    float count;
+};
+
+Others lookAround(vec3 place, vec3 forward, int slot)
+{
+    Others sum = Others(vec3(0.0), vec4(0.0), vec3(0.0), 0.0);
+    float inverseCell = min(gridRules[0].x, 3.4e38);
+    float radius = min(gridRules[0].y, 3.4e38);
+    float keep = min(others.x, 3.4e38);
+    float blind = min(blindCosine, 3.4e38);
+    ivec3 cell = cellOf(place, inverseCell);
+    for (int r = 0; r < 9; ++r) {
+        ivec3 row = rowBeside(cell, r);
+        ivec2 run = runOf(grids[0], row);
+        for (int i = run.x; i < run.y; ++i) {
+            int at = grids[0].x + (i < grids[0].y ? i : i - grids[0].y);
+            vec3 other = fetch(places, at).xyz;
+            vec3 d = other - place;
+            bool met = dot(d, d) < radius * radius && at != slot && cellOf(other, inverseCell).yz == row.yz &&
+                       isSeen(d, forward, blind);
+            float share = met ? 1.0 : 0.0;
+            sum.apart -= awayFrom(d, keep) * share;
+            sum.velocity += fetch(velocities, at) * share;
+            sum.place += met ? d : vec3(0.0);
+            sum.count += share;
+        }
+    }
+    return sum;
+}
+
+// At most so many members of a row are looked at, evenly spread over it: each for as many as it stands for.
+const int mostOfRun = 48;
+
+// Towards those that are hunted, away from those that are fled from.
+vec3 meetTargets(vec3 place)
+{
+    vec3 a = vec3(0.0);
+    for (int t = 1; t <= TARGETS; ++t) {
+        vec3 sum = vec3(0.0);
+        float weight = 0.0;
+        float radius = gridRules[t].y;
+        ivec3 cell = cellOf(place, gridRules[t].x);
+        for (int r = 0; r < 9; ++r) {
+            ivec3 row = rowBeside(cell, r);
+            ivec2 run = runOf(grids[t], row);
+            int stride = 1 + (run.y - run.x) / mostOfRun;
+            for (int i = run.x; i < run.y; i += stride) {
+                int at = grids[t].x + (i < grids[t].y ? i : i - grids[t].y);
+                vec3 other = fetch(places, at).xyz;
+                vec3 d = other - place;
+                bool met = dot(d, d) < radius * radius && cellOf(other, gridRules[t].x).yz == row.yz;
+                float share = met ? float(stride) : 0.0;
+                sum += met ? awayFrom(d, radius) * share : vec3(0.0);
+                weight += share * max(1.0 - length(met ? d : vec3(radius)) / radius, 0.0);
+            }
+        }
+        // who flees does so from each of them; who hunts goes for their middle, and the nearer the more
+        float strength = gridRules[t].z;
+        a += sum * (strength < 0.0 ? strength : strength / max(weight, 1e-6));
+    }
+    return a;
+}
+
+// `slot`: its own, in its grid; `earlier`: how it steered before. Sets what fused/steering.glsl reads.
+void steer(int body, int slot, vec4 earlier, out vec4 steering[STEERING_ELEMENTS])
+{
+    vec4 place = bodyElement(body, 0);
+    vec4 moves = bodyElement(body, 1);
+    vec4 ahead = bodyElement(body, 2);
+    vec4 above = bodyElement(body, 3);
+    vec3 velocity = moves.xyz;
+    vec3 forward = ahead.xyz;
+    vec3 upper = above.xyz;
+    vec3 spin = vec3(moves.w, ahead.w, above.w);
+    float speed = dot(velocity, forward);
+
+    vec3 urgent = meetTargets(place.xyz);
+    urgent += homeLow.w * (homeHigh.w > 0.0 ? backIntoBall(place.xyz, homeLow.xyz, homeHigh.w)
+                                            : backInto(place.xyz, homeLow.xyz, homeHigh.xyz));
+#ifdef WALLS
+    urgent = inTurn(fromWalls(place.xyz + origin, velocity), urgent, speeds.w);
+#endif
+
+    Others seen = lookAround(place.xyz, forward, slot);
+    float perOther = 1.0 / max(seen.count, 1.0);
+    vec3 liked = seen.apart * others.y;
+    if (seen.count > 0.0) {
+        // their mean velocity turns it, and their mean speed is its own: those that swim to all sides do not stop it
+        vec4 theirs = seen.velocity * perOther;
+        vec3 aligned = theirs.xyz - forward * (dot(theirs.xyz, forward) + speed - theirs.w);
+        liked += aligned * others.z + seen.place * (perOther * others.w);
+    }
+    liked.y += depth.z * (clamp(place.y, depth.x, depth.y) - place.y);
+    uint seed = uint(place.w);
+    float a = uniformFrom(hashSeed(seed, 0x5c0002u));
+    float b = uniformFrom(hashSeed(seed, 0x5c0003u));
+    float c = uniformFrom(hashSeed(seed, 0x5c0004u));
+    vec3 left = cross(upper, forward);
+    liked += (left * wanderOf(time, a, b, c) + upper * (0.4 * wanderOf(time, b, c, a)) +
+              forward * (0.5 * wanderOf(time, c, a, b))) * habits.w;
+
+    float reaction = habits.z;
+    vec3 steered = inTurn(urgent, liked, speeds.w);
+    steered = mix(earlier.xyz, steered, 1.0 - exp(-duration / reaction));
+
+    // what points along the body is speed, what points aside is a turn
+    vec3 wanted = forward * max(speed, speeds.x) + steered * reaction;
+    vec3 course = courseOf(wanted, forward, habits.x);
+    vec3 turning = atMost(turnBetween(forward, course, upper) / reaction, habits.y);
+    float wantedSpeed = clamp(speeds.y + dot(steered, forward) * (2.0 * reaction), speeds.x, speeds.z);
+    // un-damping along the body, for what the tail does not give
+    float push = clamp((wantedSpeed - speed) / reaction + drag * wantedSpeed, -speeds.w, speeds.w) * muscles.z;
+    vec3 aside = velocity - forward * speed;
+    vec3 pushed = forward * push - aside * muscles.w;
+
+    float curvature = 0.0;
+    vec3 answer = vec3(0.0);
+    if (hasBody) {
+        curvature = clamp(dot(turning, upper) / max(speed, 0.5 * speeds.y), -muscles.x, muscles.x);
+        // upright, and leaning into its turns
+        vec3 lean = vec3(0.0, 1.0, 0.0) + (steered - forward * dot(steered, forward)) * 0.1;
+        lean -= forward * dot(lean, forward);
+        turning += forward * clamp(6.0 * atan(dot(cross(upper, lean), forward), dot(upper, lean)), -8.0, 8.0);
+        answer = (turning - spin) * min(20.0, 0.5 / duration);
+    } else {
+        // a point turns by being pushed aside
+        pushed += cross(turning, velocity);
+    }
+    float rate = muscles.y > 0.0 ? max(wantedSpeed, 0.3 * speeds.y) / muscles.y : 1.0;
+    steering[0] = vec4(pushed, curvature);
+    steering[1] = vec4(answer, rate);
+    steering[2] = vec4(steered, mod(earlier.w + rate * duration, CLOCK_PERIOD));
+}

@@ -1,0 +1,209 @@
+#include "simulate/school_passes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace shoal {
+
+using gpu::Program;
+
+namespace {
+
+constexpr double endless = 1e9;                          // m
+constexpr double wanderPeriod = 512 * std::numbers::pi;  // s, of shaders/physics/school.glsl
+constexpr int samplesUnit = 6;                           // beside what steering reads
+
+// s: after which all muscles are where they were; without any, a long time.
+double clockPeriodOf(const GroupPlan& group) {
+    return group.musclePeriod > 0 ? group.musclePeriod : 1e5;
+}
+
+bool sameTargets(const std::vector<SchoolTarget>& a, const std::vector<SchoolTarget>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                      [](const SchoolTarget& x, const SchoolTarget& y) { return x.group == y.group; });
+}
+
+}  // namespace
+
+SchoolPasses::SchoolPasses(gpu::Context& context, const Plan& plan, const Tables& tables,
+                           std::optional<int> rowBits)
+    : context_(&context), plan_(&plan), school_(&plan.school), tables_(&tables), rowBits_(rowBits) {}
+
+void SchoolPasses::checkCount(const SchoolPlan& school, size_t most) {
+    const auto wanted = size_t(std::max(school.bodyCount, school.entries));
+    if (wanted <= most) return;
+    throw Error(school.members[0].school.location,
+                concat("a school of ", wanted, " molecules is more than this context holds: at most ", most));
+}
+
+gpu::ProgramOptions SchoolPasses::optionsOf(const char* file, const std::string& label,
+                                            const GroupPlan* group) const {
+    gpu::ProgramOptions out;
+    out.label = label;
+    if (group) out.defines = group->layout().defines(rowBits_.has_value());
+    out.defines.push_back(concat("BODY_ELEMENTS ", bodyElements));
+    out.defines.push_back(concat("STEERING_ELEMENTS ", steeringElements));
+    if (rowBits_) {
+        out.vertex = "passes/fullscreen.vert";
+        out.fragment = concat("school/", file, ".frag");
+        out.defines.insert(out.defines.end(), {"TEXTURES", concat("ROW_BITS ", *rowBits_)});
+    } else {
+        out.compute = concat("school/", file, ".comp");
+    }
+    return out;
+}
+
+void SchoolPasses::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
+    gpu::ProgramOptions keys = optionsOf("keys", "school keys", nullptr);
+    keys.defines.push_back(concat("GRIDS ", school_->grids.size()));
+    keys.cache = cache;
+    keys_ = Program(*context_, shaderRoot, keys);
+    gpu::ProgramOptions order = optionsOf("order", "school order", nullptr);
+    order.cache = cache;
+    order_ = Program(*context_, shaderRoot, order);
+    for (const SchoolBodies& bodies : school_->bodies) {
+        const GroupPlan& group = plan_->groups[bodies.group];
+        gpu::ProgramOptions body = optionsOf("body", concat("bodies of ", group.name), &group);
+        body.generated = {{"generated/body.glsl", bodies.text}};
+        body.cache = cache;
+        bodyPrograms_.push_back(&programs_.get(*context_, shaderRoot, body));
+    }
+    for (const SchoolMember& member : school_->members)
+        makeSteer(member, shaderRoot, cache);
+}
+
+void SchoolPasses::makeSteer(const SchoolMember& member, const std::string& shaderRoot,
+                             gpu::ProgramCache* cache) {
+    const GroupPlan& group = plan_->groups[member.group];
+    gpu::ProgramOptions options = optionsOf("steer", concat("steering of ", group.name), &group);
+    options.cache = cache;
+    options.defines.push_back(concat("TARGETS ", member.targetGrids.size()));
+    options.defines.push_back(concat("CLOCK_PERIOD float(", clockPeriodOf(group), ")"));
+    if (group.needs.avoids) options.defines.push_back("WALLS");
+    options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
+    members_.push_back({&programs_.get(*context_, shaderRoot, options), member.school});
+}
+
+// m: what is looked for within a radius needs cells as wide.
+double SchoolPasses::cellOf(size_t grid) const {
+    for (size_t m = 0; m < members_.size(); ++m) {
+        const SchoolMember& member = school_->members[m];
+        const School& school = members_[m].school;
+        if (member.grid == grid) return school.radius;
+        for (size_t t = 0; t < member.targetGrids.size(); ++t)
+            if (member.targetGrids[t] == grid)
+                return t < school.flees.size() ? school.flees[t].radius
+                                               : school.hunts[t - school.flees.size()].radius;
+    }
+    return 1;
+}
+
+const Program& SchoolPasses::useBody(size_t bodies) const {
+    const Program& program = *bodyPrograms_[bodies];
+    program.use();
+    program.set("origin", glm::vec3(school_->origin));
+    return program;
+}
+
+const Program& SchoolPasses::useKeys() const {
+    std::vector<glm::ivec4> ranges;
+    std::vector<glm::vec4> sizes;
+    for (size_t g = 0; g < school_->grids.size(); ++g) {
+        const SchoolGrid& grid = school_->grids[g];
+        ranges.emplace_back(grid.firstEntry, school_->bodiesOf(grid.group).first, grid.firstKey, grid.keys);
+        sizes.emplace_back(float(1 / cellOf(g)), 0, 0, 0);
+    }
+    keys_.use();
+    keys_.set("gridRanges", std::span<const glm::ivec4>(ranges));
+    keys_.set("cellSizes", std::span<const glm::vec4>(sizes));
+    keys_.set("count", school_->entries);
+    return keys_;
+}
+
+const Program& SchoolPasses::useOrder() const {
+    order_.use();
+    order_.set("count", school_->entries);
+    return order_;
+}
+
+const Program& SchoolPasses::useSteer(size_t member, const Frame& frame) const {
+    members_[member].steer->use();
+    setRules(member, frame);
+    return *members_[member].steer;
+}
+
+void SchoolPasses::setRules(size_t index, const Frame& frame) const {
+    const SchoolMember& member = school_->members[index];
+    const School& school = members_[index].school;
+    const Program& program = *members_[index].steer;
+    std::vector<glm::ivec4> grids;
+    std::vector<glm::vec4> rules;
+    const auto add = [&](size_t g, double radius, double strength) {
+        const SchoolGrid& grid = school_->grids[g];
+        grids.emplace_back(grid.firstEntry, grid.entries, grid.firstKey, grid.keys);
+        rules.emplace_back(float(1 / cellOf(g)), float(radius), float(strength), 0);
+    };
+    add(member.grid, school.radius, 0);
+    for (size_t t = 0; t < school.flees.size(); ++t)
+        add(member.targetGrids[t], school.flees[t].radius, -school.flees[t].strength);
+    for (size_t t = 0; t < school.hunts.size(); ++t)
+        add(member.targetGrids[school.flees.size() + t], school.hunts[t].radius, school.hunts[t].strength);
+    program.set("grids", std::span<const glm::ivec4>(grids));
+    program.set("gridRules", std::span<const glm::vec4>(rules));
+    program.set("others",
+                glm::vec4(school.separationRadius, school.separation, school.alignment, school.cohesion));
+    program.set("speeds", glm::vec4(school.slowest, school.cruise, school.fastest, school.acceleration));
+    program.set("habits", glm::vec4(std::tan(school.steepest), school.turn, school.reaction, school.wander));
+    program.set("muscles", glm::vec4(member.length > 0 ? school.bend / member.length : 0, school.beat,
+                                     school.fins, member.keel ? 2 / school.reaction : 0));
+    program.set("hasBody", int(member.length > 0));
+    const GroupPlan& group = plan_->groups[member.group];
+    program.set("drag", float(group.drag.tangent * frame.parameters.drag));
+    // seen: all but a cone about straight back
+    program.set("blindCosine", float(school.blind < 1.5707963 ? std::cos(school.blind) : 0));
+    const double base = school_->origin.y;
+    const glm::dvec2 depth = school.depth.value_or(glm::dvec2(-endless, endless));
+    program.set("depth",
+                glm::vec4(depth.x - base, depth.y - base, school.depth ? school.depthStrength : 0, 0));
+    glm::dvec3 low(-endless), high(endless);
+    double radius = 0;
+    if (school.home && school.home->box) {
+        low = school.home->box->low - school_->origin;
+        high = school.home->box->high - school_->origin;
+    } else if (school.home) {
+        low = school.home->center - school_->origin;
+        radius = school.home->radius;
+    }
+    program.set("homeLow", glm::vec4(low, school.home ? school.home->strength : 0));
+    program.set("homeHigh", glm::vec4(high, radius));
+    program.set("time", float(std::fmod(frame.time, wanderPeriod)));
+    program.set("duration", float(frame.parameters.frameTime));
+    program.set("firstBody", school_->bodiesOf(member.group).first);
+    if (!group.needs.avoids) return;
+    constexpr double near = 64;  // m: what a float holds to a few micrometres
+    const glm::dvec3 way = glm::abs(school_->origin);
+    const bool isNear = std::max({way.x, way.y, way.z}) < near;
+    program.set("wallAnchor", glm::vec3(isNear ? glm::dvec3(0) : school_->origin));
+    program.set("origin", glm::vec3(isNear ? school_->origin : glm::dvec3(0)));
+    program.set("walls", glm::vec2(school.walls, school.look));
+    const std::vector<glm::vec4> parameters = colliderParameters(*plan_, group, frame);
+    program.set("colliderParameters", std::span<const glm::vec4>(parameters));
+    if (tables_->sampleTexels) program.texture("samples", samplesUnit, tables_->sampleTexels);
+    if (tables_->samples) program.texture("samples", samplesUnit, tables_->samples);
+}
+
+bool SchoolPasses::change(size_t group, const School& school) {
+    for (size_t m = 0; m < members_.size(); ++m) {
+        if (school_->members[m].group != group) continue;
+        const School& now = members_[m].school;
+        const bool walls = plan_->groups[group].needs.avoids;
+        if (!sameTargets(now.flees, school.flees) || !sameTargets(now.hunts, school.hunts)) return false;
+        if (!walls && school.walls > 0 && now.walls == 0) return false;
+        members_[m].school = school;
+        return true;
+    }
+    return false;
+}
+
+}  // namespace shoal

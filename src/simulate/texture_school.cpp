@@ -1,0 +1,121 @@
+#include "simulate/texture_school.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "gpu/gl.h"
+
+namespace shoal {
+
+using gpu::ColorTarget;
+using gpu::Format;
+using gpu::Framebuffer;
+using gpu::Program;
+using gpu::Texture;
+
+// As wide as high, or half as high.
+static int rowBitsOf(const SchoolPlan& school) {
+    const int numbers = std::max({school.bodyCount, school.entries, school.keys + 1});
+    return (int(std::bit_width(unsigned(numbers - 1))) + 1) / 2;
+}
+
+// Keys are up to twice as many as molecules.
+static size_t mostOf(const gpu::ContextInfo& info) {
+    const size_t side = std::bit_floor(unsigned(info.maxTextureSize));
+    return std::min(side * side / 2 - 1, NetworkSort::most(info, NetworkSort::Kind::bitonic));
+}
+
+TextureSchool::TextureSchool(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
+                             const Tables& tables, gpu::ProgramCache* cache)
+    : SchoolPasses(context, plan, tables, rowBitsOf(plan.school)),
+      rowBits_(rowBitsOf(plan.school)),
+      sort_((checkCount(plan.school, mostOf(context.info())), context), shaderRoot,
+            NetworkSort::Kind::bitonic, size_t(plan.school.entries), 2 << rowBits_, cache,
+            NetworkSort::Ties::byIndex),
+      noAttributes_(context, "school") {
+    const auto texture = [&](Format format, int numbers, const char* label, int layers = 0) {
+        return Texture(context, format, 1 << rowBits_, rowsOf(numbers), label, layers);
+    };
+    bodies_ = texture(Format::rgba32f, school_->bodyCount, "school bodies", bodyElements);
+    startsOf_ = texture(Format::r32ui, school_->keys + 1, "school cells");
+    places_ = texture(Format::rgba32f, school_->entries, "school places");
+    velocities_ = texture(Format::rgba32f, school_->entries, "school velocities");
+    std::vector<ColorTarget> layers;
+    for (int e = 0; e < bodyElements; ++e)
+        layers.emplace_back(&bodies_, e);
+    newBodies_ = Framebuffer(context, layers, nullptr, "school bodies");
+    newStarts_ = Framebuffer(context, {{&startsOf_}}, nullptr, "school cells");
+    newOrder_ = Framebuffer(context, {{&places_}, {&velocities_}}, nullptr, "school order");
+    makePrograms(shaderRoot, cache);
+    gpu::ProgramOptions starts;
+    starts.label = "school starts";
+    starts.vertex = "passes/fullscreen.vert";
+    starts.fragment = "sort/starts.frag";
+    starts.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_)};
+    starts.cache = cache;
+    starts_ = Program(context, shaderRoot, starts);
+}
+
+void TextureSchool::draw(const Framebuffer& target, int firstRow, int rows) const {
+    target.bind(0, firstRow, target.width(), rows);
+    noAttributes_.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void TextureSchool::findBodies(const std::vector<GroupLayers>& state) {
+    for (size_t b = 0; b < school_->bodies.size(); ++b) {
+        const SchoolBodies& bodies = school_->bodies[b];
+        const int count = plan_->groups[bodies.group].count;
+        const Program& program = useBody(b);
+        program.texture("oldState", 0, state[bodies.group].state());
+        program.texture("oldRecords", 1, state[bodies.group].records());
+        program.set("groupMolecules", count);
+        program.set("firstBody", bodies.first);
+        const int first = bodies.first >> rowBits_;
+        draw(newBodies_, first, rowsOf(bodies.first + count) - first);
+    }
+}
+
+void TextureSchool::order() {
+    const Program& keys = useKeys();
+    keys.texture("bodies", 0, bodies_);
+    sort_.drawInto(sort_.target());
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    sort_.flip();
+    sort_.sort();
+    starts_.use();
+    starts_.texture("sorted", 0, sort_.pairs());
+    starts_.set("count", school_->entries);
+    draw(newStarts_, 0, newStarts_.height());
+    const Program& order = useOrder();
+    order.texture("sorted", 0, sort_.pairs());
+    order.texture("bodies", 1, bodies_);
+    draw(newOrder_, 0, newOrder_.height());
+}
+
+void TextureSchool::steer(size_t index, const Frame& frame, GroupLayers& state) {
+    const Program& program = useSteer(index, frame);
+    program.texture("bodies", 0, bodies_);
+    program.texture("sorted", 1, sort_.pairs());
+    program.texture("starts", 2, startsOf_);
+    program.texture("places", 3, places_);
+    program.texture("velocities", 4, velocities_);
+    program.texture("steering", 5, state.steering());
+    program.set("entries", school_->entries);
+    draw(state.newSteering(), 0, state.newSteering().height());
+    state.flipSteering();
+}
+
+void TextureSchool::step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers) {
+    gpu::drawPlainly();
+    {
+        const auto timer = timers.time("school grid");
+        findBodies(state);
+        order();
+    }
+    const auto timer = timers.time("school steer");
+    for (size_t m = 0; m < school_->members.size(); ++m)
+        steer(m, frame, state[school_->members[m].group]);
+}
+
+}  // namespace shoal
