@@ -99,6 +99,11 @@ double SchoolPasses::cellOf(size_t grid) const {
     return 1;
 }
 
+glm::ivec4 SchoolPasses::rangeOf(size_t g) const {
+    const SchoolGrid& grid = school_->grids[g];
+    return {grid.firstEntry, grid.entries, grid.firstKey, grid.keys};
+}
+
 const Program& SchoolPasses::useBody(size_t bodies) const {
     const Program& program = *bodyPrograms_[bodies];
     program.use();
@@ -140,8 +145,7 @@ void SchoolPasses::setRules(size_t index, const Frame& frame) const {
     std::vector<glm::ivec4> grids;
     std::vector<glm::vec4> rules;
     const auto add = [&](size_t g, double radius, double strength) {
-        const SchoolGrid& grid = school_->grids[g];
-        grids.emplace_back(grid.firstEntry, grid.entries, grid.firstKey, grid.keys);
+        grids.push_back(rangeOf(g));
         rules.emplace_back(float(1 / cellOf(g)), float(radius), float(strength), 0);
     };
     add(member.grid, school.radius, 0);

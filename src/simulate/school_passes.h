@@ -42,6 +42,10 @@ class SchoolPasses {
     const gpu::Program& useKeys() const;
     const gpu::Program& useOrder() const;
     const gpu::Program& useSteer(size_t member, const Frame& frame) const;
+    glm::ivec4 rangeOf(size_t grid) const;  // first slot, slots, first key, keys
+    double cellOf(size_t grid) const;       // m
+    // The files and defines of a program of this form; `group`: whose state it reads.
+    gpu::ProgramOptions optionsOf(const char* file, const std::string& label, const GroupPlan* group) const;
 
     gpu::Context* context_;
     const Plan* plan_;
@@ -53,9 +57,7 @@ class SchoolPasses {
         School school;
     };
 
-    gpu::ProgramOptions optionsOf(const char* file, const std::string& label, const GroupPlan* group) const;
     void makeSteer(const SchoolMember& member, const std::string& shaderRoot, gpu::ProgramCache* cache);
-    double cellOf(size_t grid) const;
     void setRules(size_t member, const Frame& frame) const;
 
     const Tables* tables_;

@@ -40,20 +40,26 @@ TextureSchool::TextureSchool(gpu::Context& context, const std::string& shaderRoo
     startsOf_ = texture(Format::r32ui, school_->keys + 1, "school cells");
     places_ = texture(Format::rgba32f, school_->entries, "school places");
     velocities_ = texture(Format::rgba32f, school_->entries, "school velocities");
-    std::vector<ColorTarget> layers;
-    for (int e = 0; e < bodyElements; ++e)
-        layers.emplace_back(&bodies_, e);
-    newBodies_ = Framebuffer(context, layers, nullptr, "school bodies");
+    slotSteering_ = texture(Format::rgba32f, school_->entries, "school steering", steeringElements);
+    const auto allLayers = [&](const Texture& layered) {
+        std::vector<ColorTarget> layers;
+        for (int e = 0; e < layered.layers(); ++e)
+            layers.emplace_back(&layered, e);
+        return Framebuffer(context, layers, nullptr, layered.label().c_str());
+    };
+    newBodies_ = allLayers(bodies_);
+    newSlotSteering_ = allLayers(slotSteering_);
     newStarts_ = Framebuffer(context, {{&startsOf_}}, nullptr, "school cells");
     newOrder_ = Framebuffer(context, {{&places_}, {&velocities_}}, nullptr, "school order");
     makePrograms(shaderRoot, cache);
-    gpu::ProgramOptions starts;
-    starts.label = "school starts";
-    starts.vertex = "passes/fullscreen.vert";
+    gpu::ProgramOptions starts = optionsOf("", "school starts", nullptr);
     starts.fragment = "sort/starts.frag";
-    starts.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_)};
     starts.cache = cache;
     starts_ = Program(context, shaderRoot, starts);
+    gpu::ProgramOptions steered = optionsOf("steered", "school steering", nullptr);
+    steered.defines.push_back(concat("STATE_WIDTH ", stateWidth));
+    steered.cache = cache;
+    steered_ = Program(context, shaderRoot, steered);
 }
 
 void TextureSchool::draw(const Framebuffer& target, int firstRow, int rows) const {
@@ -101,7 +107,19 @@ void TextureSchool::steer(size_t index, const Frame& frame, GroupLayers& state) 
     program.texture("places", 3, places_);
     program.texture("velocities", 4, velocities_);
     program.texture("steering", 5, state.steering());
-    program.set("entries", school_->entries);
+    const SchoolMember& member = school_->members[index];
+    const glm::ivec4 range = rangeOf(member.grid);
+    const int first = range.x >> rowBits_;
+    draw(newSlotSteering_, first, rowsOf(range.x + range.y) - first);
+    steered_.use();
+    steered_.texture("bodies", 0, bodies_);
+    steered_.texture("sorted", 1, sort_.pairs());
+    steered_.texture("starts", 2, startsOf_);
+    steered_.texture("steered", 3, slotSteering_);
+    steered_.set("grid", range);
+    steered_.set("inverseCell", float(1 / cellOf(member.grid)));
+    steered_.set("firstBody", school_->bodiesOf(member.group).first);
+    steered_.set("entries", school_->entries);
     draw(state.newSteering(), 0, state.newSteering().height());
     state.flipSteering();
 }

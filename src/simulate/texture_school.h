@@ -32,9 +32,9 @@ class TextureSchool : public SchoolPasses {
 
     int rowBits_;
     NetworkSort sort_;
-    gpu::Program starts_;
-    gpu::Texture bodies_, startsOf_, places_, velocities_;
-    gpu::Framebuffer newBodies_, newStarts_, newOrder_;
+    gpu::Program starts_, steered_;
+    gpu::Texture bodies_, startsOf_, places_, velocities_, slotSteering_;
+    gpu::Framebuffer newBodies_, newStarts_, newOrder_, newSlotSteering_;
     gpu::VertexArray noAttributes_;
 };
 

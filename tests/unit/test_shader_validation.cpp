@@ -289,8 +289,8 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         set.insert(set.end(), textures.begin(), textures.end());
         validator.addBoth(std::string("contact/") + file + ".frag", set);
     };
-    for (const char* file : {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest",
-                             "effective", "apply"})
+    for (const char* file :
+         {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "effective", "apply"})
         contact(file);
     for (const char* stage : {"guess", "relax", "friction", "correction"}) {
         validator.generated.merge(responseStage(stage));
@@ -560,6 +560,8 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     };
     addBothForms("keys", {});
     addBothForms("order", {});
+    validator.addBoth("school/steered.frag",
+                      {"BODY_ELEMENTS 4", "STEERING_ELEMENTS 3", "ROW_BITS 4", "STATE_WIDTH 1024"});
     for (const Defines& set : {Defines{"STATE_ELEMENTS 4"}, Defines{"STATE_ELEMENTS 4", "LIFE"},
                                Defines{"STATE_ELEMENTS 5", "LIFE"}}) {
         Defines sizes = {"POSITION_ELEMENTS 2"};
@@ -571,7 +573,7 @@ TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
         all.insert(all.end(), set.begin(), set.end());
         addBothForms("steer", all);
     }
-    CHECK(validator.count() == 24);
+    CHECK(validator.count() == 26);
     validator.check();
 }
 
