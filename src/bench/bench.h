@@ -186,6 +186,7 @@ std::string sentence(const Target& target);
 struct SchoolCase {
     int count = 1000;
     bool schools = true;
+    Path path = Path::fused;
 };
 
 constexpr double schoolDensity = 100;  // fish a m^3
@@ -199,7 +200,7 @@ struct SchoolTimes {
     double perFish() const { return frame.min / one.count; }  // s
 };
 
-// Error: a context below 4.3; the driver refuses a shader.
+// Error: the driver refuses a shader.
 std::vector<SchoolTimes> measureSchools(const std::vector<SchoolCase>& cases, const Molecule& fry,
                                         const BenchDevice& device, double seconds);
 

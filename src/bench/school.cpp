@@ -15,7 +15,7 @@ class SchoolEntrant {
     SchoolEntrant(const SchoolCase& one, const Molecule& fry, const BenchDevice& device)
         : one_(one),
           simulation_(*device.context, device.shaderRoot, compile(schoolScene(one, fry)),
-                      {.drawn = false, .path = Path::fused, .cache = device.cache}) {}
+                      {.drawn = false, .path = one.path, .cache = device.cache}) {}
 
     // Half a second, by which they are in motion; then what a visit costs.
     void warmUp() {
@@ -46,8 +46,10 @@ class SchoolEntrant {
 }  // namespace
 
 std::vector<SchoolCase> schoolCases(bool quick) {
-    if (quick) return {{1000, true}, {1000, false}};
-    return {{1000, true}, {3000, true}, {10000, true}, {10000, false}, {30000, true}, {100000, true}};
+    constexpr Path fragments = Path::fragments;
+    if (quick) return {{1000, true}, {1000, true, fragments}, {1000, false}};
+    return {{1000, true},   {3000, true},  {10000, true}, {10000, true, fragments},
+            {10000, false}, {30000, true}, {100000, true}};
 }
 
 Scene schoolScene(const SchoolCase& one, const Molecule& fry) {
