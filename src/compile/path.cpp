@@ -40,25 +40,25 @@ void checkTables(const Plan& plan, const PathLimits& limits) {
     check(plan.sampleRows, "the grids and height fields");
 }
 
-// Contact's tables, too, and only between spheres at vertices.
+// Contact in fragment shaders has tables of its own, and is only between spheres at vertices.
 void checkContact(const Plan& plan, const PathLimits& limits) {
     const ContactPlan& contact = plan.contact;
     for (const ContactGroup& group : contact.groups)
         if (group.triangles || group.self)
             throw Error(
                 plan.groups[group.group].location,
-                concat(group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
-                       ", which \"", plan.groups[group.group].name,
-                       "\" asks for, needs the fused path (OpenGL 4.3); the ping-pong path has "
-                       "contact of vertices between molecules"));
+                concat(
+                    group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
+                    ", which \"", plan.groups[group.group].name,
+                    "\" asks for, needs the fused path with compute shaders (OpenGL 4.3); fragment shaders "
+                    "have contact of vertices between molecules"));
     if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
     int bits = contact.tableBits;
     while (1 << ((bits + 1) / 2) > limits.maxTextureSize)
         --bits;
-    throw Error(
-        contact.settings.location,
-        concat("contact between ", contact.spheres,
-               " spheres is more than this context holds on the ping-pong path: at most ", 1 << (bits - 1)));
+    throw Error(contact.settings.location,
+                concat("contact between ", contact.spheres,
+                       " spheres is more than the textures of this context hold: at most ", 1 << (bits - 1)));
 }
 
 void checkPingPong(const Plan& plan, const PathLimits& limits) {
@@ -139,8 +139,7 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     };
     for (const GroupPlan& group : plan.groups)
         if (group.needs.life) refuse(group.life->cycle.location, "the birth and death of molecules");
-    if (plan.contact.any())
-        refuse(plan.contact.settings.location, "contact between molecules on the fused path");
+    checkContact(plan, limits);
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
         checkMatrix(group, limits);

@@ -134,6 +134,17 @@ void Framebuffer::blitToDefault(int width, int height) const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
+const Framebuffer& Framebuffers::into(const std::vector<const Texture*>& colors) {
+    std::vector<GLuint> ids;
+    for (const Texture* color : colors)
+        ids.push_back(color->id());
+    for (const Made& made : made_)
+        if (made.ids == ids) return made.framebuffer;
+    const char* label = colors.front()->label().c_str();
+    made_.push_back({std::move(ids), Framebuffer(*context_, {colors.begin(), colors.end()}, nullptr, label)});
+    return made_.back().framebuffer;
+}
+
 void drawPlainly() {
     for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_CULL_FACE, GL_SCISSOR_TEST, GL_FRAMEBUFFER_SRGB})
         glDisable(state);

@@ -2,6 +2,7 @@
 // renderbuffers.
 #pragma once
 
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -55,6 +56,21 @@ class Framebuffer {
     Handle<deleteRenderbuffer> colorStorage_, depthStorage_;
     int width_ = 0, height_ = 0, samples_ = 1;
     std::string label_;
+};
+
+// Framebuffers that draw into some textures, made once for each combination.
+class Framebuffers {
+  public:
+    explicit Framebuffers(Context& context) : context_(&context) {}
+    const Framebuffer& into(const std::vector<const Texture*>& colors);
+
+  private:
+    struct Made {
+        std::vector<GLuint> ids;
+        Framebuffer framebuffer;
+    };
+    Context* context_;
+    std::deque<Made> made_;  // references to its elements stay valid
 };
 
 // Passes write every texel of what they draw into as it is, whatever a renderer left switched on.

@@ -16,6 +16,38 @@ static std::vector<Targets> drawsOf(size_t values, int targets) {
     return out;
 }
 
+// How contact reads the layers, a texel a molecule, and changes them.
+class Fragments::Touched : public ContactState {
+  public:
+    explicit Touched(Fragments& path) : path_(&path) {}
+    std::vector<std::string> defines(size_t group) const override {
+        std::vector<std::string> out = path_->plan_->groups[group].layout().defines(true);
+        if (path_->state[group].hasConstants()) out.emplace_back("CONSTANTS");
+        return out;
+    }
+    void bind(const Program& program, size_t group) override {
+        const GroupLayers& layers = path_->state[group];
+        program.texture("oldState", 0, layers.state());
+        program.texture("oldRecords", 1, layers.records());
+        if (layers.hasConstants()) program.texture("constants", 2, layers.constants());
+    }
+    void apply(size_t group, const Gains& gains) override {
+        GroupLayers& layers = path_->state[group];
+        const Programs& programs = path_->programs_[group];
+        for (size_t i = 0; i < programs.touched.size(); ++i) {
+            const Program& program = *programs.touched[i];
+            program.use();
+            program.set("groupMolecules", path_->plan_->groups[group].count);
+            gains(program, kernel_unit::steering + 1);
+            path_->draw(program, group, layers.newState()[i]);
+        }
+        layers.flip();
+    }
+
+  private:
+    Fragments* path_;
+};
+
 Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                      const Tables& tables, const SimulationOptions& options)
     : plan_(&plan), noAttributes_(context, "fused step") {
@@ -36,6 +68,15 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         for (const Targets& draw : drawsOf(group.kernel.normals.size(), targets))
             programs.normals.push_back(&programs.kernel->also(KernelOptions::Work::normals, draw));
     }
+    for (const ContactGroup& group : plan.contact.groups)
+        for (const Targets& draw : drawsOf(storedInFragments(plan.groups[group.group]).size(), targets))
+            programs_[group.group].touched.push_back(
+                &programs_[group.group].kernel->also(KernelOptions::Work::touched, draw));
+    if (plan.contact.any()) {
+        contactState_ = std::make_unique<Touched>(*this);
+        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, *contactState_,
+                                                    options.cache);
+    }
     if (plan.school.any())
         school_ = std::make_unique<TextureSchool>(context, shaderRoot, plan, tables, options.cache);
 }
@@ -51,24 +92,33 @@ void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffe
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
-    if (school_) school_->step(frame, state, timers);
-    {
-        const auto timer = timers.time("fused");
-        gpu::drawPlainly();
-        for (size_t g = 0; g < state.size(); ++g) {
-            GroupKernel& kernel = *programs_[g].kernel;
-            kernel.update(frame);
-            for (size_t i = 0; i < kernel.steps(); ++i) {
-                const Program& program = kernel.useStep(frame, i);
-                if (plan_->groups[g].needs.steers) {
-                    program.texture("steering", kernel_unit::steering, state[g].steering());
-                    program.set("givenSteeringEnd", float(frame.end - frame.time));
-                }
-                draw(program, g, state[g].newState()[i]);
+void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
+    const auto timer = timers.time("fused");
+    gpu::drawPlainly();
+    for (size_t g = 0; g < state.size(); ++g) {
+        GroupKernel& kernel = *programs_[g].kernel;
+        kernel.update(frame);
+        for (size_t i = 0; i < kernel.steps(); ++i) {
+            const Program& program = kernel.useStep(frame, i);
+            if (plan_->groups[g].needs.steers) {
+                program.texture("steering", kernel_unit::steering, state[g].steering());
+                program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
             }
-            state[g].flip();
+            draw(program, g, state[g].newState()[i]);
         }
+        state[g].flip();
+    }
+}
+
+void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
+    steeringEnd_ = frame.end;
+    if (school_) school_->step(frame, state, timers);
+    if (!contact_) run(frame, timers);
+    const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
+    for (int i = 0; i < steps; ++i) {
+        const Frame piece = pieceOf(frame, i, steps);
+        run(piece, timers);
+        contact_->step(piece, *contactState_, timers);
     }
     computeNormals(timers);
     if (query_) watch(timers);
@@ -95,7 +145,8 @@ void Fragments::watch(gpu::PassTimers& timers) {
 }
 
 std::optional<std::vector<GroupState>> Fragments::readBefore() const {
-    if (school_) return {};  // the muscles' clocks have moved on
+    if (school_) return {};   // the muscles' clocks have moved on
+    if (contact_) return {};  // the side before is that of a step within the frame
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g)
         out.push_back(state[g].readBefore(plan_->groups[g]));

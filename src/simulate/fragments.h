@@ -13,6 +13,7 @@
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
 #include "simulate/state_view.h"
+#include "simulate/texture_contact.h"
 #include "simulate/texture_school.h"
 #include "simulate/watchdog.h"
 
@@ -43,7 +44,7 @@ class Fragments : public ExecutionPath {
     }
     bool alarmed() const override { return query_ && query_->raised(); }
     void disarm() override;
-    const ContactResult* contact() const override { return nullptr; }
+    const ContactResult* contact() const override { return contact_.get(); }
     Lanes lanes(size_t) const override { return Lanes::molecule; }
 
     std::vector<GroupLayers> state;  // per group
@@ -53,7 +54,10 @@ class Fragments : public ExecutionPath {
         std::unique_ptr<GroupKernel> kernel;
         std::vector<const gpu::Program*> normals;  // for each draw; none: nothing is drawn, or has no surface
         const gpu::Program* watch = nullptr;       // where watched
+        std::vector<const gpu::Program*> touched;  // for each draw, where there is contact
     };
+    class Touched;
+    void run(const Frame& frame, gpu::PassTimers& timers);
     void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target) const;
     void watch(gpu::PassTimers& timers);
 
@@ -63,6 +67,9 @@ class Fragments : public ExecutionPath {
     gpu::VertexArray noAttributes_;
     std::unique_ptr<RunawayQuery> query_;    // null: not watched
     std::unique_ptr<TextureSchool> school_;  // null: there is none
+    double steeringEnd_ = 0;                 // s, of the frame
+    std::unique_ptr<ContactState> contactState_;
+    std::unique_ptr<TextureContact> contact_;  // null: there is none
 };
 
 }  // namespace shoal

@@ -58,6 +58,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
+    if (options.work == Work::touched)
+        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");
     define(needs.pins, "PINS");
@@ -125,6 +127,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(options.work == Work::frame, "fused/frame.glsl");
     include(options.work == Work::normals, "fused/only_normals.glsl");
     include(options.work == Work::watch, "fused/watch.frag");
+    include(options.work == Work::touched, "fused/touched.frag");
     return out;
 }
 

@@ -43,6 +43,58 @@ std::string setOnceFor(const GroupPlan& group) {
     return out;
 }
 
+// How contact reads the textures of passes, a texel a vertex, and changes them.
+class VertexTexels : public ContactState {
+  public:
+    VertexTexels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
+                 TextureState& state, gpu::ProgramCache* cache)
+        : plan_(&plan), tables_(&tables), state_(&state), noAttributes_(context, "contact") {
+        apply_.resize(plan.groups.size());
+        for (const ContactGroup& contact : plan.contact.groups) {
+            const GroupPlan& group = plan.groups[contact.group];
+            gpu::ProgramOptions options;
+            options.vertex = "passes/fullscreen.vert";
+            options.fragment = "contact/apply.frag";
+            options.defines = {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())};
+            if (group.needs.pins) options.defines.emplace_back("PINS");
+            if (group.needs.release) options.defines.emplace_back("RELEASE");
+            options.label = concat("contact apply of ", group.name);
+            options.cache = cache;
+            apply_[contact.group] = Program(context, shaderRoot, options);
+        }
+    }
+    std::vector<std::string> defines(size_t) const override { return {}; }
+    void bind(const Program& program, size_t group) override {
+        setGroup(program, plan_->groups[group]);
+        program.texture("positions", 0, state_->position.read(group));
+        program.texture("velocities", 1, state_->velocity.read(group));
+        program.texture("records", 2, state_->record.read(group));
+        program.texture("constants", 3, state_->constant);
+    }
+    void apply(size_t group, const Gains& gains) override {
+        const TextureLayout& at = plan_->groups[group].texture;
+        const Program& program = apply_[group];
+        program.use();
+        bind(program, group);
+        program.texture("topology", 4, tables_->topology);
+        gains(program, 5);
+        const gpu::Framebuffer& target =
+            state_->target({&state_->position.write(group), &state_->velocity.write(group)});
+        target.bind(0, at.firstRow, target.width(), at.rows);
+        noAttributes_.bind();
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        state_->position.flip(group);
+        state_->velocity.flip(group);
+    }
+
+  private:
+    const Plan* plan_;
+    const Tables* tables_;
+    TextureState* state_;
+    std::vector<Program> apply_;  // per group
+    gpu::VertexArray noAttributes_;
+};
+
 }  // namespace
 
 PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
@@ -73,8 +125,10 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
             program->set("colliderParameters",
                          std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
-    if (plan.contact.any())
-        contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, options.cache);
+    if (!plan.contact.any()) return;
+    contactState_ = std::make_unique<VertexTexels>(context, shaderRoot, plan, tables, state, options.cache);
+    contact_ =
+        std::make_unique<TextureContact>(context, shaderRoot, plan, tables, *contactState_, options.cache);
 }
 
 void PingPong::computeNormals(gpu::PassTimers& timers) {
@@ -104,7 +158,7 @@ void PingPong::step(const Frame& frame, gpu::PassTimers& timers) {
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         runSubsteps(piece, timers);  // contact moves what springs had been evaluated at
-        contact_->step(piece, state, timers);
+        contact_->step(piece, *contactState_, timers);
     }
     if (drawn_)
         run(PassPlan::When::frameEnd, {frame.time + frame.parameters.frameTime, frame.h, false, frame},

@@ -19,11 +19,12 @@ static_assert(TextureContact::longestList % 4 == 0);
 }  // namespace
 
 TextureContact::TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                               const Tables& tables, gpu::ProgramCache* cache)
+                               const Tables& tables, const ContactState& state, gpu::ProgramCache* cache)
     : ContactPasses(plan, tables),
       rowBits_(plan.contact.rowBits()),
       sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
             cache),
+      targets_(context),
       noAttributes_(context, "contact") {
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
@@ -31,7 +32,8 @@ TextureContact::TextureContact(gpu::Context& context, const std::string& shaderR
     makeTextures(context);
     makePrograms(context, shaderRoot, cache);
     for (const ContactGroup& group : contact_->groups)
-        makeGroup(context, group, shaderRoot, cache);
+        spheres_.push_back(
+            makeGroup(context, plan_->groups[group.group], state.defines(group.group), shaderRoot, cache));
 }
 
 int TextureContact::rowsOf(int numbers) const {
@@ -93,58 +95,50 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     makeStages(options, make);
 }
 
-void TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
-                               const std::string& shaderRoot, gpu::ProgramCache* cache) {
-    const GroupPlan& plan = plan_->groups[group.group];
-    const auto make = [&](const char* file) {
-        gpu::ProgramOptions options;
-        options.vertex = "passes/fullscreen.vert";
-        options.fragment = concat("contact/", file, ".frag");
-        options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_)};
-        if (plan.needs.pins) options.defines.emplace_back("PINS");
-        if (plan.needs.release) options.defines.emplace_back("RELEASE");
-        options.label = concat("contact ", file, " of ", plan.name);
-        options.cache = cache;
-        return Program(context, shaderRoot, options);
-    };
-    groups_.push_back({make("spheres"), make("apply")});
+Program TextureContact::makeGroup(gpu::Context& context, const GroupPlan& group,
+                                  std::vector<std::string> defines, const std::string& shaderRoot,
+                                  gpu::ProgramCache* cache) const {
+    gpu::ProgramOptions options;
+    options.vertex = "passes/fullscreen.vert";
+    options.fragment = "contact/spheres.frag";
+    options.defines = std::move(defines);
+    options.defines.insert(options.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_)});
+    if (group.needs.pins) options.defines.emplace_back("PINS");
+    if (group.needs.release) options.defines.emplace_back("RELEASE");
+    options.label = concat("contact spheres of ", group.name);
+    options.cache = cache;
+    return {context, shaderRoot, options};
 }
 
-void TextureContact::draw(TextureState& state, const Into& into, int firstRow, int rows) const {
-    const gpu::Framebuffer& target = state.target(into);
+void TextureContact::draw(const Into& into, int firstRow, int rows) {
+    const gpu::Framebuffer& target = targets_.into(into);
     target.bind(0, firstRow, target.width(), rows);
     noAttributes_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
-void TextureContact::drawAll(TextureState& state, const Into& into) const {
-    draw(state, into, 0, rowsOf(contact_->spheres));
+void TextureContact::drawAll(const Into& into) {
+    draw(into, 0, rowsOf(contact_->spheres));
 }
 
-// Binds what shaders/state/textures.glsl reads.
-void TextureContact::bindState(const Program& program, const ContactGroup& group, TextureState& state) const {
-    program.use();
-    setGroup(program, plan_->groups[group.group]);
-    program.set("firstSphere", group.firstSphere);
-    program.texture("positions", 0, state.position.read(group.group));
-    program.texture("velocities", 1, state.velocity.read(group.group));
-    program.texture("records", 2, state.record.read(group.group));
-    program.texture("constants", 3, state.constant);
-    program.texture("topology", 4, tables_->topology);
-}
-
-void TextureContact::makeSpheres(TextureState& state) {
-    for (size_t g = 0; g < groups_.size(); ++g) {
+void TextureContact::makeSpheres(ContactState& state) {
+    for (size_t g = 0; g < spheres_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
-        const int spheres = plan_->groups[group.group].count * group.spheresOf;
-        const Program& program = groups_[g].spheres;
-        bindState(program, group, state);
+        const GroupPlan& plan = plan_->groups[group.group];
+        const int spheres = plan.count * group.spheresOf;
+        const Program& program = spheres_[g];
+        program.use();
+        state.bind(program, group.group);
+        program.texture("topology", 4, tables_->topology);
+        program.set("topologyBase", plan.topologyBase);
+        program.set("vertexCount", plan.vertexCount);
+        program.set("firstSphere", group.firstSphere);
         program.set("groupSpheres", spheres);
         program.set("label", int(uint32_t(g) << 26));
         program.set("cell", float(contact_->cell));
         program.set("radius", float(group.radius));
         const int first = group.firstSphere >> rowBits_;
-        draw(state, {&spherePlaces_, &sphereMotions_, &sphereCells_}, first,
+        draw({&spherePlaces_, &sphereMotions_, &sphereCells_}, first,
              rowsOf(group.firstSphere + spheres) - first);
     }
 }
@@ -163,31 +157,31 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
     sort.sort();
 }
 
-void TextureContact::buildGrid(const Frame&, TextureState& state) {
+void TextureContact::buildGrid(const Frame&, ContactState& state) {
     makeSpheres(state);
     sortKeys(sort_, false);
     if (staggered_) sortKeys(*staggered_, true);
     starts_.use();
     starts_.texture("sorted", 0, sort_.pairs());
     starts_.set("count", contact_->spheres);
-    draw(state, {&startsOf_}, 0, startsOf_.height());
+    draw({&startsOf_}, 0, startsOf_.height());
     order_.use();
     order_.texture("sorted", 0, sort_.pairs());
     order_.texture("spherePlaces", 1, spherePlaces_);
     order_.texture("sphereMotions", 2, sphereMotions_);
     order_.texture("sphereCells", 3, sphereCells_);
     order_.set("count", contact_->spheres);
-    drawAll(state, {&places_, &motions_, &cells_});
+    drawAll({&places_, &motions_, &cells_});
     slots_.use();
     slots_.texture("sorted", 0, sort_.pairs());
     slots_.texture("sphereCells", 1, sphereCells_);
     slots_.texture("starts", 2, startsOf_);
     slots_.set("count", contact_->spheres);
     slots_.set("keyMask", keyMask());
-    drawAll(state, {&slotsOf_});
+    drawAll({&slotsOf_});
 }
 
-void TextureContact::search(TextureState& state) {
+void TextureContact::search(ContactState&) {
     find_.use();
     find_.texture("places", 0, places_);
     find_.texture("cells", 1, cells_);
@@ -205,7 +199,7 @@ void TextureContact::search(TextureState& state) {
     find_.set("keyMask", keyMask());
     find_.set("cell", float(contact_->cell));
     countsSide_ = 1 - countsSide_;
-    drawAll(state, {&counts_[countsSide_], &lists_});
+    drawAll({&counts_[countsSide_], &lists_});
 }
 
 // Binds what all stages of the response read; returns the next free texture unit.
@@ -221,7 +215,7 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
     return 6;
 }
 
-void TextureContact::runStage(TextureState& state, const Program& program, const Times& times,
+void TextureContact::runStage(ContactState&, const Program& program, const Times& times,
                               const Totals& totals) {
     const int unit = bindResponse(program, times);
     // without momentum the earlier ones do not count, and nobody may have written them yet
@@ -236,39 +230,33 @@ void TextureContact::runStage(TextureState& state, const Program& program, const
     const Texture* impulses = &impulses_[totals.next];
     if (&program == &correction_) {
         program.texture("kept", unit + 5, shifts_);
-        drawAll(state, {impulses});
+        drawAll({impulses});
     } else if (&program == &friction_) {
-        drawAll(state, {impulses, &shifts_});
+        drawAll({impulses, &shifts_});
     } else {
-        drawAll(state, {impulses, &pushes_[totals.next]});
+        drawAll({impulses, &pushes_[totals.next]});
     }
 }
 
-void TextureContact::apply(TextureState& state, size_t impulses) {
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const ContactGroup& group = contact_->groups[g];
-        const TextureLayout& at = plan_->groups[group.group].texture;
-        const Program& program = groups_[g].apply;
-        bindState(program, group, state);
-        program.texture("slots", 5, slotsOf_);
-        program.texture("counts", 6, counts_[countsSide_]);
-        program.texture("impulses", 7, impulses_[impulses]);
-        program.texture("shifts", 8, shifts_);
-        draw(state, {&state.position.write(group.group), &state.velocity.write(group.group)}, at.firstRow,
-             at.rows);
-        state.position.flip(group.group);
-        state.velocity.flip(group.group);
-    }
+void TextureContact::apply(ContactState& state, size_t impulses) {
+    for (const ContactGroup& group : contact_->groups)
+        state.apply(group.group, [&](const Program& program, int firstUnit) {
+            program.set("firstSphere", group.firstSphere);
+            program.texture("slots", firstUnit, slotsOf_);
+            program.texture("counts", firstUnit + 1, counts_[countsSide_]);
+            program.texture("impulses", firstUnit + 2, impulses_[impulses]);
+            program.texture("shifts", firstUnit + 3, shifts_);
+        });
 }
 
-void TextureContact::runNearest(TextureState& state, const Times& times, const Totals& totals) {
+void TextureContact::runNearest(ContactState&, const Times& times, const Totals& totals) {
     bindResponse(nearest_, times);
-    drawAll(state, {&impulses_[totals.next], &shifts_});
+    drawAll({&impulses_[totals.next], &shifts_});
 }
 
-void TextureContact::runEffective(TextureState& state, const Times& times) {
+void TextureContact::runEffective(ContactState&, const Times& times) {
     bindResponse(effective_, times);
-    drawAll(state, {&effectiveCounts_});
+    drawAll({&effectiveCounts_});
 }
 
 static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {

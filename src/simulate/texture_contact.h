@@ -1,6 +1,7 @@
-// Contact of molecules with one another on the ping-pong path (OpenGL 3.3): fragment passes between two
-// substeps. Method, equations and what the other path has beyond it: docs/contact.md; what there is:
-// compile/contact_plan.h. The stages and their GLSL are those of simulate/molecule_contact.h:
+// Contact of molecules with one another in fragment passes (OpenGL 3.3), between two substeps: on the
+// ping-pong path, and on the fused one in fragments. Method, equations and what compute has beyond it:
+// docs/contact.md; what there is: compile/contact_plan.h. The stages and their GLSL are those of
+// simulate/molecule_contact.h:
 //
 //   contact grid       spheres   records of every sphere from the state, a texel each
 //                      keys      of their cells, two a texel
@@ -17,27 +18,42 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "gpu/buffer.h"
+#include "gpu/framebuffer.h"
 #include "gpu/texture.h"
 #include "simulate/contact_passes.h"
-#include "simulate/texture_state.h"
 #include "sort/network_sort.h"
 
 namespace shoal {
 
-class TextureContact : public ContactPasses<TextureState> {
+// Where these passes read molecules, and change them.
+class ContactState {
+  public:
+    virtual ~ContactState() = default;
+    // The defines with which contact/spheres.frag reads a group.
+    virtual std::vector<std::string> defines(size_t group) const = 0;
+    // Binds what it reads then, beside the topology.
+    virtual void bind(const gpu::Program& program, size_t group) = 0;
+    // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use slots,
+    // counts, impulses and shifts, in texture units from `firstUnit` on.
+    using Gains = std::function<void(const gpu::Program& program, int firstUnit)>;
+    virtual void apply(size_t group, const Gains& bind) = 0;
+};
+
+class TextureContact : public ContactPasses<ContactState> {
   public:
     // Entries of a list: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
     static constexpr int longestList = 24;
 
-    // Borrows the plan and the tables. A step reads the current sides of positions and velocities and writes
-    // the others; blending, tests and masks are off in it. Error: out of memory; the driver refuses a shader.
+    // Borrows the plan and the tables; `state`: only for its defines. Blending, tests and masks are off in a
+    // step. Error: out of memory; the driver refuses a shader.
     TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                   const Tables& tables, gpu::ProgramCache* cache);
+                   const Tables& tables, const ContactState& state, gpu::ProgramCache* cache);
 
     uint32_t dropped() const override;
     int listLength() const override { return longestList; }
@@ -45,34 +61,30 @@ class TextureContact : public ContactPasses<TextureState> {
     size_t bytes() const override;
 
   private:
-    struct GroupPrograms {
-        gpu::Program spheres, apply;
-    };
     using Into = std::vector<const gpu::Texture*>;
 
     void makeTextures(gpu::Context& context);
     void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
-    void makeGroup(gpu::Context& context, const ContactGroup& group, const std::string& shaderRoot,
-                   gpu::ProgramCache* cache);
+    gpu::Program makeGroup(gpu::Context& context, const GroupPlan& group, std::vector<std::string> defines,
+                           const std::string& shaderRoot, gpu::ProgramCache* cache) const;
 
-    void makeSpheres(TextureState& state);
+    void makeSpheres(ContactState& state);
     void sortKeys(NetworkSort& sort, bool staggered);
-    void buildGrid(const Frame& frame, TextureState& state) override;
-    void search(TextureState& state) override;
+    void buildGrid(const Frame& frame, ContactState& state) override;
+    void search(ContactState& state) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
-    void runNearest(TextureState& state, const Times& times, const Totals& totals) override;
-    void runEffective(TextureState& state, const Times& times) override;
-    void runStage(TextureState& state, const gpu::Program& program, const Times& times,
+    void runNearest(ContactState& state, const Times& times, const Totals& totals) override;
+    void runEffective(ContactState& state, const Times& times) override;
+    void runStage(ContactState& state, const gpu::Program& program, const Times& times,
                   const Totals& totals) override;
-    void apply(TextureState& state, size_t impulses) override;
+    void apply(ContactState& state, size_t impulses) override;
 
-    void bindState(const gpu::Program& program, const ContactGroup& group, TextureState& state) const;
-    void draw(TextureState& state, const Into& into, int firstRow, int rows) const;
-    void drawAll(TextureState& state, const Into& into) const;  // the rows of all spheres
+    void draw(const Into& into, int firstRow, int rows);
+    void drawAll(const Into& into);  // the rows of all spheres
     int rowsOf(int numbers) const;
 
     int rowBits_;
-    std::vector<GroupPrograms> groups_;
+    std::vector<gpu::Program> spheres_;  // per group with contact
     gpu::Program keys_, starts_, order_, slots_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
@@ -81,6 +93,7 @@ class TextureContact : public ContactPasses<TextureState> {
     std::array<gpu::Texture, 2> counts_;
     size_t countsSide_ = 0;
     std::array<gpu::Texture, 3> impulses_, pushes_;
+    gpu::Framebuffers targets_;
     gpu::VertexArray noAttributes_;
 };
 

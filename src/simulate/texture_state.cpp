@@ -44,7 +44,7 @@ void setGroup(const gpu::Program& program, const GroupPlan& group) {
     program.set("topologyBase", group.topologyBase);
 }
 
-TextureState::TextureState(gpu::Context& context, const Plan& plan) : context_(&context) {
+TextureState::TextureState(gpu::Context& context, const Plan& plan) : targets_(context) {
     const auto any = [&](bool Needs::*need) {
         return std::any_of(plan.groups.begin(), plan.groups.end(),
                            [&](const GroupPlan& group) { return group.needs.*need; });
@@ -151,18 +151,6 @@ GroupState TextureState::readOne(const GroupPlan& group, size_t index, size_t mo
 
 std::vector<glm::vec3> TextureState::readNormals(const GroupPlan& group) const {
     return asVertices(group, downloadRows(normal, group.texture.firstRow, group.texture.rows));
-}
-
-const Framebuffer& TextureState::target(const std::vector<const Texture*>& colors) {
-    std::vector<GLuint> ids;
-    for (const Texture* color : colors)
-        ids.push_back(color->id());
-    for (const Target& target : targets_)
-        if (target.ids == ids) return target.framebuffer;
-    const char* label = colors.front()->label().c_str();
-    targets_.push_back(
-        {std::move(ids), Framebuffer(*context_, {colors.begin(), colors.end()}, nullptr, label)});
-    return targets_.back().framebuffer;
 }
 
 }  // namespace shoal

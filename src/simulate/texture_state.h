@@ -15,7 +15,6 @@
 #pragma once
 
 #include <array>
-#include <deque>
 #include <vector>
 
 #include "compile/plan.h"
@@ -62,15 +61,12 @@ class TextureState {
     gpu::Texture normal, constant;
 
     // Framebuffer that draws into the given sides (made once per combination).
-    const gpu::Framebuffer& target(const std::vector<const gpu::Texture*>& colors);
+    const gpu::Framebuffer& target(const std::vector<const gpu::Texture*>& colors) {
+        return targets_.into(colors);
+    }
 
   private:
-    struct Target {
-        std::vector<GLuint> ids;
-        gpu::Framebuffer framebuffer;
-    };
-    gpu::Context* context_;
-    std::deque<Target> targets_;  // references to its elements stay valid
+    gpu::Framebuffers targets_;
 };
 
 }  // namespace shoal

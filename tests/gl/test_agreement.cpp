@@ -23,16 +23,18 @@ bool runsInFragments(const Plan& plan) {
     }
 }
 
-// With compute shaders where there are some, else in fragments, which as yet leave contact to the passes.
+// With compute shaders where there are some, else in fragments, if they can.
 Path fusedPath(const Plan& plan) {
     if (testContext().info().computeShaders) return Path::fused;
     return runsInFragments(plan) ? Path::fragments : Path::pingPong;
 }
 
+// Contact in fragments, whose programs take long to compile, is repeated where it is what runs.
 std::vector<Path> pathsOf(const Plan& plan) {
     std::vector<Path> out = {Path::pingPong};
-    if (testContext().info().computeShaders) out.push_back(Path::fused);
-    if (runsInFragments(plan)) out.push_back(Path::fragments);
+    const bool compute = testContext().info().computeShaders;
+    if (compute) out.push_back(Path::fused);
+    if (runsInFragments(plan) && !(compute && plan.contact.any())) out.push_back(Path::fragments);
     return out;
 }
 

@@ -98,6 +98,7 @@ class Validator {
         };
         addDraws(KernelOptions::Work::frame, storedInFragments(plan.groups[0]).size());
         addDraws(KernelOptions::Work::normals, plan.groups[0].kernel.normals.size());
+        addDraws(KernelOptions::Work::touched, storedInFragments(plan.groups[0]).size());
         options.work = KernelOptions::Work::watch;
         options.fragments.emplace();
         addKernel(plan, options);
@@ -292,6 +293,11 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const char* file :
          {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "effective", "apply"})
         contact(file);
+    for (const Defines& set : combinations({"PINS", "CONSTANTS"})) {
+        Defines layered = {"LAYERED", "STATE_WIDTH 1024", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"};
+        layered.insert(layered.end(), set.begin(), set.end());
+        contact("spheres", layered);
+    }
     for (const char* stage : {"guess", "relax", "friction", "correction"}) {
         validator.generated.merge(responseStage(stage));
         contact("respond");
