@@ -127,7 +127,7 @@ void PlaceLists::setUp(const Program& program, const PlaceSet& set) const {
     program.storage("Control", 2, control_);
     program.set("laneCount", lanesOf(size_t(set.places)));
     program.set("placeCount", set.places);
-    program.set("controlBase", int(controlAt(set.group)));
+    program.set("controlBase", int(control::of(set.group)));
 }
 
 void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
@@ -177,12 +177,12 @@ void PlaceLists::listPlaces(const PlaceSet& set, const Buffer& bits, const Buffe
 }
 
 void PlaceLists::readControl(size_t group, uint32_t* words) const {
-    control_.download(Traffic::Kind::control, controlAt(group) * sizeof(uint32_t), words,
+    control_.download(Traffic::Kind::control, control::of(group) * sizeof(uint32_t), words,
                       control::words * sizeof(uint32_t));
 }
 
 void PlaceLists::writeControl(size_t group, const uint32_t* words) {
-    control_.update(Traffic::Kind::state, controlAt(group) * sizeof(uint32_t), words,
+    control_.update(Traffic::Kind::state, control::of(group) * sizeof(uint32_t), words,
                     control::words * sizeof(uint32_t));
 }
 

@@ -51,6 +51,9 @@ class Places {
 
 namespace control {
 constexpr int words = 32;  // a group
+constexpr size_t of(size_t group) {
+    return group * words;
+}
 constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, stepGroups = 12;
 }  // namespace control
 // Emitters from deaths that a group may have: two textures of each, beside four of the group's own, of the
@@ -86,7 +89,6 @@ class PlaceLists {
     // After countPlaces: the first of them, as many as are born; their bits are cleared.
     void listPlaces(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list);
 
-    static size_t controlAt(size_t group) { return group * control::words; }
     const gpu::Buffer& control() const { return control_; }
     void readControl(size_t group, uint32_t* words) const;
     void writeControl(size_t group, const uint32_t* words);
