@@ -81,9 +81,8 @@ void main()
     CellPlace place = cellPlace(record.xyz, position + cellShift, cell);
     int sphere = firstSphere + lane;
 #ifdef LIFE
-    // what is not there has a cell of its own, far from all others
     if (!(packedLife(oldState, first).y > 0.0)) {
-        place.cell = ivec3(0x40000000, sphere, 0);
+        place.cell = cellApart(sphere);
         radius = 0.0;
     }
 #endif

@@ -45,6 +45,9 @@ void main()
 #ifdef CONSTANTS
     scale = valueOf(constants, molecule).x;
 #endif
+#ifdef LIFE
+    bool isFree = !(packedLife(oldState, molecule).y > 0.0);
+#endif
 #else
     ivec2 texel = stateTexel(vertex, molecule);
     vec3 anchor = texelFetch(records, recordTexel(molecule), 0).xyz;
@@ -56,7 +59,14 @@ void main()
 #endif
     float weight = held ? 0.0 : ownInertia.x;
     CellPlace place = cellPlace(anchor, position, cell);
+    float ownRadius = radius * scale;
+#ifdef LIFE
+    if (isFree) {
+        place.cell = cellApart(firstSphere + number);
+        ownRadius = 0.0;
+    }
+#endif
     newPlace = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotion = uvec4(floatBitsToUint(velocity), floatBitsToUint(weight));
-    newCell = uvec4(uvec3(place.cell), floatBitsToUint(radius * scale));
+    newCell = uvec4(uvec3(place.cell), floatBitsToUint(ownRadius));
 }

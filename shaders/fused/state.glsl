@@ -165,3 +165,10 @@ vec4 recordNow()
     float label = float(seed + 1u);
     return vec4(anchor, released ? -label : label);
 }
+
+#ifdef CONSTANTS
+vec4 constantsNow()
+{
+    return vec4(scale, phase, 0.0, 0.0);
+}
+#endif

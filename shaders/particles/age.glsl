@@ -1,9 +1,12 @@
 // Ages a molecule by a frame. It dies of age, outside a box (CONFINED), or some time after it has touched a
-// collider (TOUCH_COUNTS): its place becomes free, and with DEATHS its death is recorded. One bit a
-// place, so that neighbours that die together leave the same bits in whatever order. Needs fused/state.glsl.
+// collider (TOUCH_COUNTS): its place becomes free, and with DEATHS its death is recorded: one bit a
+// place, so that neighbours that die together leave the same bits in whatever order. In fragments the state itself tells
+// (particles/bits.frag). Needs fused/state.glsl.
+#ifndef LAYERED
 layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 #ifdef DEATHS
 layout(std430, binding = 5) buffer DiedBits { uint diedBits[]; };
+#endif
 #endif
 #ifdef CONFINED
 uniform vec4 livesAbove[2], livesBelow[2];  // m, corners of the box, each a point of the anchors' lattice and the rest
@@ -27,10 +30,12 @@ void growOlder(int molecule)
     if (dies) {
         age = clamp(age - span, 0.0, frameDuration);  // how long ago
         span = 0.0;
+#ifndef LAYERED
         uint bit = 1u << (uint(molecule) & 31u);
         atomicOr(freeBits[molecule >> 5], bit);
 #ifdef DEATHS
         atomicOr(diedBits[molecule >> 5], bit);
+#endif
 #endif
     }
 }

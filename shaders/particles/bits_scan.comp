@@ -22,11 +22,9 @@ uniform ivec4 deathRuns[mostDeathRuns];  // x control of the group that dies, y 
 shared uint tops[LANES];
 
 #ifndef DEATHS
-// A counter that stays at the largest number.
 void count(int which, uint more)
 {
-    uint before = control[controlBase + which];
-    control[controlBase + which] = before + min(more, 0xffffffffu - before);
+    control[controlBase + which] = counted(control[controlBase + which], more);
 }
 #endif
 

@@ -11,4 +11,11 @@ const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
 const int controlStepGroups = 12;  // workgroups of the next step, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
+const int controlWords = 32;   // of a group
 const int mostDeathRuns = 6;
+
+// A counter that stays at the largest number.
+uint counted(uint before, uint more)
+{
+    return before + min(more, 0xffffffffu - before);
+}

@@ -21,6 +21,12 @@ CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
     return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
 }
 
+// What is not there has a cell of its own, far from all others.
+ivec3 cellApart(int sphere)
+{
+    return ivec3(0x40000000, sphere, 0);
+}
+
 // From local position b to a, when they are less than two cells apart along each axis.
 vec3 localDifference(vec3 a, vec3 b, float cell)
 {

@@ -149,13 +149,12 @@ class EmitterText {
         const int elements = layout_.stateElements(), positions = layout_.positionElements();
         const std::string states = concat("sourceStates", index_), records = concat("sourceRecords", index_);
         // back from the frame's end to its death, as gravity had it
-        return concat(
-            "        int first = (source.molecule / ", BufferLayout::block, ") * ",
-            BufferLayout::block * elements, " + source.molecule % ", BufferLayout::block, ";\n",
-            "        vec3 carried = texelFetch(", states, ", first + ", positions * BufferLayout::block,
-            ").xyz - gravity * source.since;\n", "        start.lattice = texelFetch(", records,
-            ", source.molecule).xyz;\n", "        start.place = texelFetch(", states,
-            ", first).xyz - (carried + gravity * (0.5 * source.since)) * source.since;\n", anyOutward());
+        return concat("        int first = firstElement(source.molecule, ", elements, ");\n",
+                      "        vec3 carried = element(", states, ", first, ", positions,
+                      ").xyz - gravity * source.since;\n", "        start.lattice = valueOf(", records,
+                      ", source.molecule).xyz;\n", "        start.place = element(", states,
+                      ", first, 0).xyz - (carried + gravity * (0.5 * source.since)) * source.since;\n",
+                      anyOutward());
     }
 
     const Scene* scene_;
@@ -188,15 +187,13 @@ std::string generateEmitters(const Scene& scene, const Lifecycle& life,
         const Emitter& emitter = life.emitters[i];
         body += EmitterText(scene, emitter, i, layouts[i], samples).text();
         if (emitter.from != From::death) continue;
-        sources += concat("uniform samplerBuffer sourceStates", i, ";\nuniform samplerBuffer sourceRecords",
-                          i, ";\n");
+        sources += concat("uniform VALUES sourceStates", i, ";\nuniform VALUES sourceRecords", i, ";\n");
         const BufferLayout& layout = layouts[i];
         const int life4 = layout.lifeApart() ? layout.stateElements() - 1 : layout.positionElements() - 1;
-        lengths += concat("    if (emitter == ", i, ") {\n        seed = texelFetch(sourceRecords", i,
-                          ", molecule).w;\n        since = texelFetch(sourceStates", i, ", (molecule / ",
-                          BufferLayout::block, ") * ", BufferLayout::block * layout.stateElements(), " + ",
-                          life4 * BufferLayout::block, " + molecule % ", BufferLayout::block, ").",
-                          layout.lifeApart() ? "x" : "w", ";\n    }\n");
+        lengths +=
+            concat("    if (emitter == ", i, ") {\n        seed = valueOf(sourceRecords", i,
+                   ", molecule).w;\n        since = element(sourceStates", i, ", firstElement(molecule, ",
+                   layout.stateElements(), "), ", life4, ").", layout.lifeApart() ? "x" : "w", ";\n    }\n");
     }
     return concat(
         "uniform vec4 emitterParameters[", slots * life.emitters.size(), "];\n", sources,

@@ -66,16 +66,14 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
         throw Error(concat("the ping-pong path reads fields at every vertex and substep: field sampling ",
                            name(plan.fieldSampling), " needs the fused path"));
     for (const GroupPlan& group : plan.groups)
-        if (group.needs.life)
-            throw Error(group.life->cycle.location, "birth and death need the fused path (OpenGL 4.3)");
+        if (group.needs.life) throw Error(group.life->cycle.location, "birth and death need the fused path");
     if (plan.school.any())
         throw Error(plan.school.members[0].school.location, "schooling needs the fused path");
     for (const GroupPlan& group : plan.groups)
         if (solver(group.solver).implicit)
-            throw Error(group.location,
-                        concat(name(group.solver), ", which \"", group.name,
-                               "\" takes, needs the fused path (OpenGL 4.3); the explicit solvers "
-                               "run on the ping-pong path as well"));
+            throw Error(group.location, concat(name(group.solver), ", which \"", group.name,
+                                               "\" takes, needs the fused path; the explicit solvers "
+                                               "run on the ping-pong path as well"));
     checkContact(plan, limits);
     checkTextures(plan, limits);
 }
@@ -134,11 +132,6 @@ void checkLayers(const GroupPlan& group, const PathLimits& limits) {
 }
 
 void checkFragments(const Plan& plan, const PathLimits& limits) {
-    const auto refuse = [](const Location& location, const char* what) {
-        throw Error(location, concat(what, " needs compute shaders (OpenGL 4.3); fragments do not have it"));
-    };
-    for (const GroupPlan& group : plan.groups)
-        if (group.needs.life) refuse(group.life->cycle.location, "the birth and death of molecules");
     checkContact(plan, limits);
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {

@@ -1,6 +1,6 @@
-// Birth and death in compute shaders (simulate/birth_passes.h). What dies sets the bit of its place; lists come
-// from sums over the bits (count, scan, list); a lane spawns a newborn. With the allocator gpu, how far the
-// next step and birth have to reach is known on the GPU alone, too.
+// Birth and death in compute shaders (simulate/birth_passes.h). What dies sets the bit of its place; lists
+// come from sums over the bits (count, scan, list); a lane spawns a newborn. With the allocator gpu, how far
+// the next step and birth have to reach is known on the GPU alone, too.
 #pragma once
 
 #include <string>

@@ -9,13 +9,6 @@ namespace shoal {
 using gpu::Program;
 using Targets = KernelOptions::Targets;
 
-static std::vector<Targets> drawsOf(size_t values, int targets) {
-    std::vector<Targets> out;
-    for (int first = 0; first < int(values); first += targets)
-        out.push_back({first, std::min(targets, int(values) - first)});
-    return out;
-}
-
 // How contact reads the layers, a texel a molecule, and changes them.
 class Fragments::Touched : public ContactState {
   public:
@@ -39,7 +32,7 @@ class Fragments::Touched : public ContactState {
             program.use();
             program.set("groupMolecules", path_->plan_->groups[group].count);
             gains(program, kernel_unit::steering + 1);
-            path_->draw(program, group, layers.newState()[i]);
+            path_->draw(program, group, layers.newState()[i], layers.count());
         }
         layers.flip();
     }
@@ -79,15 +72,19 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
     }
     if (plan.school.any())
         school_ = std::make_unique<TextureSchool>(context, shaderRoot, plan, tables, options.cache);
+    if (plan.hasLife())
+        births_ = std::make_unique<TextureBirths>(context, shaderRoot, plan, tables, targets, options.cache);
 }
 
-void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target) const {
+void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target,
+                     int molecules) const {
     const GroupLayers& layers = state[group];
     program.texture("oldState", kernel_unit::oldState, layers.state());
     program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
     if (layers.hasConstants()) program.texture("constants", kernel_unit::constants, layers.constants());
     programs_[group].kernel->bindTables(program);
-    target.bind(0, 0, std::min(stateWidth, plan_->groups[group].count), target.height());
+    if (molecules == 0) return;
+    target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
     noAttributes_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);
 }
@@ -97,6 +94,7 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
     gpu::drawPlainly();
     for (size_t g = 0; g < state.size(); ++g) {
         GroupKernel& kernel = *programs_[g].kernel;
+        const bool lives = births_ && births_->has(g);
         kernel.update(frame);
         for (size_t i = 0; i < kernel.steps(); ++i) {
             const Program& program = kernel.useStep(frame, i);
@@ -104,7 +102,8 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
                 program.texture("steering", kernel_unit::steering, state[g].steering());
                 program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
             }
-            draw(program, g, state[g].newState()[i]);
+            if (lives) births_->bindStep(program, g);
+            draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count());
         }
         state[g].flip();
     }
@@ -113,11 +112,15 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
 void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, state, timers);
-    if (!contact_) run(frame, timers);
+    if (!contact_) {
+        run(frame, timers);
+        if (births_) births_->step(frame, state, timers);
+    }
     const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
         run(piece, timers);
+        if (births_) births_->step(piece, state, timers);
         contact_->step(piece, *contactState_, timers);
     }
     computeNormals(timers);
@@ -130,7 +133,7 @@ void Fragments::computeNormals(gpu::PassTimers& timers) {
     for (size_t g = 0; g < state.size(); ++g)
         for (size_t i = 0; i < programs_[g].normals.size(); ++i) {
             programs_[g].normals[i]->use();
-            draw(*programs_[g].normals[i], g, state[g].newNormals()[i]);
+            draw(*programs_[g].normals[i], g, state[g].newNormals()[i], state[g].count());
         }
 }
 
@@ -140,17 +143,33 @@ void Fragments::watch(gpu::PassTimers& timers) {
     const RunawayQuery::Asking asking(*query_);
     for (size_t g = 0; g < state.size(); ++g) {
         programs_[g].watch->use();
-        draw(*programs_[g].watch, g, state[g].newState().front());
+        draw(*programs_[g].watch, g, state[g].newState().front(), state[g].count());
     }
 }
 
 std::optional<std::vector<GroupState>> Fragments::readBefore() const {
+    if (births_) return {};   // newborns have taken places since
     if (school_) return {};   // the muscles' clocks have moved on
     if (contact_) return {};  // the side before is that of a step within the frame
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g)
         out.push_back(state[g].readBefore(plan_->groups[g]));
     return out;
+}
+
+void Fragments::write(size_t group, const GroupState& groupState, double time) {
+    state[group].write(plan_->groups[group], groupState);
+    if (plan_->groups[group].needs.life) births_->write(group, groupState, time);
+}
+
+GroupState Fragments::read(size_t group) const {
+    GroupState out = state[group].read(plan_->groups[group]);
+    if (plan_->groups[group].needs.life) births_->read(group, out);
+    return out;
+}
+
+bool Fragments::changeLife(size_t group, const Lifecycle& life) {
+    return plan_->groups[group].needs.life && births_->change(group, life);
 }
 
 void Fragments::disarm() {

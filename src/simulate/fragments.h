@@ -13,6 +13,7 @@
 #include "simulate/group_kernel.h"
 #include "simulate/layer_state.h"
 #include "simulate/state_view.h"
+#include "simulate/texture_births.h"
 #include "simulate/texture_contact.h"
 #include "simulate/texture_school.h"
 #include "simulate/watchdog.h"
@@ -28,10 +29,8 @@ class Fragments : public ExecutionPath {
     void step(const Frame& frame, gpu::PassTimers& timers) override;
     void computeNormals(gpu::PassTimers& timers) override;
     StateView view() const override { return {.layers = &state}; }
-    void write(size_t group, const GroupState& groupState, double) override {
-        state[group].write(plan_->groups[group], groupState);
-    }
-    GroupState read(size_t group) const override { return state[group].read(plan_->groups[group]); }
+    void write(size_t group, const GroupState& groupState, double time) override;
+    GroupState read(size_t group) const override;
     GroupState readOne(size_t group, size_t molecule) const override {
         return state[group].readOne(molecule);
     }
@@ -42,6 +41,8 @@ class Fragments : public ExecutionPath {
     bool changeSchool(size_t group, const School& school) override {
         return school_ && school_->change(group, school);
     }
+    bool changeLife(size_t group, const Lifecycle& life) override;
+    LifeCounts lifeCounts(size_t group) const override { return births_->counts(group, state[group]); }
     bool alarmed() const override { return query_ && query_->raised(); }
     void disarm() override;
     const ContactResult* contact() const override { return contact_.get(); }
@@ -58,7 +59,8 @@ class Fragments : public ExecutionPath {
     };
     class Touched;
     void run(const Frame& frame, gpu::PassTimers& timers);
-    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target) const;
+    // Draws the rows of so many molecules.
+    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target, int molecules) const;
     void watch(gpu::PassTimers& timers);
 
     const Plan* plan_;
@@ -68,6 +70,7 @@ class Fragments : public ExecutionPath {
     std::unique_ptr<RunawayQuery> query_;    // null: not watched
     std::unique_ptr<TextureSchool> school_;  // null: there is none
     double steeringEnd_ = 0;                 // s, of the frame
+    std::unique_ptr<TextureBirths> births_;  // null: none is born and none dies
     std::unique_ptr<ContactState> contactState_;
     std::unique_ptr<TextureContact> contact_;  // null: there is none
 };

@@ -112,7 +112,7 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
-        return out + parameterLoads(group, options) + "#include \"particles/spawn.comp\"\n";
+        return out + parameterLoads(group, options) + "#include \"particles/spawn.glsl\"\n";
     if (solver(group.solver).implicit) {
         include(true, "fused/stage.glsl");
         include(group.factored(), "generated/factors.glsl");
@@ -152,9 +152,31 @@ std::string storeToTargets(const std::vector<std::string>& values, const char* f
     return concat(out, "\nvoid ", function, "(int molecule)\n{\n", body, "}\n");
 }
 
+// A function that writes some of the values to what a vertex hands to the fragment that stores them.
+std::string storeFromVertex(const std::vector<std::string>& values, const KernelOptions::Targets& targets) {
+    std::string out = "\n", body;
+    for (int t = 0; t < targets.count; ++t) {
+        out += concat("flat out vec4 born", t, ";\n");
+        body += concat("    born", t, " = ", values[size_t(targets.first + t)], ";\n");
+    }
+    return concat(out, "\nvoid storeState(int molecule)\n{\n", body, "}\n");
+}
+
+// The fragment: what it is handed, into the targets.
+std::string newbornText(const KernelOptions::Targets& targets) {
+    std::string out = "// Stores what a vertex has made of a newborn (particles/spawn.glsl).\n", body;
+    for (int t = 0; t < targets.count; ++t) {
+        out += concat("flat in vec4 born", t, ";\nlayout(location = ", t, ") out vec4 target", t, ";\n");
+        body += concat("    target", t, " = born", t, ";\n");
+    }
+    return concat(out, "\nvoid main()\n{\n", body, "}\n");
+}
+
 // How a lane loads and stores its molecule.
 std::string packingText(const GroupPlan& group, const KernelOptions& options) {
     const KernelText& kernel = group.kernel;
+    if (options.fragments && options.work == Work::births)
+        return kernel.load + storeFromVertex(storedAtBirth(group), *options.fragments);
     if (options.fragments && options.work == Work::watch) return kernel.load;
     if (options.fragments)
         return kernel.load +
@@ -198,6 +220,19 @@ std::vector<std::string> storedInFragments(const GroupPlan& group) {
     return out;
 }
 
+std::vector<std::string> storedAtBirth(const GroupPlan& group) {
+    std::vector<std::string> out = storedInFragments(group);
+    if (group.needs.scale || group.needs.phase) out.emplace_back("constantsNow()");
+    return out;
+}
+
+std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets) {
+    std::vector<KernelOptions::Targets> out;
+    for (int first = 0; first < int(values); first += targets)
+        out.push_back({first, std::min(targets, int(values) - first)});
+    return out;
+}
+
 int workgroupLanes(const GroupPlan& group, Lanes lanes) {
     return lanes == Lanes::molecule ? group.layout().lanes()
                                     : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
@@ -206,11 +241,16 @@ int workgroupLanes(const GroupPlan& group, Lanes lanes) {
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOptions& options) {
     const GroupPlan& group = plan.groups[index];
     gpu::ProgramOptions out;
-    const std::string root = options.fragments ? "generated/fused.frag" : "generated/fused.comp";
-    if (options.fragments)
-        out.vertex = "passes/fullscreen.vert", out.fragment = root;
-    else
+    const bool born = options.work == Work::births;
+    const std::string root = !options.fragments ? "generated/fused.comp"
+                             : born             ? "generated/births.vert"
+                                                : "generated/fused.frag";
+    if (!options.fragments)
         out.compute = root;
+    else if (born)
+        out.vertex = root, out.fragment = "generated/newborn.frag";
+    else
+        out.vertex = "passes/fullscreen.vert", out.fragment = root;
     out.defines = defines(plan, group, options);
     out.generated = {{root, rootText(group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},
@@ -222,7 +262,8 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
                      {"generated/emitters.glsl", group.life ? group.life->source : std::string()},
                      {"generated/scene_forces.glsl", group.forces.source},
                      {"generated/colliders.glsl", plan.collideSource}};
-    out.label = concat(options.work == Work::births ? "births of " : "fused step of ", group.name);
+    if (options.fragments && born) out.generated["generated/newborn.frag"] = newbornText(*options.fragments);
+    out.label = concat(born ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
         gpu::resolveConditions(source);
         expand(source, loops);
@@ -271,8 +312,11 @@ std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t
                          const KernelOptions& options) {
     const gpu::ProgramOptions program = kernelProgram(plan, group, options);
     gpu::ShaderSource source = gpu::resolveShader(
-        shaderRoot, options.fragments ? program.fragment : program.compute, program.defines,
-        program.generated, options.fragments ? gpu::header330() : gpu::header430());
+        shaderRoot,
+        !options.fragments                            ? program.compute
+        : options.work == KernelOptions::Work::births ? program.vertex
+                                                      : program.fragment,
+        program.defines, program.generated, options.fragments ? gpu::header330() : gpu::header430());
     program.rewrite(source);
     return source.text;
 }

@@ -37,6 +37,10 @@ struct KernelOptions {
 // Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where
 // that changes, its record.
 std::vector<std::string> storedInFragments(const GroupPlan& group);
+// Likewise of a newborn: its constants as well.
+std::vector<std::string> storedAtBirth(const GroupPlan& group);
+// So many 4-vectors by draws of at most so many targets.
+std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
 // Lanes of a workgroup of the step.

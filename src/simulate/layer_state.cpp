@@ -38,7 +38,7 @@ void addLayers(const Texture& texture, std::vector<gpu::ColorTarget>& out) {
 }  // namespace
 
 GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool normals, int targets)
-    : PackedState(group, paddedToRows(group.count), paddedToRows(group.count)) {
+    : PackedState(group, paddedToRows(group.count), paddedToRows(group.count)), count_(group.count) {
     const auto make = [&](Values values, const char* what) {
         try {
             return Texture(context, gpu::Format::rgba32f, stateWidth, int(molecules() / stateWidth),
@@ -68,6 +68,12 @@ GroupLayers::GroupLayers(gpu::Context& context, const GroupPlan& group, bool nor
         addLayers(state_[1 - now], all);
         if (records_[1]) addLayers(records_[1 - now], all);
         newState_[now] = framebuffersOf(context, all, targets, "new state");
+        if (!group.needs.life) continue;
+        all.clear();
+        addLayers(state_[now], all);
+        addLayers(records_[now], all);
+        if (constants_) addLayers(constants_, all);
+        newborns_[now] = framebuffersOf(context, all, targets, "newborns");
     }
     if (!normals || !group.needs.normals) return;
     normals_ = make(Values::normals, "normals");

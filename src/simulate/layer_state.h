@@ -29,18 +29,22 @@ class GroupLayers : public PackedState {
     GroupLayers(gpu::Context& context, const GroupPlan& group, bool normals, int targets);
 
     const gpu::Texture& state() const { return state_[size_t(current_)]; }
+    const gpu::Texture& stateBefore() const { return state_[size_t(1 - current_)]; }
     const gpu::Texture& records() const { return records_[records_[1] ? size_t(current_) : 0]; }
     const gpu::Texture& constants() const { return constants_; }
     const gpu::Texture& normals() const { return normals_; }
     // One for each draw of a frame, into the other side; and of normals.
     const std::vector<gpu::Framebuffer>& newState() const { return newState_[size_t(current_)]; }
     const std::vector<gpu::Framebuffer>& newNormals() const { return newNormals_; }
+    // Where molecules are born, one for each draw of births: into the side that was written last.
+    const std::vector<gpu::Framebuffer>& newborns() const { return newborns_[size_t(current_)]; }
     void flip() { current_ = 1 - current_; }
     // What steers them, where they steer; one draw writes its other side.
     const gpu::Texture& steering() const { return steering_[size_t(steeringNow_)]; }
     const gpu::Framebuffer& newSteering() const { return newSteering_[size_t(steeringNow_)]; }
     void flipSteering() { steeringNow_ = 1 - steeringNow_; }
 
+    int count() const { return count_; }  // molecules
     bool hasConstants() const override { return bool(constants_); }
     bool hasNormals() const override { return bool(normals_); }
 
@@ -52,11 +56,12 @@ class GroupLayers : public PackedState {
     std::vector<glm::vec4> download(Values values) const override;
     std::vector<glm::vec4> download(Values values, size_t molecule) const override;
 
+    int count_;
     int current_ = 0;
     int steeringNow_ = 0;
     std::array<gpu::Texture, 2> state_, records_, steering_;
     gpu::Texture constants_, normals_;
-    std::array<std::vector<gpu::Framebuffer>, 2> newState_;
+    std::array<std::vector<gpu::Framebuffer>, 2> newState_, newborns_;
     std::vector<gpu::Framebuffer> newNormals_;
     std::array<gpu::Framebuffer, 2> newSteering_;
 };

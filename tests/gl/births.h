@@ -9,7 +9,7 @@ namespace shoal::test {
 
 // Birth and death need the fused path.
 inline bool canSpawn() {
-    return testContext().info().computeShaders && testPath() != Path::pingPong;
+    return testPath() != Path::pingPong;
 }
 
 // One group of points without anything else, none of them at the start.

@@ -453,10 +453,14 @@ TEST_CASE("numbers of an emitter change while it runs; another kind asks for ano
 }
 
 TEST_CASE("a capacity that the context cannot hold is refused", "[births]") {
-    if (!canSpawn()) return;
-    Scene scene = emitting(steady(1), 1 << 24);
-    const std::string message = messageOf([&] { simulationOf(scene); });
-    CHECK(message.find("at most") != std::string::npos);
+    const Scene scene = emitting(steady(1), 1 << 24);
+    const Plan plan = compile(scene);
+    PathLimits limits = limitsOf(testContext().info());
+    limits.maxTextureSize = 8192;
+    CHECK(messageOf([&] { choosePath(plan, Path::fragments, limits); }).find("at most 8388608 do") !=
+          std::string::npos);
+    if (!testContext().info().computeShaders || testPath() == Path::pingPong) return;
+    CHECK(messageOf([&] { simulationOf(scene); }).find("at most") != std::string::npos);
 }
 
 TEST_CASE("the ping-pong path refuses births in one line", "[births]") {

@@ -1,9 +1,12 @@
-// Spawns newborns, a lane each: its place, what its emitter gives it, and its flight from the moment of its birth to the
-// end of the frame, exact in a uniform field and of second order in the frame elsewhere. A molecule flies in its rest
-// shape, in which its springs have no force.
+// Spawns newborns, a lane of a compute shader or a vertex each: its place, what its emitter gives it, and its flight from
+// the moment of its birth to the end of the frame, exact in a uniform field and of second order in the frame elsewhere. A
+// molecule flies in its rest shape, in which its springs have no force.
 //
-// Its place is LISTED, or one after another from `firstPlace`, around the capacity.
+// Its place is LISTED, or one after another from `firstPlace`, around the capacity. With LAYERED a vertex is drawn as a
+// point onto that place, and a fragment stores what it carries (particles/newborn.frag).
+#ifndef LAYERED
 #include "fused/store.glsl"
+#endif
 
 #ifdef HISTORY
 vec3 dx[VERTICES];
@@ -17,10 +20,18 @@ vec3 dv[VERTICES];
 #include "particles/emit.glsl"
 #include "state/samples.glsl"
 
+#ifdef LAYERED
+#include "particles/words.glsl"
+uniform usampler2D places;
+uniform usampler2D died;
+uniform usampler2D control;
+uniform int stateRows;  // of texels
+#define placeAt(i) int(wordAt(places, i))
+#define diedAt(i) int(wordAt(died, i))
+#define controlWord(w) int(wordOfControl(control, w))
+#else
 #ifdef LISTED
 layout(std430, binding = 3) readonly buffer Places { uint places[]; };
-#else
-uniform int firstPlace;
 #endif
 #ifdef CONSTANTS
 layout(std430, binding = 2) writeonly buffer NewConstants { vec4 newConstants[]; };
@@ -29,9 +40,18 @@ layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 layout(std430, binding = 6) buffer Control { uint control[]; };
 #ifdef DEATH_RUNS
 layout(std430, binding = 5) readonly buffer Died { uint died[]; };
-uniform ivec4 deathRuns[DEATH_RUNS];  // emitter, births for each, start of the source's list, unused
+#endif
+#define placeAt(i) int(places[i])
+#define diedAt(i) int(died[i])
+#define controlWord(w) int(control[w])
 #endif
 
+#ifndef LISTED
+uniform int firstPlace;
+#endif
+#ifdef DEATH_RUNS
+uniform ivec4 deathRuns[DEATH_RUNS];  // emitter, births for each, start of the source's list, unused
+#endif
 uniform int controlBase;
 uniform int placeCount;
 uniform int runCount;
@@ -171,12 +191,12 @@ int findRun(int i, out Source source, out float at)
 #ifdef DEATH_RUNS
     int run = -1;
     for (int d = 0; d < DEATH_RUNS; ++d) {
-        if (i >= int(control[controlBase + controlFirsts + d])) run = d;
+        if (i >= controlWord(controlBase + controlFirsts + d)) run = d;
     }
     if (run >= 0) {
         ivec4 from = deathRuns[run];
-        int j = i - int(control[controlBase + controlFirsts + run]);
-        source.molecule = int(died[from.z + j / from.y]);
+        int j = i - controlWord(controlBase + controlFirsts + run);
+        source.molecule = diedAt(from.z + j / from.y);
         float label;
         readDeath(from.x, source.molecule, label, source.since);
         source.since = min(source.since, frameDuration);
@@ -196,17 +216,12 @@ int findRun(int i, out Source source, out float at)
     return runs[r].y;
 }
 
-void main()
+// Makes newborn i of those that find a place, and returns its place; -1: there are not so many.
+int newborn(int i)
 {
-    int i = int(gl_GlobalInvocationID.x);
-    int born = givenBorn < 0 ? int(control[controlBase + controlBorn]) : givenBorn;
-    if (i >= born) return;
+    int born = givenBorn < 0 ? controlWord(controlBase + controlBorn) : givenBorn;
+    if (i >= born) return -1;
     loadParameters();
-#ifdef LISTED
-    int molecule = int(places[i]);
-#else
-    int molecule = (firstPlace + i) % placeCount;
-#endif
     Source source;
     float at;
     int emitter = findRun(i, source, at);
@@ -216,10 +231,33 @@ void main()
     age = frameDuration - at;
     span = mix(lifeSpan.x, lifeSpan.y, drawn(seed, bornLife));
     flyOn(age);
+#ifdef LISTED
+    return placeAt(i);
+#else
+    return (firstPlace + i) % placeCount;
+#endif
+}
+
+#ifdef LAYERED
+void main()
+{
+    gl_PointSize = 1.0;
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);  // outside
+    int molecule = newborn(gl_VertexID);
+    if (molecule < 0) return;
+    vec2 texel = vec2(float(molecule % STATE_WIDTH), float(molecule / STATE_WIDTH)) + 0.5;
+    gl_Position = vec4(2.0 * texel / vec2(float(STATE_WIDTH), float(stateRows)) - 1.0, 0.0, 1.0);
+    storeState(molecule);
+}
+#else
+void main()
+{
+    int molecule = newborn(int(gl_GlobalInvocationID.x));
+    if (molecule < 0) return;
     storeState(molecule);
     newRecords[molecule] = recordNow();
 #ifdef CONSTANTS
-    newConstants[molecule] = vec4(scale, phase, 0.0, 0.0);
+    newConstants[molecule] = constantsNow();
 #endif
     if (givenBorn < 0) return;
     uint bit = 1u << (uint(molecule) & 31u);
@@ -228,3 +266,4 @@ void main()
     if ((before & bit) == 0u) atomicAdd(control[controlBase + controlLost], 1u);  // a life cut short
 #endif
 }
+#endif
