@@ -76,8 +76,8 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         births_ = std::make_unique<TextureBirths>(context, shaderRoot, plan, tables, targets, options.cache);
 }
 
-void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target,
-                     int molecules) const {
+void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target, int molecules,
+                     int vertices) const {
     const GroupLayers& layers = state[group];
     program.texture("oldState", kernel_unit::oldState, layers.state());
     program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
@@ -86,7 +86,7 @@ void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffe
     if (molecules == 0) return;
     target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
     noAttributes_.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDrawArrays(GL_TRIANGLES, 0, vertices);
 }
 
 void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
@@ -102,8 +102,8 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
                 program.texture("steering", kernel_unit::steering, state[g].steering());
                 program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
             }
-            if (lives) births_->bindStep(program, g);
-            draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count());
+            const int vertices = lives ? births_->bindStep(program, g) : 3;
+            draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count(), vertices);
         }
         state[g].flip();
     }

@@ -59,8 +59,9 @@ class Fragments : public ExecutionPath {
     };
     class Touched;
     void run(const Frame& frame, gpu::PassTimers& timers);
-    // Draws the rows of so many molecules.
-    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target, int molecules) const;
+    // Draws the rows of so many molecules, as one triangle or what the vertex shader makes of more vertices.
+    void draw(const gpu::Program& program, size_t group, const gpu::Framebuffer& target, int molecules,
+              int vertices = 3) const;
     void watch(gpu::PassTimers& timers);
 
     const Plan* plan_;

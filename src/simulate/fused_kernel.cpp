@@ -212,6 +212,12 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
             form(vertices * plan.colliderCount > longest), Form::keep};
 }
 
+// Whether only the GPU knows how far a step has to go.
+bool reachesByControl(const GroupPlan& group, const KernelOptions& options) {
+    return options.work == Work::frame && group.life && group.life->emits() &&
+           group.life->cycle.allocator == Allocator::gpu;
+}
+
 }  // namespace
 
 std::vector<std::string> storedInFragments(const GroupPlan& group) {
@@ -250,7 +256,8 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     else if (born)
         out.vertex = root, out.fragment = "generated/newborn.frag";
     else
-        out.vertex = "passes/fullscreen.vert", out.fragment = root;
+        out.vertex = reachesByControl(group, options) ? "particles/reach.vert" : "passes/fullscreen.vert",
+        out.fragment = root;
     out.defines = defines(plan, group, options);
     out.generated = {{root, rootText(group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},

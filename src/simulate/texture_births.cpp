@@ -4,6 +4,7 @@
 
 #include "gpu/gl.h"
 #include "simulate/fused_kernel.h"
+#include "simulate/group_kernel.h"
 
 namespace shoal {
 
@@ -69,6 +70,16 @@ void TextureBirths::make(const Living& living, const std::string& shaderRoot, in
         if (living.plan->needs.fields)
             own.spawn.back()->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
     }
+}
+
+int TextureBirths::bindStep(const Program& program, size_t group) const {
+    const Living& living = *groups_[group];
+    setAge(program, living);
+    if (!living.onGpu()) return 3;
+    program.texture("control", kernel_unit::control, places_.control());
+    program.set("controlBase", int(control::of(group)));
+    program.set("stateRows", rowsOf(size_t(living.count())));
+    return 6;
 }
 
 void TextureBirths::step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers) {

@@ -23,8 +23,9 @@ class TextureBirths : public BirthPasses {
     TextureBirths(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                   const Tables& tables, int targets, gpu::ProgramCache* cache);
 
-    // The step of a group with life: what growOlder() needs, and the places that it covers.
-    void bindStep(const gpu::Program& program, size_t group) const { setAge(program, *groups_[group]); }
+    // The step of a group with life: what growOlder() needs, and the places that it covers, as far as the CPU
+    // knows. Returns how many vertices its draw has.
+    int bindStep(const gpu::Program& program, size_t group) const;
     int reach(size_t group) const { return reachOf(*groups_[group]); }
     // After the step of all groups: who is born in it.
     void step(const Frame& frame, std::vector<GroupLayers>& state, gpu::PassTimers& timers);
