@@ -72,9 +72,13 @@ class Cases {
         for (const SolverKind kind : kinds) {
             ParticleCase& one = add(concat("fused, ", name(kind)));
             one.solver = kind;
+            one.path = Path::fused;
             if (kind == SolverKind::euler) one.published = (heights ? heightField : motionOnly).at(side_);
         }
-        add("fused, leapfrog, in place").inPlace = true;
+        ParticleCase& inPlace = add("fused, leapfrog, in place");
+        inPlace.path = Path::fused;
+        inPlace.inPlace = true;
+        add("fragments, leapfrog").path = Path::fragments;
         loop();
         add("copy of the state").what = What::copy;
         for (size_t i = first; i < all.size(); ++i)
@@ -96,16 +100,26 @@ class Cases {
     }
     void contact() {
         begin("contact");
-        ParticleCase& one = add("motion and contact");
-        one.contact = true;
-        one.published = contacts.at(side_);
+        for (const Path path : {Path::fused, Path::fragments}) {
+            ParticleCase& one = add(concat(name(path), ", motion and contact"));
+            one.path = path;
+            one.contact = true;
+            one.published = contacts.at(side_);
+        }
     }
     void births(double turnover) {
         begin(concat("births, ", 100 * turnover, " % a frame"));
-        for (const Allocator allocator : {Allocator::gpu, Allocator::ring, Allocator::stack, Allocator::heap})
-            add(concat("fused, allocator ", name(allocator))).allocator = allocator;
+        const size_t first = all.size();
+        for (const Allocator allocator :
+             {Allocator::gpu, Allocator::ring, Allocator::stack, Allocator::heap}) {
+            for (const Path path : {Path::fused, Path::fragments}) {
+                ParticleCase& one = add(concat(name(path), ", allocator ", name(allocator)));
+                one.path = path;
+                one.allocator = allocator;
+            }
+        }
         loop();
-        for (size_t i = all.size() - 5; i < all.size(); ++i)
+        for (size_t i = first; i < all.size(); ++i)
             all[i].turnover = turnover;
     }
     void drawn() {

@@ -27,7 +27,7 @@ int framesToSteady(const ParticleCase& one) {
 
 Simulation makeSimulation(const ParticleCase& one, const Scene& scene, const BenchDevice& device) {
     const SimulationOptions options{
-        .drawn = one.drawn.has_value(), .path = Path::fused, .inPlace = one.inPlace, .cache = device.cache};
+        .drawn = one.drawn.has_value(), .path = one.path, .inPlace = one.inPlace, .cache = device.cache};
     return Simulation(*device.context, device.shaderRoot, compile(scene), options);
 }
 
@@ -175,7 +175,8 @@ std::unique_ptr<BenchRunner> makeParticleRunner(const ParticleCase& one, const M
 
 std::string reasonToLeaveOut(const ParticleCase& one, const BenchDevice& device) {
     const gpu::ContextInfo& info = device.context->info();
-    if (!info.computeShaders && one.what != What::cpuLoop)
+    const bool computes = one.path == Path::fused || one.what == What::copy || one.sort == SortMethod::radix;
+    if (!info.computeShaders && computes)
         return concat("needs OpenGL 4.3; this context has ", info.major, ".", info.minor);
     if (one.drawn && !device.makeDraw) return "nothing to draw with";
     return {};

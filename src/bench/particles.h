@@ -28,6 +28,7 @@ struct ParticleCase {
     std::string group, label;  // "height field, 1024 x 1024", "fused"
     int side = 512;            // of the square of vertices
     What what = What::step;
+    Path path = Path::automatic;
     bool quads = false;  // as many vertices as quads: what a point is compared with
     bool heights = false, contact = false, inPlace = false;
     SolverKind solver = SolverKind::leapfrog;
