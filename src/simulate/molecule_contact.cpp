@@ -22,17 +22,24 @@ size_t wordsOf(Texel texel) {
     return words[size_t(texel)];
 }
 
-void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact, const Location& location) {
-    const size_t block = size_t(info.maxStorageBlockBytes);
-    const size_t most = std::min({block / (sizeof(float) * size_t(contact.listLength)), block / 16,
-                                  size_t(info.maxBufferTexels) / size_t(contact.listLength),
-                                  size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info)});
+void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    const size_t most = MoleculeContact::most(info, contact);
     if (size_t(contact.spheres) <= most) return;
-    throw Error(location, concat("contact between ", contact.spheres,
-                                 " spheres is more than this context holds: at most ", most));
+    throw Error(contact.settings.location,
+                concat("contact between ", contact.spheres,
+                       " spheres is more than this context holds: at most ", most));
 }
 
 }  // namespace
+
+size_t MoleculeContact::most(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    const bool pushes = contact.settings.response == ContactResponse::simultaneous;
+    const size_t listWords = size_t(contact.listLength) * wordsOf(pushes ? Texel::uint2 : Texel::uint1);
+    const size_t block = size_t(info.maxStorageBlockBytes);
+    return std::min({block / (sizeof(uint32_t) * listWords), block / sizeof(glm::vec4),
+                     size_t(info.maxBufferTexels) / size_t(contact.listLength),
+                     size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info)});
+}
 
 MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel, const char* label,
                               const void* data)
@@ -44,8 +51,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     : ContactPasses(plan, tables),
       context_(&context),
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
-      sort_((checkLimits(context.info(), plan.contact, plan.contact.settings.location), context), shaderRoot,
-            padded_, cache) {
+      sort_((checkLimits(context.info(), plan.contact), context), shaderRoot, padded_, cache) {
     for (const ContactGroup& group : contact_->groups) {
         triangles_ |= group.triangles;
         self_ |= group.self;

@@ -32,6 +32,9 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                     const Tables& tables, gpu::ProgramCache* cache);
 
+    // Spheres that a context holds, with the plan's lists.
+    static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
+
     uint32_t dropped() const override;
     int listLength() const override { return contact_->listLength; }
     std::vector<std::pair<int, int>> found() const override;

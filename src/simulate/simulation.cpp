@@ -31,42 +31,40 @@ std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoo
     const auto fused = [&] {
         return std::make_unique<Fused>(*context_, shaderRoot, plan_, tables_, options_);
     };
-    const auto pingPong = [&] {
+    const auto fragments = [&] {
+        if (options_.inPlace || options_.lanes == Lanes::vertex)
+            warnings_.push_back({{},
+                                 "one side of the state, and a lane for each vertex, need compute shaders: "
+                                 "they change nothing here"});
+        return std::make_unique<Fragments>(*context_, shaderRoot, plan_, tables_, options_);
+    };
+    if (choice_.path == Path::fragments) return fragments();
+    if (choice_.path == Path::pingPong) {
         if (options_.inPlace || options_.lanes != Lanes::automatic)
             warnings_.push_back(
                 {{}, "one side of the state, and lanes, are of the fused path: they change nothing here"});
         return std::make_unique<PingPong>(*context_, shaderRoot, plan_, tables_, options_);
-    };
-    if (choice_.path == Path::fragments) {
-        if (options_.inPlace || options_.lanes == Lanes::vertex)
-            warnings_.push_back(
-                {{},
-                 "one side of the state, and a lane for each vertex, need compute shaders: they "
-                 "change nothing here"});
-        return std::make_unique<Fragments>(*context_, shaderRoot, plan_, tables_, options_);
     }
-    if (choice_.path == Path::pingPong) return pingPong();
     if (options_.path != Path::automatic) return fused();
-    // Takes what works: two sides, else one, else the other path.
+    // Takes what works: two sides, else one, else fragments.
     try {
         return fused();
     } catch (const gpu::OutOfMemory& error) {
-        if (options_.inPlace) throw;  // the other path takes more
+        if (options_.inPlace) throw;  // fragments take more
         warnings_.push_back(
             {error.location(), concat(error.message(), "; going on with one side of the state")});
         options_.inPlace = true;
         return fused();
     } catch (const Error& error) {
-        // what the other path does not have
-        if (!plan_.contact.onlyOfVertices() || plan_.hasLife() || plan_.school.any()) throw;
-        for (const GroupPlan& group : plan_.groups)
-            if (solver(group.solver).implicit) throw;
-        choice_ = choosePath(plan_, Path::pingPong, limitsOf(context_->info()));
-        choice_.why = "the fused path failed";
+        try {
+            choice_ = choosePath(plan_, Path::fragments, limitsOf(context_->info()));
+        } catch (const Error&) {
+            throw error;
+        }
+        choice_.why = "the compute shaders failed";
         tables_ = Tables(*context_, plan_, sampleFormOf(choice_.path));
-        warnings_.push_back(
-            {error.location(), concat(error.message(), "; going on with the ping-pong path")});
-        return pingPong();
+        warnings_.push_back({error.location(), concat(error.message(), "; going on in fragment shaders")});
+        return fragments();
     }
 }
 
