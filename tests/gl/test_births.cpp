@@ -460,7 +460,9 @@ TEST_CASE("a capacity that the context cannot hold is refused", "[births]") {
     CHECK(messageOf([&] { choosePath(plan, Path::fragments, limits); }).find("at most 8388608 do") !=
           std::string::npos);
     if (!testContext().info().computeShaders || testPath() == Path::pingPong) return;
-    CHECK(messageOf([&] { simulationOf(scene); }).find("at most") != std::string::npos);
+    CHECK(messageOf([&] {
+              Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, {.path = Path::fused});
+          }).find("at most") != std::string::npos);
 }
 
 TEST_CASE("the ping-pong path refuses births in one line", "[births]") {

@@ -45,7 +45,7 @@ void setLife(Scene& scene, double seconds) {
 }
 
 bool canAge() {
-    return testContext().info().computeShaders && testPath() != Path::pingPong;
+    return testPath() != Path::pingPong;
 }
 
 glm::ivec3 middleOf(const Image& image) {
