@@ -78,13 +78,16 @@ class Validator {
     }
     void addKernel(const Plan& plan, const KernelOptions& options) {
         const gpu::ProgramOptions program = kernelProgram(plan, 0, options);
-        const std::string& file = options.fragments ? program.fragment : program.compute;
-        for (const char* header :
-             options.fragments ? std::vector{gpu::header330(), header300es} : std::vector{gpu::header430()}) {
-            gpu::ShaderSource source = gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file,
-                                                          program.defines, program.generated, header);
-            program.rewrite(source);
-            add(file, program.defines, header, std::move(source));
+        for (const std::string& file : {program.compute, program.vertex, program.fragment}) {
+            if (file.empty()) continue;
+            for (const char* header : options.fragments ? std::vector{gpu::header330(), header300es}
+                                                        : std::vector{gpu::header430()}) {
+                gpu::ShaderSource source =
+                    gpu::resolveShader(std::string(SHOAL_SOURCE_DIR) + "/shaders", file, program.defines,
+                                       program.generated, header);
+                program.rewrite(source);
+                add(file, program.defines, header, std::move(source));
+            }
         }
     }
     // All draws of a group's frame in fragments, its normals and its watchdog.
@@ -99,6 +102,7 @@ class Validator {
         addDraws(KernelOptions::Work::frame, storedInFragments(plan.groups[0]).size());
         addDraws(KernelOptions::Work::normals, plan.groups[0].kernel.normals.size());
         addDraws(KernelOptions::Work::touched, storedInFragments(plan.groups[0]).size());
+        if (plan.groups[0].life) addDraws(KernelOptions::Work::births, storedAtBirth(plan.groups[0]).size());
         options.work = KernelOptions::Work::watch;
         options.fragments.emplace();
         addKernel(plan, options);
@@ -539,6 +543,57 @@ TEST_CASE("the sorts' shaders are sound GLSL", "[shaders]") {
     for (const char* file : {"sort/pieces_count.comp", "sort/pieces_scan.comp", "sort/pieces_scatter.comp",
                              "sort/tiles_count.comp", "sort/tiles_scan.comp", "sort/tiles_scatter.comp"})
         validator.add(file, sizes, gpu::header430());
+    validator.check();
+}
+
+TEST_CASE("the shaders of births are sound GLSL, of WebGL 2 as well", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    for (const Allocator allocator : {Allocator::gpu, Allocator::ring}) {
+        Scene scene =
+            leafScene({"springs", "triangles", "drag by direction", "fields", "colliders", "forces"},
+                      SolverKind::bdf2Xpbd, FieldSampling::vertexSubstep);
+        Group& group = scene.groups[0];
+        group.name = "leaves";
+        group.place.scale = {0.5, 0.6};
+        Lifecycle& life = group.life.emplace();
+        life.capacity = 2 * group.count;
+        life.allocator = allocator;
+        life.within = Box{{-1, -1, -1}, {1, 1, 1}};
+        life.afterContact = 1;
+        using From = Emitter::From;
+        for (const From from : {From::point, From::line, From::disc, From::sphere, From::box, From::death}) {
+            if (from == From::death && allocator != Allocator::gpu) continue;
+            Emitter& emitter = life.emitters.emplace_back();
+            emitter.from = from;
+            emitter.radius = 1;
+            emitter.rate = from == From::death ? 0 : 1;
+            emitter.group = from == From::death ? "sparks" : "";
+            if (from == From::sphere) emitter.along = Emitter::Along::outward;
+        }
+        Group sparks = group;
+        sparks.name = "sparks";
+        sparks.life->emitters.clear();
+        scene.groups.push_back(sparks);
+        const Plan plan = compile(scene);
+        validator.addKernel(plan, {.work = KernelOptions::Work::births});
+        validator.addFragments(plan, {});
+    }
+    for (const char* levels : {"LEVELS 1", "LEVELS 2", "LEVELS 3", "LEVELS 4"}) {
+        for (const char* what : {"DEATHS", "CUTS", "WORDS"}) {
+            const Defines set = {levels, what, "STATE_WIDTH 1024"};
+            for (const char* file : {"control", "list", "sums"})
+                validator.addBoth(concat("particles/", file, ".frag"), set);
+        }
+        for (const char* file : {"control", "sums"})
+            validator.addBoth(concat("particles/", file, ".frag"), {levels, "STATE_WIDTH 1024"});
+    }
+    for (const Defines& set : combinations({"DEATHS", "LIFE"})) {
+        Defines all = {"LAYERED", "STATE_WIDTH 1024", "POSITION_ELEMENTS 1", "STATE_ELEMENTS 2"};
+        all.insert(all.end(), set.begin(), set.end());
+        validator.addBoth("particles/bits.frag", all);
+    }
+    CHECK(validator.count() > 80);
     validator.check();
 }
 
