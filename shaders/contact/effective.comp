@@ -8,7 +8,7 @@ layout(std430, binding = 0) writeonly buffer Normals { vec4 normals[]; };  // tw
 layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
 #endif
 #ifdef WALLS
-uniform samplerBuffer walls;  // by sphere: xyz normal, w distance
+#include "contact/walls.glsl"
 #endif
 
 void main()
@@ -18,8 +18,8 @@ void main()
     Sphere own = sphereAt(slot);
     NormalSum sum = normalsOf(slot, own, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
 #ifdef WALLS
-    vec4 wall = texelFetch(walls, sphereOf(slot));
-    if (wall.w < 1e20 && own.weight > 0.0) sum = withNormal(sum, wall.xyz);
+    vec4 wall = wallOf(slot);
+    if (isNear(wall) && own.weight > 0.0) sum = withNormal(sum, wall.xyz);
 #endif
     if (taken >= 0) {
 #ifdef TRIANGLES

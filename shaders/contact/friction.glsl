@@ -57,10 +57,13 @@ void storeMore(int slot)
 #ifdef WALLS
 void respondToWall(int slot, vec4 wall)
 {
-    float push = wallPushed[slot].x;
+    float push = wallPushesOf(slot).x;
+#ifdef TEXTURES
+    wallPush = push;  // for the next round
+#endif
     vec3 along = ownVelocity - wall.xyz * dot(ownVelocity, wall.xyz);
     float slip = length(along);
-    float friction = texelFetch(wallFriction, int(own.label >> 26u)).x;
+    float friction = fetch(wallFriction, int(own.label >> 26u)).x;
     float most = 1.5 / float(numberOf(slot));
     impulse -= along * (min(friction * push * frictionShare, most * slip / own.weight) / max(slip, 1e-30));
 }

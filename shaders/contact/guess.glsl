@@ -19,6 +19,6 @@ void storeMore(int slot)
 #ifdef WALLS
 void respondToWall(int slot, vec4 wall)
 {
-    wallPushed[slot] = vec2(0.0);
+    storeWallPush(slot, vec2(0.0));
 }
 #endif

@@ -7,7 +7,9 @@
 #include "sort/pairs.glsl"
 #include "contact/staggered.glsl"
 
+#ifndef SELF
 uniform usampler2D sorted;
+#endif
 uniform usampler2D staggered;
 uniform UINTS slots;  // of a sphere
 

@@ -5,7 +5,7 @@
 //   sorted   by slot: x key of its cell, y sphere
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
-// With TEXTURES motions are by slot as well, and nothing here needs the spheres' numbers.
+// With TEXTURES motions are by slot as well, and only contact within a molecule (SELF) needs the spheres' numbers.
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 
@@ -22,6 +22,16 @@ int motionOf(int slot)
 {
     return slot;
 }
+#ifdef SELF
+#include "sort/pairs.glsl"
+
+uniform usampler2D sorted;
+
+int sphereOf(int slot)
+{
+    return int(pairAt(sorted, slot).y);
+}
+#endif
 #else
 layout(local_size_x = 64) in;
 

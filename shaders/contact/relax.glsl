@@ -34,10 +34,10 @@ void storeMore(int slot)
 #ifdef WALLS
 void respondToWall(int slot, vec4 wall)
 {
-    vec2 pushes = wallPushed[slot];
+    vec2 pushes = wallPushesOf(slot);
     float before = pushes.x + (pushes.x - pushes.y) * momentum;
     float change = pairImpulse(dot(ownVelocity, wall.xyz), -wall.w / stepTime, before, own.weight, 1.0 / ownCount);
-    wallPushed[slot] = vec2(before + change, pushes.x);
+    storeWallPush(slot, vec2(before + change, pushes.x));
     impulse += wall.xyz * change;
 }
 #endif

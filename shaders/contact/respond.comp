@@ -10,8 +10,8 @@ void main()
     int slot = max(taken, 0);
     respond(slot, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
 #ifdef WALLS
-    vec4 wall = texelFetch(walls, sphereOf(slot));
-    if (taken >= 0 && wall.w < 1e20 && own.weight > 0.0) respondToWall(slot, wall);
+    vec4 wall = wallOf(slot);
+    if (taken >= 0 && isNear(wall) && own.weight > 0.0) respondToWall(slot, wall);
 #endif
     if (taken >= 0) {
         newImpulses[slot] = vec4(impulse, 0.0);

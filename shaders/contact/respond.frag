@@ -11,7 +11,12 @@ void main()
     if (listed == 0) discard;
     for (int i = 0; i < LIST / 4; ++i) stored[i] = vec4(0.0);
     respond(slot, listed);
-    storeMore(slot);
     newImpulse = vec4(impulse, 0.0);
+#ifdef WALLS
+    vec4 wall = wallOf(slot);
+    if (isNear(wall) && own.weight > 0.0) respondToWall(slot, wall);
+    newImpulse = vec4(impulse, wallPush);
+#endif
+    storeMore(slot);
     newStored = stored;
 }

@@ -21,10 +21,35 @@ uniform FLOATS earlier;         // of the one before
 uniform float momentum;         // Nesterov's, the share of the last change by which an iteration extrapolates
 uniform float frictionShare;    // of what friction may do, in one of several rounds
 #ifdef WALLS
-uniform samplerBuffer walls;         // by sphere: xyz normal, w distance
-uniform samplerBuffer wallFriction;  // x friction, by group
+#include "contact/walls.glsl"
 
+uniform FLOATS wallFriction;  // x friction, by group
+#ifdef TEXTURES
+float wallPush = 0.0;  // N s, what the stage leaves: the w of its impulses
+
+vec2 wallPushesOf(int slot)
+{
+    return vec2(fetch(impulses, slot).w, fetch(earlier, slot).w);
+}
+
+void storeWallPush(int slot, vec2 pushes)
+{
+    wallPush = pushes.x;
+}
+#else
 layout(std430, binding = 4) buffer WallPushed { vec2 wallPushed[]; };
+
+// N s: x now, y an iteration before.
+vec2 wallPushesOf(int slot)
+{
+    return wallPushed[slot];
+}
+
+void storeWallPush(int slot, vec2 pushes)
+{
+    wallPushed[slot] = pushes;
+}
+#endif
 #endif
 
 // N s, of each entry of the lists: x now, y an iteration before.

@@ -2,18 +2,21 @@
 //   of a vertex     x 1/mass (1/kg), y 1: pinned, z first of its triangles' spheres in `around`, w how many
 //   of a triangle   xyz its corners
 // Behind them is `around`: the spheres of the triangles around a vertex, one texel each (x).
-// Set by C++: VERTICES, SPHERES, BLOCK, POSITION_ELEMENTS, STATE_ELEMENTS.
+// Set by C++: VERTICES, SPHERES, POSITION_ELEMENTS, STATE_ELEMENTS, BLOCK or with LAYERED STATE_WIDTH.
 #include "state/packed.glsl"
+#include "state/numbered.glsl"
 
+#ifndef TEXTURES
 layout(local_size_x = 64) in;
+#endif
 
-uniform samplerBuffer shapes;
-uniform int firstSphere;  // of the part
+uniform FLOATS shapes;
+uniform int firstSphere;  // of the part, or in fragments of the group
 uniform int partSpheres;
 
 vec4 shapeOf(int sphere)
 {
-    return texelFetch(shapes, sphere);
+    return fetch(shapes, sphere);
 }
 
 float weightOf(vec4 shape, bool released)

@@ -12,8 +12,8 @@ uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
 #endif
 #ifdef SELF
-uniform usamplerBuffer apart;    // ContactGroup::apart
-uniform usamplerBuffer groupsOf;  // x first sphere, y spheres of a molecule, z first word, w words of a sphere; 0: none
+uniform UINTS apart;    // ContactGroup::apart
+uniform UINTS groupsOf;  // x first sphere, y spheres of a molecule, z first word, w words of a sphere; 0: none
 #endif
 
 int ownSlot;
@@ -53,11 +53,11 @@ bool mayMeet(uint label, int slot)
 // Whether two spheres of one molecule may touch.
 bool mayMeetSelf(int slot)
 {
-    ivec4 group = ivec4(texelFetch(groupsOf, int(ownLabel >> 26u)));
+    ivec4 group = ivec4(fetch(groupsOf, int(ownLabel >> 26u)));
     if (group.w == 0) return false;
     int own = (sphereOf(ownSlot) - group.x) % group.y;
     int other = (sphereOf(slot) - group.x) % group.y;
-    uint word = texelFetch(apart, group.z + own * group.w + other / 32).x;
+    uint word = fetch(apart, group.z + own * group.w + other / 32).x;
     return (word >> uint(other & 31) & 1u) == 0u;
 }
 #endif

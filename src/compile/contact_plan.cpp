@@ -104,6 +104,15 @@ bool ContactPlan::onlyOfVertices() const {
                         [](const ContactGroup& group) { return group.triangles || group.self; });
 }
 
+ContactPlan::Exclusions ContactPlan::exclusions() const {
+    Exclusions out;
+    for (const ContactGroup& group : groups) {
+        out.groups.emplace_back(group.firstSphere, group.spheresOf, out.words.size(), group.wordsOf);
+        out.words.insert(out.words.end(), group.apart.begin(), group.apart.end());
+    }
+    return out;
+}
+
 double ContactPlan::safeSpeed(double frameTime) const {
     double least = largestRadius;
     for (const ContactGroup& group : groups)

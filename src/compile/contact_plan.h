@@ -60,6 +60,13 @@ struct ContactPlan {
     int rowBits() const { return (tableBits + 1) / 2; }
     // All that the ping-pong path has: no spheres on triangles, no contact within a molecule.
     bool onlyOfVertices() const;
+    // Which spheres of one molecule do not meet, of all groups (shaders/contact/touch.glsl): for each group x
+    // its first sphere, y spheres of a molecule, z first word, w words of a sphere.
+    struct Exclusions {
+        std::vector<uint32_t> words;
+        std::vector<glm::uvec4> groups;
+    };
+    Exclusions exclusions() const;
     // Substeps of contact step i: the frame's, as evenly as can be.
     static int substepsOf(int step, int steps, int substeps) {
         return substeps * (step + 1) / steps - substeps * step / steps;

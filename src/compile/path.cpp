@@ -40,18 +40,9 @@ void checkTables(const Plan& plan, const PathLimits& limits) {
     check(plan.sampleRows, "the grids and height fields");
 }
 
-// Contact in fragment shaders has tables of its own, and is only between spheres at vertices.
+// Contact in fragment shaders has tables of its own.
 void checkContact(const Plan& plan, const PathLimits& limits) {
     const ContactPlan& contact = plan.contact;
-    for (const ContactGroup& group : contact.groups)
-        if (group.triangles || group.self)
-            throw Error(
-                plan.groups[group.group].location,
-                concat(
-                    group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
-                    ", which \"", plan.groups[group.group].name,
-                    "\" asks for, needs the fused path with compute shaders (OpenGL 4.3); fragment shaders "
-                    "have contact of vertices between molecules"));
     if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
     int bits = contact.tableBits;
     while (1 << ((bits + 1) / 2) > limits.maxTextureSize)
@@ -74,6 +65,12 @@ void checkPingPong(const Plan& plan, const PathLimits& limits) {
             throw Error(group.location, concat(name(group.solver), ", which \"", group.name,
                                                "\" takes, needs the fused path; the explicit solvers "
                                                "run on the ping-pong path as well"));
+    for (const ContactGroup& group : plan.contact.groups)
+        if (group.triangles || group.self)
+            throw Error(
+                plan.groups[group.group].location,
+                concat(group.triangles ? "contact of spheres on triangles" : "contact within a molecule",
+                       ", which \"", plan.groups[group.group].name, "\" asks for, needs the fused path"));
     checkContact(plan, limits);
     checkTextures(plan, limits);
 }

@@ -13,6 +13,7 @@ using Targets = KernelOptions::Targets;
 class Fragments::Touched : public ContactState {
   public:
     explicit Touched(Fragments& path) : path_(&path) {}
+    bool fused() const override { return true; }
     std::vector<std::string> defines(size_t group) const override {
         std::vector<std::string> out = path_->plan_->groups[group].layout().defines(true);
         if (path_->state[group].hasConstants()) out.emplace_back("CONSTANTS");
@@ -20,9 +21,9 @@ class Fragments::Touched : public ContactState {
     }
     void bind(const Program& program, size_t group) override {
         const GroupLayers& layers = path_->state[group];
-        program.texture("oldState", 0, layers.state());
+        if (program.uses("oldState")) program.texture("oldState", 0, layers.state());
         program.texture("oldRecords", 1, layers.records());
-        if (layers.hasConstants()) program.texture("constants", 2, layers.constants());
+        if (program.uses("constants")) program.texture("constants", 2, layers.constants());
     }
     void apply(size_t group, const Gains& gains) override {
         GroupLayers& layers = path_->state[group];

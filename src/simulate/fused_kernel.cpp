@@ -58,8 +58,14 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
-    if (options.work == Work::touched)
-        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
+    if (options.work == Work::touched) {
+        const ContactGroup& contact =
+            *std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
+                          [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits()),
+                               concat("SPHERES ", contact.spheresOf)});
+        if (contact.triangles) out.emplace_back("TRIANGLES");
+    }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");
     define(needs.pins, "PINS");

@@ -148,12 +148,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
 
 void MoleculeContact::makeExclusions() {
     if (!self_) return;
-    std::vector<uint32_t> words;
-    std::vector<glm::uvec4> groups;
-    for (const ContactGroup& group : contact_->groups) {
-        groups.emplace_back(group.firstSphere, group.spheresOf, words.size(), group.wordsOf);
-        words.insert(words.end(), group.apart.begin(), group.apart.end());
-    }
+    const auto [words, groups] = contact_->exclusions();
     apart_ = Array(*context_, words.size(), Texel::uint1, "contact within", words.data());
     groupsOf_ = Array(*context_, groups.size(), Texel::uint4, "contact groups", groups.data());
 }

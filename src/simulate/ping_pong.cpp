@@ -63,6 +63,7 @@ class VertexTexels : public ContactState {
             apply_[contact.group] = Program(context, shaderRoot, options);
         }
     }
+    bool fused() const override { return false; }
     std::vector<std::string> defines(size_t) const override { return {}; }
     void bind(const Program& program, size_t group) override {
         setGroup(program, plan_->groups[group]);

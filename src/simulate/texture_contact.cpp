@@ -26,14 +26,19 @@ TextureContact::TextureContact(gpu::Context& context, const std::string& shaderR
             cache),
       targets_(context),
       noAttributes_(context, "contact") {
+    for (const ContactGroup& group : contact_->groups) {
+        triangles_ |= group.triangles;
+        self_ |= group.self;
+        walls_ |= state.fused() && plan.groups[group.group].needs.collide;
+    }
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
                            2 << rowBits_, cache);
     makeTextures(context);
+    makeTables(context);
     makePrograms(context, shaderRoot, cache);
     for (const ContactGroup& group : contact_->groups)
-        spheres_.push_back(
-            makeGroup(context, plan_->groups[group.group], state.defines(group.group), shaderRoot, cache));
+        groups_.push_back(makeGroup(context, group, state, shaderRoot, cache));
 }
 
 int TextureContact::rowsOf(int numbers) const {
@@ -64,13 +69,42 @@ void TextureContact::makeTextures(gpu::Context& context) {
         for (Texture& pushes : pushes_)
             pushes = texture(Format::rgba32f, "contact pushes", layers);
     }
-    const int materialRows = rowsOf(int(contact_->pairs.size()));
-    std::vector<glm::vec4> materials(size_t(width) * size_t(materialRows));
-    for (size_t i = 0; i < contact_->pairs.size(); ++i)
-        materials[i] = glm::vec4(contact_->pairs[i], 0, 0);
-    materials_ = Texture(context, Format::rgba32f, width, materialRows, "contact materials");
-    materials_.upload(Traffic::Kind::parameters, 0, 0, width, materialRows, materials.data(),
-                      materials.size() * sizeof(glm::vec4));
+    if (walls_) {
+        sphereWalls_ = texture(Format::rgba32f, "walls");
+        nearWalls_ = texture(Format::rgba32f, "walls in order");
+    }
+    if (!triangles_) return;
+    for (Texture* part : {&diagonals_, &besides_})
+        *part = texture(Format::rgba32f, "contact normals");
+    velocities_ = texture(Format::rgba32f, "contact velocities");
+}
+
+// A texture of so many texels, by number.
+Texture TextureContact::table(gpu::Context& context, Format format, size_t texels, const void* data,
+                              const char* label) const {
+    const int width = 1 << rowBits_, rows = std::max(1, rowsOf(int(texels)));
+    std::vector<char> filled(size_t(width) * size_t(rows) * texelBytes(format));
+    std::copy_n(static_cast<const char*>(data), texels * texelBytes(format), filled.begin());
+    Texture out(context, format, width, rows, label);
+    out.upload(Traffic::Kind::parameters, 0, 0, width, rows, filled.data(), filled.size());
+    return out;
+}
+
+void TextureContact::makeTables(gpu::Context& context) {
+    std::vector<glm::vec4> materials, friction;
+    for (const glm::vec2& pair : contact_->pairs)
+        materials.emplace_back(pair, 0, 0);
+    materials_ = table(context, Format::rgba32f, materials.size(), materials.data(), "contact materials");
+    for (const double mu : contact_->wallFriction)
+        friction.emplace_back(float(mu), 0, 0, 0);
+    if (walls_)
+        wallFriction_ = table(context, Format::rgba32f, friction.size(), friction.data(), "wall friction");
+    if (!self_) return;
+    const ContactPlan::Exclusions exclusions = contact_->exclusions();
+    apart_ =
+        table(context, Format::r32ui, exclusions.words.size(), exclusions.words.data(), "contact within");
+    groupsOf_ = table(context, Format::rgba32ui, exclusions.groups.size(), exclusions.groups.data(),
+                      "contact groups");
 }
 
 void TextureContact::makePrograms(gpu::Context& context, const std::string& shaderRoot,
@@ -79,7 +113,13 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     options.vertex = "passes/fullscreen.vert";
     options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
                        concat("NEIGHBORS ", contact_->settings.neighbors)};
-    if (staggered_) options.defines.emplace_back("STAGGERED");
+    const auto define = [&](bool need, const char* name) {
+        if (need) options.defines.emplace_back(name);
+    };
+    define(bool(staggered_), "STAGGERED");
+    define(self_, "SELF");
+    define(triangles_, "TRIANGLES");
+    define(walls_, "WALLS");
     options.cache = cache;
     options.fragment = "sort/starts.frag";
     options.label = "contact starts";
@@ -95,19 +135,40 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     makeStages(options, make);
 }
 
-Program TextureContact::makeGroup(gpu::Context& context, const GroupPlan& group,
-                                  std::vector<std::string> defines, const std::string& shaderRoot,
-                                  gpu::ProgramCache* cache) const {
-    gpu::ProgramOptions options;
-    options.vertex = "passes/fullscreen.vert";
-    options.fragment = "contact/spheres.frag";
-    options.defines = std::move(defines);
-    options.defines.insert(options.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_)});
-    if (group.needs.pins) options.defines.emplace_back("PINS");
-    if (group.needs.release) options.defines.emplace_back("RELEASE");
-    options.label = concat("contact spheres of ", group.name);
-    options.cache = cache;
-    return {context, shaderRoot, options};
+TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
+                                                  const ContactState& state, const std::string& shaderRoot,
+                                                  gpu::ProgramCache* cache) const {
+    const GroupPlan& plan = plan_->groups[group.group];
+    std::vector<std::string> common = state.defines(group.group);
+    common.insert(common.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_),
+                                 concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf)});
+    const auto define = [&](bool need, const char* name) {
+        if (need) common.emplace_back(name);
+    };
+    define(plan.needs.pins, "PINS");
+    define(plan.needs.release, "RELEASE");
+    define(group.triangles, "TRIANGLES");
+    define(walls_, "WALL_RECORDS");
+    define(walls_ && plan.needs.collide, "WALLS");
+    const auto make = [&](const char* file) {
+        gpu::ProgramOptions options;
+        options.vertex = "passes/fullscreen.vert";
+        options.fragment = concat("contact/", file, ".frag");
+        options.defines = common;
+        options.label = concat("contact ", file, " of ", plan.name);
+        options.cache = cache;
+        options.generated = {{"generated/colliders.glsl", plan_->collideSource}};
+        return Program(context, shaderRoot, options);
+    };
+    OfGroup out;
+    out.spheres = make("spheres");
+    if (state.fused())
+        out.shapes =
+            table(context, Format::rgba32f, group.shapes.size(), group.shapes.data(), "contact shapes");
+    if (!triangles_) return out;
+    out.effectiveSum = make("effective_sum");
+    out.spread = make("spread");
+    return out;
 }
 
 void TextureContact::draw(const Into& into, int firstRow, int rows) {
@@ -121,25 +182,45 @@ void TextureContact::drawAll(const Into& into) {
     draw(into, 0, rowsOf(contact_->spheres));
 }
 
-void TextureContact::makeSpheres(ContactState& state) {
-    for (size_t g = 0; g < spheres_.size(); ++g) {
+const Program& TextureContact::useGroup(const Program& program, size_t group) const {
+    const ContactGroup& contact = contact_->groups[group];
+    program.use();
+    program.set("firstSphere", contact.firstSphere);
+    program.set("partSpheres", plan_->groups[contact.group].count * contact.spheresOf);
+    return program;
+}
+
+void TextureContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
+    const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
+    program.set("colliderParameters", std::span<const glm::vec4>(parameters));
+    program.set("wallTime", float(frame.parameters.frameTime));
+    program.set("wallStep", float(frame.parameters.frameTime));
+    program.set("wallNudge", float(0.05 * group.radius));
+    if (tables_->samples && program.uses("samples")) program.texture("samples", 3, tables_->samples);
+}
+
+void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
+    std::vector<const Texture*> into = {&spherePlaces_, &sphereMotions_, &sphereCells_};
+    if (walls_) into.push_back(&sphereWalls_);
+    for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
         const int spheres = plan.count * group.spheresOf;
-        const Program& program = spheres_[g];
-        program.use();
+        const Program& program = useGroup(groups_[g].spheres, g);
         state.bind(program, group.group);
-        program.texture("topology", 4, tables_->topology);
-        program.set("topologyBase", plan.topologyBase);
-        program.set("vertexCount", plan.vertexCount);
-        program.set("firstSphere", group.firstSphere);
-        program.set("groupSpheres", spheres);
+        if (state.fused()) {
+            program.texture("shapes", 4, groups_[g].shapes);
+            if (walls_ && plan.needs.collide) setWalls(program, group, frame);
+        } else {
+            program.texture("topology", 4, tables_->topology);
+            program.set("topologyBase", plan.topologyBase);
+            program.set("vertexCount", plan.vertexCount);
+        }
         program.set("label", int(uint32_t(g) << 26));
         program.set("cell", float(contact_->cell));
-        program.set("radius", float(group.radius));
+        program.set("givenRadius", float(group.radius));
         const int first = group.firstSphere >> rowBits_;
-        draw({&spherePlaces_, &sphereMotions_, &sphereCells_}, first,
-             rowsOf(group.firstSphere + spheres) - first);
+        draw(into, first, rowsOf(group.firstSphere + spheres) - first);
     }
 }
 
@@ -157,8 +238,8 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
     sort.sort();
 }
 
-void TextureContact::buildGrid(const Frame&, ContactState& state) {
-    makeSpheres(state);
+void TextureContact::buildGrid(const Frame& frame, ContactState& state) {
+    makeSpheres(frame, state);
     sortKeys(sort_, false);
     if (staggered_) sortKeys(*staggered_, true);
     starts_.use();
@@ -171,7 +252,12 @@ void TextureContact::buildGrid(const Frame&, ContactState& state) {
     order_.texture("sphereMotions", 2, sphereMotions_);
     order_.texture("sphereCells", 3, sphereCells_);
     order_.set("count", contact_->spheres);
-    drawAll({&places_, &motions_, &cells_});
+    if (walls_) {
+        order_.texture("sphereWalls", 4, sphereWalls_);
+        drawAll({&places_, &motions_, &cells_, &nearWalls_});
+    } else {
+        drawAll({&places_, &motions_, &cells_});
+    }
     slots_.use();
     slots_.texture("sorted", 0, sort_.pairs());
     slots_.texture("sphereCells", 1, sphereCells_);
@@ -194,6 +280,11 @@ void TextureContact::search(ContactState&) {
         find_.texture("sorted", 3, sort_.pairs());
         find_.texture("staggered", 4, staggered_->pairs());
         find_.texture("slots", 5, slotsOf_);
+    }
+    if (self_) {
+        find_.texture("sorted", 6, sort_.pairs());
+        find_.texture("apart", 7, apart_);
+        find_.texture("groupsOf", 8, groupsOf_);
     }
     find_.set("count", contact_->spheres);
     find_.set("keyMask", keyMask());
@@ -225,6 +316,11 @@ void TextureContact::runStage(ContactState&, const Program& program, const Times
     program.texture("earlier", unit + 2, impulses_[earlier]);
     program.texture("pushed", unit + 3, pushes_[totals.pushes.value_or(totals.last)]);
     program.texture("pushedBefore", unit + 4, pushes_[earlier]);
+    if (walls_) {
+        program.texture("walls", unit + 6, nearWalls_);
+        program.texture("wallFriction", unit + 7, wallFriction_);
+    }
+    if (triangles_) program.texture("velocities", unit + 8, velocities_);
     program.set("momentum", totals.momentum);
     program.set("frictionShare", 1.0f / ContactPlan::frictionRounds);
     const Texture* impulses = &impulses_[totals.next];
@@ -238,10 +334,29 @@ void TextureContact::runStage(ContactState&, const Program& program, const Times
     }
 }
 
+void TextureContact::spread(ContactState& state, const Totals& totals) {
+    if (!triangles_) return;
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Program& program = useGroup(groups_[g].spread, g);
+        state.bind(program, contact_->groups[g].group);
+        program.texture("sorted", 3, sort_.pairs());
+        program.texture("shapes", 4, groups_[g].shapes);
+        program.texture("slots", 5, slotsOf_);
+        program.texture("counts", 6, counts_[countsSide_]);
+        program.texture("motions", 7, motions_);
+        program.texture("impulses", 8, impulses_[totals.last]);
+        program.texture("earlier", 9, impulses_[totals.momentum == 0 ? totals.last : totals.earlier]);
+        program.set("momentum", totals.momentum);
+        program.set("count", contact_->spheres);
+        drawAll({&velocities_});
+    }
+}
+
 void TextureContact::apply(ContactState& state, size_t impulses) {
-    for (const ContactGroup& group : contact_->groups)
-        state.apply(group.group, [&](const Program& program, int firstUnit) {
-            program.set("firstSphere", group.firstSphere);
+    for (size_t g = 0; g < groups_.size(); ++g)
+        state.apply(contact_->groups[g].group, [&](const Program& program, int firstUnit) {
+            program.set("firstSphere", contact_->groups[g].firstSphere);
+            if (program.uses("shapes")) program.texture("shapes", firstUnit + 4, groups_[g].shapes);
             program.texture("slots", firstUnit, slotsOf_);
             program.texture("counts", firstUnit + 1, counts_[countsSide_]);
             program.texture("impulses", firstUnit + 2, impulses_[impulses]);
@@ -255,8 +370,21 @@ void TextureContact::runNearest(ContactState&, const Times& times, const Totals&
 }
 
 void TextureContact::runEffective(ContactState&, const Times& times) {
-    bindResponse(effective_, times);
-    drawAll({&effectiveCounts_});
+    const int unit = bindResponse(effective_, times);
+    if (walls_) effective_.texture("walls", unit, nearWalls_);
+    if (!triangles_) return drawAll({&effectiveCounts_});
+    drawAll({&diagonals_, &besides_});
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Program& program = useGroup(groups_[g].effectiveSum, g);
+        program.texture("sorted", 0, sort_.pairs());
+        program.texture("shapes", 1, groups_[g].shapes);
+        program.texture("slots", 2, slotsOf_);
+        program.texture("counts", 3, counts_[countsSide_]);
+        program.texture("diagonals", 4, diagonals_);
+        program.texture("besides", 5, besides_);
+        program.set("count", contact_->spheres);
+        drawAll({&effectiveCounts_});
+    }
 }
 
 static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
@@ -295,10 +423,11 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
 size_t TextureContact::bytes() const {
     size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
     for (const Texture* texture :
-         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_,    &motions_,
-          &cells_,        &startsOf_,      &slotsOf_,     &lists_,     &effectiveCounts_,
-          &shifts_,       &materials_,     &counts_[0],   &counts_[1], &impulses_[0],
-          &impulses_[1],  &impulses_[2],   &pushes_[0],   &pushes_[1], &pushes_[2]})
+         {&spherePlaces_, &sphereMotions_, &sphereCells_,  &places_,          &motions_,     &cells_,
+          &startsOf_,     &slotsOf_,       &lists_,        &effectiveCounts_, &shifts_,      &materials_,
+          &sphereWalls_,  &nearWalls_,     &wallFriction_, &diagonals_,       &besides_,     &velocities_,
+          &apart_,        &groupsOf_,      &counts_[0],    &counts_[1],       &impulses_[0], &impulses_[1],
+          &impulses_[2],  &pushes_[0],     &pushes_[1],    &pushes_[2]})
         out += *texture ? texture->bytes() : 0;
     return out;
 }

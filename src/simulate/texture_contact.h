@@ -35,12 +35,15 @@ namespace shoal {
 class ContactState {
   public:
     virtual ~ContactState() = default;
+    // Whether it is the fused step's, with which spheres may lie on triangles, touch their own molecule, and
+    // answer walls within the response.
+    virtual bool fused() const = 0;
     // The defines with which contact/spheres.frag reads a group.
     virtual std::vector<std::string> defines(size_t group) const = 0;
     // Binds what it reads then, beside the topology.
     virtual void bind(const gpu::Program& program, size_t group) = 0;
     // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use slots,
-    // counts, impulses and shifts, in texture units from `firstUnit` on.
+    // counts, impulses, shifts and shapes, in texture units from `firstUnit` on.
     using Gains = std::function<void(const gpu::Program& program, int firstUnit)>;
     virtual void apply(size_t group, const Gains& bind) = 0;
 };
@@ -65,16 +68,27 @@ class TextureContact : public ContactPasses<ContactState> {
 
     void makeTextures(gpu::Context& context);
     void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
-    gpu::Program makeGroup(gpu::Context& context, const GroupPlan& group, std::vector<std::string> defines,
-                           const std::string& shaderRoot, gpu::ProgramCache* cache) const;
+    // What belongs to one group with contact; sum and spread only where there are spheres on triangles.
+    struct OfGroup {
+        gpu::Program spheres, effectiveSum, spread;
+        gpu::Texture shapes;
+    };
+    OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state,
+                      const std::string& shaderRoot, gpu::ProgramCache* cache) const;
+    gpu::Texture table(gpu::Context& context, gpu::Format format, size_t texels, const void* data,
+                       const char* label) const;
+    void makeTables(gpu::Context& context);
 
-    void makeSpheres(ContactState& state);
+    void makeSpheres(const Frame& frame, ContactState& state);
+    void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
+    const gpu::Program& useGroup(const gpu::Program& program, size_t group) const;
     void sortKeys(NetworkSort& sort, bool staggered);
     void buildGrid(const Frame& frame, ContactState& state) override;
     void search(ContactState& state) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
     void runNearest(ContactState& state, const Times& times, const Totals& totals) override;
     void runEffective(ContactState& state, const Times& times) override;
+    void spread(ContactState& state, const Totals& totals) override;
     void runStage(ContactState& state, const gpu::Program& program, const Times& times,
                   const Totals& totals) override;
     void apply(ContactState& state, size_t impulses) override;
@@ -84,12 +98,16 @@ class TextureContact : public ContactPasses<ContactState> {
     int rowsOf(int numbers) const;
 
     int rowBits_;
-    std::vector<gpu::Program> spheres_;  // per group with contact
+    bool triangles_ = false, self_ = false, walls_ = false;
+    std::vector<OfGroup> groups_;  // with contact
     gpu::Program keys_, starts_, order_, slots_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
     gpu::Texture startsOf_, slotsOf_, lists_, effectiveCounts_, shifts_, materials_;
+    gpu::Texture sphereWalls_, nearWalls_, wallFriction_;  // where there are walls
+    gpu::Texture diagonals_, besides_, velocities_;        // where spheres lie on triangles
+    gpu::Texture apart_, groupsOf_;                        // where molecules touch themselves
     std::array<gpu::Texture, 2> counts_;
     size_t countsSide_ = 0;
     std::array<gpu::Texture, 3> impulses_, pushes_;

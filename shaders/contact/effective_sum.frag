@@ -1,0 +1,15 @@
+// effective: a texel a slot, of the spheres of one group: contact/effective_sum.glsl.
+#include "contact/shape.glsl"
+#include "contact/effective_sum.glsl"
+#include "contact/own_sphere.glsl"
+
+layout(location = 0) out uvec4 effectiveCount;
+
+void main()
+{
+    int lane = ownSphere() - firstSphere;
+    if (lane < 0 || lane >= partSpheres) discard;
+    int molecule = lane / SPHERES;
+    float sum = effectiveSum(firstSphere + molecule * SPHERES, lane - molecule * SPHERES);
+    effectiveCount = uvec4(floatBitsToUint(sum), 0u, 0u, 0u);
+}
