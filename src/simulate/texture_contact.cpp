@@ -23,7 +23,7 @@ TextureContact::TextureContact(gpu::Context& context, const std::string& shaderR
     : ContactPasses(plan, tables),
       rowBits_(plan.contact.rowBits()),
       sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
-            cache),
+            cache, NetworkSort::Ties::byIndex),
       targets_(context),
       noAttributes_(context, "contact") {
     for (const ContactGroup& group : contact_->groups) {
@@ -33,7 +33,7 @@ TextureContact::TextureContact(gpu::Context& context, const std::string& shaderR
     }
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
-                           2 << rowBits_, cache);
+                           2 << rowBits_, cache, NetworkSort::Ties::byIndex);
     makeTextures(context);
     makeTables(context);
     makePrograms(context, shaderRoot, cache);
