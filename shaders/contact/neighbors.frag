@@ -4,7 +4,6 @@
 #include "contact/touch.glsl"
 
 #ifdef STAGGERED
-#include "sort/pairs.glsl"
 #include "contact/staggered.glsl"
 
 #ifndef SELF

@@ -22,9 +22,8 @@ int motionOf(int slot)
 {
     return slot;
 }
-#ifdef SELF
 #include "sort/pairs.glsl"
-
+#ifdef SELF
 uniform usampler2D sorted;
 
 int sphereOf(int slot)

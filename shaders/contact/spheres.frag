@@ -1,14 +1,14 @@
 // spheres: a texel a sphere, of one group: from the state to records in the spheres' own order (contact/records.glsl). The
 // state lies in the textures of passes or, with LAYERED, of the fused step. With WALL_RECORDS a record has the nearest
 // collider of groups that collide (WALLS).
+#include "state/numbered.glsl"
+#include "physics/cells.glsl"
 #ifdef LAYERED
 #include "contact/shape.glsl"
 #include "contact/sphere.glsl"
 #else
 #include "state/topology.glsl"
-#include "state/numbered.glsl"
 #include "state/textures.glsl"
-#include "physics/cells.glsl"
 
 uniform float cell;
 uniform float givenRadius;

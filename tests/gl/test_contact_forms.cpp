@@ -1,0 +1,75 @@
+// Contact in fragments is that of compute shaders, with all that either form has: spheres on triangles,
+// within a molecule, and walls within the response.
+#include "gl/agreement.h"
+#include "gl/feature_scenes.h"
+#include "gl/numerics.h"
+#include "scene/collider_kinds.h"
+#include "support/catch.h"
+
+using namespace shoal;
+using namespace shoal::test;
+
+namespace {
+
+// Sheets that fall on one another, on marbles and into a corner.
+Scene heap(bool triangles, bool self) {
+    Scene scene = swarm(sheet(3, 3, false), 60, SolverKind::leapfrog, {0, 1, 0});
+    scene.gravity = {0, -9.81, 0};
+    scene.groups[0].held = false;
+    scene.groups[0].place.box = {{-0.8, 0.3, -0.8}, {0.8, 1.5, 0.8}};
+    scene.groups[0].contact.emplace().radius = 0.06;
+    scene.groups[0].contact->triangles = triangles;
+    scene.groups[0].contact->self = self;
+    Group marbles = scene.groups[0];
+    marbles.name = "marbles";
+    marbles.molecule = point(0.1);
+    marbles.count = 80;
+    marbles.contact->triangles = marbles.contact->self = false;
+    scene.groups.push_back(marbles);
+    PlaneCollider ground;
+    scene.colliders.emplace_back().shape = ground;
+    ground.normal = glm::normalize(glm::dvec3(1, 1, 0));
+    ground.point = {-0.6, 0, 0};
+    scene.colliders.emplace_back().shape = ground;
+    scene.contact.steps = 2;
+    setSteps(scene, 1.0 / 60, 8);
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("compute shaders and fragments have the same contact", "[molecule contact][agreement]") {
+    if (!canFuse()) return;
+    for (const bool triangles : {false, true}) {
+        for (const bool self : {false, true}) {
+            CAPTURE(triangles, self);
+            const Plan plan = compile(heap(triangles, self));
+            Simulation compute(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                               {.drawn = false, .path = Path::fused});
+            Simulation fragments(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                                 {.drawn = false, .path = Path::fragments});
+            size_t most = 0;
+            for (int i = 0; i < 40; ++i) {
+                compute.frame();
+                if (i % 13 != 0) continue;  // from the same state, one frame
+                fragments.load(compute.save());
+                compute.frame();
+                fragments.frame();
+                CHECK(compute.contact()->found() == fragments.contact()->found());
+                most = std::max(most, fragments.contact()->found().size());
+                for (size_t g = 0; g < 2; ++g) {
+                    const Snapshot a = compute.snapshot(g), b = fragments.snapshot(g);
+                    double position = 0, velocity = 0;
+                    for (size_t v = 0; v < a.positions.size(); ++v) {
+                        position = std::max(position, glm::distance(a.positions[v], b.positions[v]));
+                        velocity = std::max(velocity, glm::distance(a.velocities[v], b.velocities[v]));
+                    }
+                    CAPTURE(i, g);
+                    CHECK(position < 1e-5);
+                    CHECK(velocity < 1e-3);
+                }
+            }
+            CHECK(most > 100);
+        }
+    }
+}
