@@ -133,7 +133,7 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
         checkMatrix(group, limits);
-        chooseLanes(group, Lanes::molecule, limits);
+        if (!group.isStill()) chooseLanes(group, Lanes::molecule, limits);
         checkLayers(group, limits);
     }
 }

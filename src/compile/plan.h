@@ -15,6 +15,7 @@
 //   triangle entries, one texel    the other two corners, anticlockwise after v
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <string>
@@ -75,6 +76,11 @@ struct GroupPlan {
     std::vector<double> springFrequencies;
     Molecule shape;  // bdf2-corotated only: of its matrix (compile/corotated.h)
 
+    // Whether nothing of it ever moves.
+    bool isStill() const {
+        return !needs.release && !needs.life &&
+               std::find(pinned.begin(), pinned.end(), false) == pinned.end();
+    }
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
 };

@@ -35,7 +35,7 @@ class Fragments::Touched : public ContactState {
             gains(program, kernel_unit::steering + 1);
             path_->draw(program, group, layers.newState()[i], layers.count());
         }
-        layers.flip();
+        if (!programs.touched.empty()) layers.flip();
     }
 
   private:
@@ -55,17 +55,22 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         const GroupPlan& group = plan.groups[g];
         state.emplace_back(context, group, options.drawn, targets);
         Programs& programs = programs_.emplace_back();
-        programs.kernel = std::make_unique<GroupKernel>(
-            source, g, kernel, drawsOf(storedInFragments(group).size(), targets), made_);
-        if (query_) programs.watch = &programs.kernel->also(KernelOptions::Work::watch, Targets{});
+        GroupKernel::Steps steps;
+        for (const Targets& draw : drawsOf(group.isStill() ? 0 : storedInFragments(group).size(), targets))
+            steps.emplace_back(draw);
+        programs.kernel = std::make_unique<GroupKernel>(source, g, kernel, steps, made_);
+        if (query_ && !group.isStill())
+            programs.watch = &programs.kernel->also(KernelOptions::Work::watch, Targets{});
         if (!state[g].hasNormals()) continue;
         for (const Targets& draw : drawsOf(group.kernel.normals.size(), targets))
             programs.normals.push_back(&programs.kernel->also(KernelOptions::Work::normals, draw));
     }
-    for (const ContactGroup& group : plan.contact.groups)
-        for (const Targets& draw : drawsOf(storedInFragments(plan.groups[group.group]).size(), targets))
-            programs_[group.group].touched.push_back(
-                &programs_[group.group].kernel->also(KernelOptions::Work::touched, draw));
+    for (const ContactGroup& contact : plan.contact.groups) {
+        const GroupPlan& group = plan.groups[contact.group];
+        Programs& programs = programs_[contact.group];
+        for (const Targets& draw : drawsOf(group.isStill() ? 0 : storedInFragments(group).size(), targets))
+            programs.touched.push_back(&programs.kernel->also(KernelOptions::Work::touched, draw));
+    }
     if (plan.contact.any()) {
         contactState_ = std::make_unique<Touched>(*this);
         contact_ = std::make_unique<TextureContact>(context, shaderRoot, plan, tables, *contactState_,
@@ -106,7 +111,7 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
             const int vertices = lives ? births_->bindStep(program, g) : 3;
             draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count(), vertices);
         }
-        state[g].flip();
+        if (kernel.steps() > 0) state[g].flip();
     }
 }
 
@@ -143,6 +148,7 @@ void Fragments::watch(gpu::PassTimers& timers) {
     const auto timer = timers.time("watch");
     const RunawayQuery::Asking asking(*query_);
     for (size_t g = 0; g < state.size(); ++g) {
+        if (programs_[g].watch == nullptr) continue;
         programs_[g].watch->use();
         draw(*programs_[g].watch, g, state[g].newState().front(), state[g].count());
     }
@@ -154,7 +160,8 @@ std::optional<std::vector<GroupState>> Fragments::readBefore() const {
     if (contact_) return {};  // the side before is that of a step within the frame
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g)
-        out.push_back(state[g].readBefore(plan_->groups[g]));
+        out.push_back(plan_->groups[g].isStill() ? state[g].read(plan_->groups[g])
+                                                 : state[g].readBefore(plan_->groups[g]));
     return out;
 }
 

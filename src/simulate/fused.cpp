@@ -48,8 +48,8 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
             kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
         state.emplace_back(context, group, options.drawn, options.inPlace,
                            size_t(info.maxWorkGroupsX) * perWorkgroup);
-        kernels_.push_back(std::make_unique<GroupKernel>(source, g, kernel,
-                                                         std::vector<KernelOptions::Targets>(), programs_));
+        kernels_.push_back(
+            std::make_unique<GroupKernel>(source, g, kernel, GroupKernel::Steps{std::nullopt}, programs_));
         normals_.push_back(options.drawn && group.needs.normals
                                ? &kernels_.back()->also(KernelOptions::Work::normals)
                                : nullptr);

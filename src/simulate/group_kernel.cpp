@@ -21,8 +21,8 @@ std::string bytesOf(const std::vector<glm::vec4>& parameters) {
 }  // namespace
 
 GroupKernel::GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options,
-                         const std::vector<KernelOptions::Targets>& draws, gpu::Programs& programs)
-    : source_(source), group_(group), options_(options), draws_(draws), programs_(&programs) {
+                         const Steps& steps, gpu::Programs& programs)
+    : source_(source), group_(group), options_(options), draws_(steps), programs_(&programs) {
     const GroupPlan& plan = this->group();
     if (plan.factored()) {
         stage_ = corotatedStage(plan, {}, 1 / source.plan->frameRate / source.plan->substeps);
@@ -47,9 +47,9 @@ const Program& GroupKernel::make(const KernelOptions& options) {
 void GroupKernel::makeSteps() {
     own_.clear();
     steps_.clear();
-    for (size_t draw = 0; draw < std::max<size_t>(1, draws_.size()); ++draw) {
+    for (const auto& draw : draws_) {
         KernelOptions options = options_;
-        if (!draws_.empty()) options.fragments = draws_[draw];
+        options.fragments = draw;
         steps_.push_back(&make(options));
         const Program& step = *steps_.back();
         step.use();

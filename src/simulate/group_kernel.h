@@ -33,10 +33,11 @@ struct KernelSource {
 
 class GroupKernel {
   public:
-    // `draws`: of a frame in fragments, each with its targets; empty: with compute. Borrows `programs`.
-    // Error: the driver refuses a kernel.
-    GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options,
-                const std::vector<KernelOptions::Targets>& draws, gpu::Programs& programs);
+    // `steps`: a frame is one with compute, or in fragments a draw into each of these; none: it does not
+    // move. Borrows `programs`. Error: the driver refuses a kernel.
+    using Steps = std::vector<std::optional<KernelOptions::Targets>>;
+    GroupKernel(const KernelSource& source, size_t group, const KernelOptions& options, const Steps& steps,
+                gpu::Programs& programs);
 
     const KernelOptions& options() const { return options_; }
     // The number of programs that a frame takes.
@@ -61,7 +62,7 @@ class GroupKernel {
     KernelSource source_;
     size_t group_;
     KernelOptions options_;
-    std::vector<KernelOptions::Targets> draws_;
+    Steps draws_;
     gpu::Programs* programs_;
     std::vector<const gpu::Program*> steps_;
     std::vector<std::unique_ptr<gpu::Program>>
