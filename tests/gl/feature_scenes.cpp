@@ -274,7 +274,7 @@ std::vector<Collider> everyCollider() {
     return out;
 }
 
-std::vector<FeatureScene> shippedScenes(int mostMolecules) {
+std::vector<FeatureScene> shippedScenes(int mostMolecules, bool fusedOnly) {
     std::vector<std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(concat(sourceFolder, "models")))
         if (entry.path().string().ends_with(".scene.json")) files.push_back(entry.path().string());
@@ -283,10 +283,12 @@ std::vector<FeatureScene> shippedScenes(int mostMolecules) {
     for (const std::string& file : files) {
         Scene scene = readScene(file);
         if (std::any_of(scene.groups.begin(), scene.groups.end(),
-                        [](const Group& g) { return g.contact || g.life || g.school; }))
+                        [](const Group& g) { return g.contact || g.life || g.school; }) != fusedOnly)
             continue;
-        for (Group& group : scene.groups)
+        for (Group& group : scene.groups) {
             group.count = std::min(group.count, mostMolecules);
+            if (group.life) group.life->capacity = std::min(group.life->capacity, 4 * mostMolecules);
+        }
         out.push_back({scene.name, std::move(scene)});
     }
     return out;

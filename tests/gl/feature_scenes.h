@@ -32,9 +32,10 @@ HeightFieldCollider rolling(bool sampledNormals);
 // A plane at y = 0 and a sphere and a height field that stand out of it.
 std::vector<Collider> everyCollider();
 
-// Scenes of models/ without contact between molecules, which multiplies roundings, and without births and
-// schools, which the fused path alone has, with at most `mostMolecules` in a group; and scenes made here.
-std::vector<FeatureScene> shippedScenes(int mostMolecules);
+// Scenes of models/ with at most `mostMolecules` in a group: those without contact between molecules, which
+// multiplies roundings, and without births and schools, which the fused path alone has; or `fusedOnly` the
+// others. And scenes made here.
+std::vector<FeatureScene> shippedScenes(int mostMolecules, bool fusedOnly = false);
 std::vector<FeatureScene> featureScenes();
 
 }  // namespace shoal::test

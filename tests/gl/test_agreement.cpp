@@ -95,6 +95,55 @@ TEST_CASE("compute shaders and fragments agree with every solver", "[fused][agre
     CHECK(compared > 9);
 }
 
+TEST_CASE("every scene that ships runs in fragments where there is no OpenGL 4.3", "[agreement]") {
+    PathLimits limits;
+    limits.version = "3.3";
+    limits.compute = false;
+    limits.targets = 4;
+    for (const bool fusedOnly : {false, true})
+        for (const FeatureScene& one : test::shippedScenes(40, fusedOnly)) {
+            INFO(one.name);
+            const Plan plan = compile(one.scene);
+            for (const Path path : {Path::automatic, Path::fused, Path::fragments})
+                CHECK(choosePath(plan, path, limits).path == Path::fragments);
+        }
+}
+
+// Contact, births and schools: everything that passes lack.
+TEST_CASE("compute shaders and fragments agree on every scene with contact, births or schools",
+          "[fused][agreement][long]") {
+    if (!test::canFuse()) return;
+    const std::vector<FeatureScene> scenes = test::shippedScenes(40, true);
+    CHECK(scenes.size() >= 8);
+    for (const FeatureScene& one : scenes) {
+        INFO(one.name);
+        const Plan plan = compile(one.scene);
+        Simulation compute = on(Path::fused, plan), fragments = on(Path::fragments, plan);
+        for (const int frame : {0, 30, 60}) {
+            test::run(compute, frame - compute.frames());
+            fragments.load(compute.save());
+            compute.frame();
+            fragments.frame();
+            const SavedState a = compute.save(), b = fragments.save();
+            for (size_t g = 0; g < plan.groups.size(); ++g) {
+                const GroupPlan& group = plan.groups[g];
+                double furthest = 0;
+                for (size_t i = 0; i < a.groups[g].positions.size(); ++i) {
+                    const size_t m = i / size_t(group.vertexCount);
+                    if (group.life && !(a.groups[g].lives[m].y > 0)) continue;
+                    const glm::dvec3 anchors = a.groups[g].anchors[m] - b.groups[g].anchors[m];
+                    const glm::dvec3 places = a.groups[g].positions[i] - b.groups[g].positions[i];
+                    furthest = std::max(furthest, glm::length(anchors + places) / group.size);
+                }
+                INFO(group.name << ", frame " << frame);
+                CHECK(furthest < test::Agreement::tolerance);
+                CHECK(a.groups[g].seeds == b.groups[g].seeds);
+                CHECK(a.groups[g].totals == b.groups[g].totals);
+            }
+        }
+    }
+}
+
 TEST_CASE("a run repeats itself, starts again and goes on from a saved state, bit for bit",
           "[fused][agreement]") {
     for (const FeatureScene& one : test::featureScenes()) {
