@@ -32,12 +32,21 @@ void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
 
 }  // namespace
 
-size_t MoleculeContact::most(const gpu::ContextInfo& info, const ContactPlan& contact) {
+// Words of an entry of the largest array of lists.
+static size_t entryWords(const ContactPlan& contact) {
     const bool pushes = contact.settings.response == ContactResponse::simultaneous;
-    const size_t listWords = size_t(contact.listLength) * wordsOf(pushes ? Texel::uint2 : Texel::uint1);
-    const size_t block = size_t(info.maxStorageBlockBytes);
-    return std::min({block / (sizeof(uint32_t) * listWords), block / sizeof(glm::vec4),
-                     size_t(info.maxBufferTexels) / size_t(contact.listLength),
+    return wordsOf(pushes ? Texel::uint2 : Texel::uint1);
+}
+
+// Entries of all lists together.
+static size_t mostEntries(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    return std::min(size_t(info.maxStorageBlockBytes) / (entryWords(contact) * sizeof(uint32_t)),
+                    size_t(info.maxBufferTexels));
+}
+
+size_t MoleculeContact::most(const gpu::ContextInfo& info, const ContactPlan& contact) {
+    return std::min({mostEntries(info, contact) / shortestList,
+                     size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4),
                      size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info)});
 }
 
@@ -51,7 +60,9 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     : ContactPasses(plan, tables),
       context_(&context),
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
-      sort_((checkLimits(context.info(), plan.contact), context), shaderRoot, padded_, cache) {
+      sort_((checkLimits(context.info(), plan.contact), context), shaderRoot, padded_, cache),
+      listLength_(int(
+          std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
     for (const ContactGroup& group : contact_->groups) {
         triangles_ |= group.triangles;
         self_ |= group.self;
@@ -71,12 +82,12 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     starts_ = array((size_t(1) << contact_->tableBits) + 1, Texel::uint1, "cells");
     slots_ = array(padded_, Texel::uint1, "slots");
     counts_ = array(padded_, Texel::uint1, "contacts");
-    lists_ = array(padded_ * size_t(contact_->listLength), Texel::uint1, "contact lists");
+    lists_ = array(padded_ * size_t(listLength_), Texel::uint1, "contact lists");
     shifts_ = array(padded_, Texel::float4, "contact shifts");
     for (Array& impulses : impulses_)
         impulses = array(padded_, Texel::float4, "contact impulses");
     if (contact_->settings.response == ContactResponse::simultaneous)
-        pushed_ = array(padded_ * size_t(contact_->listLength), Texel::uint2, "contact pushes");
+        pushed_ = array(padded_ * size_t(listLength_), Texel::uint2, "contact pushes");
     if (contact_->settings.response == ContactResponse::simultaneous)
         effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
     if (walls_) {
@@ -99,7 +110,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
 }
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
-    std::vector<std::string> common = {concat("LIST ", contact_->listLength),
+    std::vector<std::string> common = {concat("LIST ", listLength_),
                                        concat("NEIGHBORS ", contact_->settings.neighbors)};
     if (self_) common.push_back("SELF");
     if (triangles_) common.push_back("TRIANGLES");
@@ -288,7 +299,7 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
     const std::vector<uint32_t> counts = read(counts_), lists = read(lists_), sorted = read(pairs_);
     std::vector<std::pair<int, int>> out;
     for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot) {
-        const size_t listed = std::min(size_t(counts[slot]), size_t(contact_->listLength));
+        const size_t listed = std::min(size_t(counts[slot]), size_t(listLength_));
         for (size_t e = 0; e < listed; ++e) {
             const size_t other = lists[e * padded_ + slot];
             out.emplace_back(std::minmax(int(sorted[2 * slot + 1]), int(sorted[2 * other + 1])));

@@ -32,11 +32,14 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                     const Tables& tables, gpu::ProgramCache* cache);
 
-    // Spheres that a context holds, with the plan's lists.
+    // Lists are as long as the plan's, or as the context has room for, but no shorter than this: as many as
+    // touch a sphere of their size at once without overlap.
+    static constexpr size_t shortestList = 12;
+    // Spheres that a context holds, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
     uint32_t dropped() const override;
-    int listLength() const override { return contact_->listLength; }
+    int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
     size_t bytes() const override;
 
@@ -108,6 +111,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     std::vector<GroupPrograms> groups_;
     gpu::Program order_, findStaggered_;
     RadixSort sort_;
+    int listLength_;
     Array pairs_, staggered_, starts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_, normals_,
         velocities_;
     Array apart_, groupsOf_, materials_;
