@@ -43,6 +43,11 @@ void checkTables(const Plan& plan, const PathLimits& limits) {
 // Contact in fragment shaders has tables of its own.
 void checkContact(const Plan& plan, const PathLimits& limits) {
     const ContactPlan& contact = plan.contact;
+    constexpr int targets = ContactPlan::fragmentList / 4 + 1;
+    if (contact.any() && limits.targets < targets)
+        throw Error(contact.settings.location,
+                    concat("contact between molecules draws into ", targets,
+                           " textures at once; this context allows ", limits.targets));
     if (!contact.any() || 1 << contact.rowBits() <= limits.maxTextureSize) return;
     int bits = contact.tableBits;
     while (1 << ((bits + 1) / 2) > limits.maxTextureSize)
@@ -129,6 +134,10 @@ void checkLayers(const GroupPlan& group, const PathLimits& limits) {
 }
 
 void checkFragments(const Plan& plan, const PathLimits& limits) {
+    constexpr int fewest = 4;  // as WebGL 2 has: bodies of schools, and records of spheres
+    if (limits.targets < fewest)
+        throw Error(concat("fragments draw into ", fewest, " textures at once; this context allows ",
+                           limits.targets));
     checkContact(plan, limits);
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {

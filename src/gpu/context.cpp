@@ -1,5 +1,6 @@
 #include "gpu/context.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -129,7 +130,8 @@ static ContextInfo readInfo(ContextKind kind, const Platform& platform) {
                            info.version.empty() ? "of unknown version" : info.version.c_str(), " (",
                            info.renderer, "), 3.3 or newer is needed"));
     info.maxTextureSize = getInteger(GL_MAX_TEXTURE_SIZE);
-    info.maxColorAttachments = getInteger(GL_MAX_COLOR_ATTACHMENTS);
+    info.maxColorAttachments =
+        std::min(getInteger(GL_MAX_COLOR_ATTACHMENTS), getInteger(GL_MAX_DRAW_BUFFERS));
     info.maxSamples = getInteger(GL_MAX_SAMPLES);
     info.maxVertexTextureUnits = getInteger(GL_MAX_VERTEX_TEXTURE_IMAGE_UNITS);
     info.max3DTextureSize = getInteger(GL_MAX_3D_TEXTURE_SIZE);

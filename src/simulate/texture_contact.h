@@ -50,8 +50,7 @@ class ContactState {
 
 class TextureContact : public ContactPasses<ContactState> {
   public:
-    // Entries of a list: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
-    static constexpr int longestList = 24;
+    static constexpr int longestList = ContactPlan::fragmentList;
 
     // Borrows the plan and the tables; `state`: only for its defines. Blending, tests and masks are off in a
     // step. Error: out of memory; the driver refuses a shader.

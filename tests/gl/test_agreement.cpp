@@ -99,7 +99,6 @@ TEST_CASE("every scene that ships runs in fragments where there is no OpenGL 4.3
     PathLimits limits;
     limits.version = "3.3";
     limits.compute = false;
-    limits.targets = 4;
     for (const bool fusedOnly : {false, true})
         for (const FeatureScene& one : test::shippedScenes(40, fusedOnly)) {
             INFO(one.name);

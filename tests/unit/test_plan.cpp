@@ -232,6 +232,37 @@ TEST_CASE("more than the textures hold is refused with what would fit", "[plan]"
                Catch::Contains("takes 36 layers") && Catch::Contains("has 35"));
 }
 
+TEST_CASE("a context that draws into too few textures is refused with how many it takes", "[plan]") {
+    PathLimits limits;
+    limits.compute = false;
+    limits.targets = 4;
+    Scene scene = sceneWith("quad");
+    CHECK(choosePath(compile(scene), Path::automatic, limits).path == Path::fragments);
+    scene.groups[0].contact = GroupContact{};
+    scene.groups[0].contact->radius = 0.01;
+    for (const Path path : {Path::automatic, Path::fused, Path::fragments, Path::pingPong})
+        CHECK_THAT(messageOf([&] { choosePath(compile(scene), path, limits); }),
+                   Catch::Contains("contact between molecules draws into 7 textures at once") &&
+                       Catch::Contains("this context allows 4"));
+    limits.targets = 3;
+    scene.groups[0].contact.reset();
+    CHECK_THAT(messageOf([&] { choosePath(compile(scene), Path::fused, limits); }),
+               Catch::Contains("fragments draw into 4 textures at once; this context allows 3"));
+}
+
+TEST_CASE("a group that never moves may be larger than a lane, in fragments", "[plan]") {
+    PathLimits limits;
+    limits.compute = false;
+    Scene scene = sceneWith("point");
+    Molecule& molecule = scene.groups[0].molecule;
+    molecule.vertices.resize(100);
+    CHECK_THAT(messageOf([&] { choosePath(compile(scene), Path::fragments, limits); }),
+               Catch::Contains("a lane holds at most 64"));
+    for (Vertex& vertex : molecule.vertices)
+        vertex.pinned = true;
+    CHECK(choosePath(compile(scene), Path::automatic, limits).path == Path::fragments);
+}
+
 TEST_CASE("without compute shaders the fused path runs in fragments and says so, with the version",
           "[plan]") {
     PathLimits limits;
