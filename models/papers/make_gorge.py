@@ -29,12 +29,12 @@ def edge(x):
 
 
 def height(x, z):
-    ragged = 0.55 * noise((0.75 * x, 0.5, 0.75 * z), 2) + 0.16 * noise((1.9 * x, 0.5, 1.9 * z), 3)
+    ragged = 0.75 * noise((0.75 * x, 0.5, 0.75 * z), 2) + 0.16 * noise((1.9 * x, 0.5, 1.9 * z), 3)
     s = z - edge(x) + ragged
     h = TOP
     for behind, drop in STEPS:
         wander = 0.5 * noise((0.45 * x, 3.5 + 3 * behind, 0.5), 4)
-        h -= drop * smoothstep(behind + wander, behind + wander + 0.6, s)
+        h -= drop * smoothstep(behind + wander, behind + wander + 0.8, s)
     # A bed for the stream, and the rims of the steps worn down in its way.
     stream = math.exp(-((x - 0.35 * math.sin(0.9 * z)) / 1.15) ** 2)
     h -= 0.55 * stream * smoothstep(-0.3, 0.5, h)
@@ -46,8 +46,8 @@ def height(x, z):
     bank = smoothstep(2.7, 4.3, r)
     outlet = math.exp(-((x - 0.8) / 1.3) ** 2) * smoothstep(3.0, 5.0, z)
     foot = 0.9 * bank * (1 - outlet) + 0.22 * noise((0.9 * x, 0.5, 0.9 * z), 8) * bank - 0.06
-    if z - edge(x) > 1.5:
-        h = max(h - 0.1, foot) if h < 1.2 else h + 0.6 * foot * smoothstep(2.4, 1.2, h)
+    banked = max(h - 0.1, foot) + 0.35 * foot * smoothstep(0.0, 0.6, h) * smoothstep(2.4, 1.0, h)
+    h += (banked - h) * smoothstep(1.1, 2.1, s)
     for bx, bz, size in BOULDERS:
         d = math.hypot(x - bx, z - bz) / size
         if d < 1:
@@ -66,10 +66,10 @@ def normal(x, z, e=0.05):
 
 def colour(x, z, h, n):
     fine = noise((4.1 * x, 4.1 * h, 4.1 * z), 10)
-    strata = noise((0.25 * x, 5.2 * h + 0.8 * noise((0.6 * x, 0.5, 0.6 * z), 11), 0.25 * z), 12)
-    rock = mix((0.30, 0.26, 0.24), (0.55, 0.47, 0.39), 0.5 + 0.45 * strata + 0.18 * fine)
+    strata = noise((0.3 * x, 4.2 * h + 1.2 * noise((0.6 * x, 0.5, 0.6 * z), 11), 0.3 * z), 12)
+    rock = mix((0.33, 0.29, 0.28), (0.53, 0.47, 0.40), 0.5 + 0.5 * strata + 0.15 * fine)
     moss = mix((0.17, 0.25, 0.09), (0.34, 0.42, 0.14), 0.5 + 0.4 * noise((1.4 * x, 0.5, 1.4 * z), 13) + 0.2 * fine)
-    level = smoothstep(0.72, 0.93, n[1] + 0.10 * fine)
+    level = smoothstep(0.62, 0.92, n[1] + 0.10 * fine)
     stream = math.exp(-((x - 0.35 * math.sin(0.9 * z)) / 1.0) ** 2)
     out = mix(rock, moss, level * (1 - 0.85 * stream) * smoothstep(0.02, 0.2, h))
     # What is wet is dark.
