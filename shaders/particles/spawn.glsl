@@ -3,7 +3,7 @@
 // molecule flies in its rest shape, in which its springs have no force.
 //
 // Its place is LISTED, or one after another from `firstPlace`, around the capacity. With LAYERED a vertex is drawn as a
-// point onto that place, and a fragment stores what it carries (particles/newborn.frag).
+// point onto that place, and a fragment stores what it carries.
 #ifndef LAYERED
 #include "fused/store.glsl"
 #endif

@@ -71,17 +71,19 @@ std::vector<GroupLives> livesOf(const Simulation& simulation) {
     std::vector<GroupLives> out;
     const std::vector<GroupPlan>& groups = simulation.plan().groups;
     for (size_t g = 0; g < groups.size(); ++g)
-        if (groups[g].needs.life) out.push_back({groups[g].name, simulation.lifeCounts(g)});
+        if (groups[g].needs.life)
+            out.push_back({groups[g].name, simulation.lifeCounts(g), groups[g].life->cycle.allocator});
     return out;
 }
 
 std::string text(const GroupLives& lives) {
     const LifeCounts& n = lives.counts;
-    return concat(
-        printable(lives.group), ": ", n.live, " of ", n.capacity, " places taken, ", n.born, " born",
-        n.lost > 0
-            ? concat(", ", n.lost, " lost (no place was free: a larger \"capacity\" or --count holds more)")
-            : "");
+    const char* why = lives.allocator == Allocator::ring ? "cut short (the ring gives the oldest place away"
+                                                         : "lost (no place was free";
+    const std::string lost =
+        n.lost > 0 ? concat(", ", n.lost, " ", why, ": a larger \"capacity\" or --count holds more)") : "";
+    return concat(printable(lives.group), ": ", n.live, " of ", n.capacity, " places taken, ", n.born,
+                  " born", lost);
 }
 
 JsonValue asJson(const gpu::PassTime& pass) {

@@ -38,6 +38,7 @@ JsonValue asJson(const gpu::ContextInfo& context);
 struct GroupLives {
     std::string group;
     LifeCounts counts;
+    Allocator allocator = Allocator::gpu;
 };
 
 struct RunReport {

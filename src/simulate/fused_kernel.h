@@ -18,7 +18,7 @@ struct KernelOptions {
         normals,  // of the state as it is; nothing moves
         watch,    // in fragments: whether the state as it is has run away
         touched,  // in fragments: what contact between molecules does to the state
-        births,   // of newborns (shaders/particles/spawn.comp)
+        births,   // of newborns (shaders/particles/spawn.glsl)
     };
     // Which of the 4-vectors that a molecule stores one draw writes, a colour target each.
     struct Targets {
