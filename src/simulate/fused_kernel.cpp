@@ -4,6 +4,7 @@
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
+#include "core/contract.h"
 #include "gpu/shader_source.h"
 #include "simulate/tables.h"
 #include "simulate/vertex_loops.h"
@@ -59,12 +60,13 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.push_back(fastestDefine());
     }
     if (options.work == Work::touched) {
-        const ContactGroup& contact =
-            *std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
-                          [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+        const auto contact =
+            std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
+                         [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+        EXPECTS(contact != plan.contact.groups.end());
         out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits()),
-                               concat("SPHERES ", contact.spheresOf)});
-        if (contact.triangles) out.emplace_back("TRIANGLES");
+                               concat("SPHERES ", contact->spheresOf)});
+        if (contact->triangles) out.emplace_back("TRIANGLES");
     }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");

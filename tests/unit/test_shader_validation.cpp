@@ -101,7 +101,8 @@ class Validator {
         };
         addDraws(KernelOptions::Work::frame, storedInFragments(plan.groups[0]).size());
         addDraws(KernelOptions::Work::normals, plan.groups[0].kernel.normals.size());
-        addDraws(KernelOptions::Work::touched, storedInFragments(plan.groups[0]).size());
+        if (plan.contact.any())
+            addDraws(KernelOptions::Work::touched, storedInFragments(plan.groups[0]).size());
         if (plan.groups[0].life) addDraws(KernelOptions::Work::births, storedAtBirth(plan.groups[0]).size());
         options.work = KernelOptions::Work::watch;
         options.fragments.emplace();
@@ -297,16 +298,29 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const char* file :
          {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "effective", "apply"})
         contact(file);
-    for (const Defines& set : combinations({"PINS", "CONSTANTS"})) {
-        Defines layered = {"LAYERED", "STATE_WIDTH 1024", "POSITION_ELEMENTS 3", "STATE_ELEMENTS 6"};
+    const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
+                           "STATE_ELEMENTS 6", "VERTICES 4",       "SPHERES 6"};
+    for (const Defines& set : combinations({"TRIANGLES", "CONSTANTS", "LIFE", "WALL_RECORDS"})) {
+        Defines layered = sizes;
         layered.insert(layered.end(), set.begin(), set.end());
         contact("spheres", layered);
+        layered.insert(layered.end(), {"WALL_RECORDS", "WALLS"});
+        contact("spheres", layered);
     }
+    for (const char* file : {"effective_sum", "spread"})
+        contact(file, sizes);
     for (const char* stage : {"guess", "relax", "friction", "correction"}) {
         validator.generated.merge(responseStage(stage));
-        contact("respond");
+        for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
+            contact("respond", set);
         validator.generated.erase("generated/stage.glsl");
     }
+    for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
+        contact("effective", set);
+    contact("order", {"WALLS"});
+    for (const char* file : {"find", "neighbors"})
+        contact(file, {"SELF"});
+    contact("neighbors", {"SELF", "STAGGERED"});
     for (const char* file : {"spheres", "apply"})
         contact(file, {"PINS", "RELEASE"});
     contact("neighbors", {"STAGGERED"});
@@ -336,6 +350,8 @@ TEST_CASE("the kernels in fragments are sound GLSL, of WebGL 2 as well", "[shade
             Scene scene = leafScene({"springs", "triangles", "drag by direction", "forces", "pins", more},
                                     solver.kind, FieldSampling::vertexSubstep);
             scene.groups[0].place.scale = {0.5, 0.6};
+            scene.groups[0].contact.emplace().radius = 0.01;
+            scene.groups[0].contact->triangles = solver.implicit;
             const bool live = solver.kind != SolverKind::bdf2Corotated && more == std::string("muscles");
             validator.addFragments(compile(scene, {.liveSprings = live}), {});
         }
