@@ -48,7 +48,7 @@ struct ContactPlan {
     int listLength = 24;  // spheres that one may touch
     // As many in fragments: with what else a pass draws, within the 8 draw buffers that OpenGL 3.3 promises.
     static constexpr int fragmentList = 24;
-    int steps = 1;        // of a frame
+    int steps = 1;  // of a frame
     ContactSettings settings;
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
