@@ -9,7 +9,6 @@
 namespace shoal {
 
 using gpu::Format;
-using gpu::Framebuffer;
 using gpu::Texture;
 using gpu::Traffic;
 
