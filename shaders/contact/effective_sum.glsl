@@ -39,7 +39,7 @@ float countOf(int vertex, int moleculeSphere)
     return largestEigenvalue(sum);
 }
 
-// Of sphere k of the molecule whose first is `moleculeSphere`.
+// Returns it for sphere k of the molecule whose first is `moleculeSphere`.
 float effectiveSum(int moleculeSphere, int k)
 {
     vec4 shape = shapeOf(k);

@@ -6,9 +6,6 @@
 #ifdef STAGGERED
 #include "contact/staggered.glsl"
 
-#ifndef SELF
-uniform usampler2D sorted;
-#endif
 uniform usampler2D staggered;
 uniform UINTS slots;  // of a sphere
 
@@ -21,7 +18,7 @@ bool isListed(int slot)
 
 void searchStaggered(int slot)
 {
-    uint sphere = pairAt(sorted, slot).y;
+    uint sphere = uint(sphereOf(slot));
     uint key = staggeredKey(ownCell, ownPlace, cell, keyMask);
     int place = placeOfNumber(staggered, sphere, placeOfKey(staggered, key, count), count);
     for (int k = -NEIGHBORS; k <= NEIGHBORS; ++k) {

@@ -5,7 +5,8 @@
 //   sorted   by slot: x key of its cell, y sphere
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
-// With TEXTURES motions are by slot as well, and only contact within a molecule (SELF) needs the spheres' numbers.
+// With TEXTURES motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
+// numbers.
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 
@@ -23,7 +24,7 @@ int motionOf(int slot)
     return slot;
 }
 #include "sort/pairs.glsl"
-#ifdef SELF
+#if defined(SELF) || defined(STAGGERED)
 uniform usampler2D sorted;
 
 int sphereOf(int slot)

@@ -11,7 +11,7 @@ const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
 const int controlStepGroups = 12;  // workgroups of the next step, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
-const int controlWords = 32;   // of a group
+const int controlWords = 32;       // of a group
 const int mostDeathRuns = 6;
 
 // A counter that stays at the largest number.

@@ -21,7 +21,7 @@ CellPlace cellPlace(vec3 anchor, vec3 position, float cell)
     return CellPlace(index, inCell + vec3(index & (localCells - 1)) * cell);
 }
 
-// What is not there has a cell of its own, far from all others.
+// Returns a cell far from all others, for a sphere that is not there.
 ivec3 cellApart(int sphere)
 {
     return ivec3(0x40000000, sphere, 0);

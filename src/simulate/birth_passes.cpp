@@ -5,7 +5,6 @@
 #include "compile/generate_emitters.h"
 #include "compile/pack.h"
 #include "core/random.h"
-#include "simulate/fused_kernel.h"
 
 namespace shoal {
 
@@ -57,6 +56,18 @@ void BirthPasses::makeOrder() {
     };
     for (size_t g = 0; g < groups_.size(); ++g)
         visit(visit, g);
+}
+
+const Program& BirthPasses::makeSpawn(gpu::Context& context, const std::string& shaderRoot,
+                                      const Living& living, std::optional<KernelOptions::Targets> draw,
+                                      gpu::ProgramCache* cache) {
+    KernelOptions kernel;
+    kernel.work = KernelOptions::Work::births;
+    kernel.fragments = draw;
+    kernel.software = context.info().software;
+    gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
+    program.cache = cache;
+    return programs_.get(context, shaderRoot, program);
 }
 
 void BirthPasses::setAge(const Program& step, const Living& living) const {

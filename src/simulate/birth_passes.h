@@ -1,4 +1,4 @@
-// What both forms of the fused path share of birth and death (compile/life_plan.h): when who is born, the
+// Both forms of the fused path share this of birth and death (compile/life_plan.h): when who is born, the
 // allocators on the CPU, and the numbers that the programs of births are given. The step ends lives
 // (shaders/particles/age.glsl). After it:
 //
@@ -12,11 +12,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "compile/plan.h"
 #include "gpu/program.h"
 #include "simulate/execution_path.h"
+#include "simulate/fused_kernel.h"
 #include "simulate/places.h"
 #include "simulate/step.h"
 
@@ -67,11 +70,16 @@ class BirthPasses {
     BirthPasses(const Plan& plan, size_t apart);
     ~BirthPasses() = default;
 
+    // Returns the program of a group's births, or in fragments of one draw of them. Error: the driver refuses
+    // it.
+    const gpu::Program& makeSpawn(gpu::Context& context, const std::string& shaderRoot, const Living& living,
+                                  std::optional<KernelOptions::Targets> draw, gpu::ProgramCache* cache);
+
     // All that is scheduled between the ends of the frame, with places from the allocators on the CPU.
     Newborns schedule(Living& living, const Frame& frame);
     void setNumbers(const gpu::Program& spawn, const Living& living, const Newborns& newborns,
                     const Frame& frame) const;
-    // What growOlder() needs beside the places.
+    // Gives a step what growOlder() needs beside the places.
     void setAge(const gpu::Program& step, const Living& living) const;
     // The places that a step covers, of those that the CPU knows: as many as the one before needed, because
     // what died one step ago is still alive on the other side of the state.
@@ -92,6 +100,7 @@ class BirthPasses {
     size_t diedWords_ = 0;       // of all lists of deaths
 
   private:
+    gpu::Programs programs_;
     void makeOrder();
     void takePlaces(Living& living, double end, Newborns& newborns);
     int markOf(const Living& living) const;

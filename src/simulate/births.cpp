@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "simulate/fused_kernel.h"
-
 namespace shoal {
 
 using gpu::Buffer;
@@ -27,20 +25,13 @@ static void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
 // Storage offsets are multiples of so many words on any device.
 constexpr size_t wordsApart = 64;
 
-static size_t mostPlaces(const Plan& plan) {
-    size_t most = 0;
-    for (const GroupPlan& group : plan.groups)
-        if (group.life) most = std::max(most, size_t(group.count));
-    return most;
-}
-
 Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
                gpu::ProgramCache* cache)
     : BirthPasses(plan, wordsApart),
       context_(&context),
       tables_(&tables),
       buffers_(plan.groups.size()),
-      lists_(context, shaderRoot, plan.groups.size(), mostPlaces(plan), cache) {
+      lists_(context, shaderRoot, plan.groups.size(), size_t(mostPlaces(plan)), cache) {
     for (const auto& living : groups_)
         if (living) make(*living, shaderRoot, cache);
     if (diedWords_ > 0)
@@ -62,15 +53,7 @@ void Births::make(const Living& living, const std::string& shaderRoot, gpu::Prog
     if (living.listed())
         buffers.places = Buffer(*context_, Buffer::Use::storage, nullptr,
                                 group.layout().padded(size_t(group.count)) * sizeof(uint32_t), "places");
-    KernelOptions kernel;
-    kernel.work = KernelOptions::Work::births;
-    kernel.software = context_->info().software;
-    gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
-    program.cache = cache;
-    buffers.spawn = &programs_.get(*context_, shaderRoot, program);
-    buffers.spawn->use();
-    if (group.needs.fields)
-        buffers.spawn->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
+    buffers.spawn = &makeSpawn(*context_, shaderRoot, living, {}, cache);
 }
 
 void Births::bindStep(const Program& program, size_t group) const {

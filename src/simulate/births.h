@@ -47,7 +47,6 @@ class Births : public BirthPasses {
     gpu::Context* context_;
     const Tables* tables_;
     std::vector<Buffers> buffers_;  // of the plan's groups
-    gpu::Programs programs_;
     PlaceLists lists_;
     gpu::Buffer died_;  // lists of deaths
 };

@@ -9,6 +9,11 @@ namespace shoal {
 using gpu::Program;
 using Targets = KernelOptions::Targets;
 
+// The 4-vectors that a frame writes of a molecule.
+static size_t storedByStep(const GroupPlan& group) {
+    return group.isStill() ? 0 : storedInFragments(group).size();
+}
+
 // How contact reads the layers, a texel a molecule, and changes them.
 class Fragments::Touched : public ContactState {
   public:
@@ -55,10 +60,9 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
         const GroupPlan& group = plan.groups[g];
         state.emplace_back(context, group, options.drawn, targets);
         Programs& programs = programs_.emplace_back();
-        GroupKernel::Steps steps;
-        for (const Targets& draw : drawsOf(group.isStill() ? 0 : storedInFragments(group).size(), targets))
-            steps.emplace_back(draw);
-        programs.kernel = std::make_unique<GroupKernel>(source, g, kernel, steps, made_);
+        const std::vector<Targets> draws = drawsOf(storedByStep(group), targets);
+        programs.kernel = std::make_unique<GroupKernel>(
+            source, g, kernel, GroupKernel::Steps(draws.begin(), draws.end()), made_);
         if (query_ && !group.isStill())
             programs.watch = &programs.kernel->also(KernelOptions::Work::watch, Targets{});
         if (!state[g].hasNormals()) continue;
@@ -68,7 +72,7 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
     for (const ContactGroup& contact : plan.contact.groups) {
         const GroupPlan& group = plan.groups[contact.group];
         Programs& programs = programs_[contact.group];
-        for (const Targets& draw : drawsOf(group.isStill() ? 0 : storedInFragments(group).size(), targets))
+        for (const Targets& draw : drawsOf(storedByStep(group), targets))
             programs.touched.push_back(&programs.kernel->also(KernelOptions::Work::touched, draw));
     }
     if (plan.contact.any()) {
@@ -84,12 +88,12 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
 
 void Fragments::draw(const Program& program, size_t group, const gpu::Framebuffer& target, int molecules,
                      int vertices) const {
+    if (molecules == 0) return;
     const GroupLayers& layers = state[group];
     program.texture("oldState", kernel_unit::oldState, layers.state());
     program.texture("oldRecords", kernel_unit::oldRecords, layers.records());
     if (layers.hasConstants()) program.texture("constants", kernel_unit::constants, layers.constants());
     programs_[group].kernel->bindTables(program);
-    if (molecules == 0) return;
     target.bind(0, 0, std::min(stateWidth, molecules), (molecules + stateWidth - 1) / stateWidth);
     noAttributes_.bind();
     glDrawArrays(GL_TRIANGLES, 0, vertices);

@@ -220,6 +220,11 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
             form(vertices * plan.colliderCount > longest), Form::keep};
 }
 
+const char* rootFile(const KernelOptions& options) {
+    if (!options.fragments) return "generated/fused.comp";
+    return options.work == Work::births ? "generated/births.vert" : "generated/fused.frag";
+}
+
 // Whether only the GPU knows how far a step has to go.
 bool reachesByControl(const GroupPlan& group, const KernelOptions& options) {
     return options.work == Work::frame && group.life && group.life->emits() &&
@@ -256,9 +261,7 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     const GroupPlan& group = plan.groups[index];
     gpu::ProgramOptions out;
     const bool born = options.work == Work::births;
-    const std::string root = !options.fragments ? "generated/fused.comp"
-                             : born             ? "generated/births.vert"
-                                                : "generated/fused.frag";
+    const std::string root = rootFile(options);
     if (!options.fragments)
         out.compute = root;
     else if (born)
@@ -326,12 +329,9 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
 std::string kernelShader(const std::string& shaderRoot, const Plan& plan, size_t group,
                          const KernelOptions& options) {
     const gpu::ProgramOptions program = kernelProgram(plan, group, options);
-    gpu::ShaderSource source = gpu::resolveShader(
-        shaderRoot,
-        !options.fragments                            ? program.compute
-        : options.work == KernelOptions::Work::births ? program.vertex
-                                                      : program.fragment,
-        program.defines, program.generated, options.fragments ? gpu::header330() : gpu::header430());
+    gpu::ShaderSource source =
+        gpu::resolveShader(shaderRoot, rootFile(options), program.defines, program.generated,
+                           options.fragments ? gpu::header330() : gpu::header430());
     program.rewrite(source);
     return source.text;
 }

@@ -90,6 +90,13 @@ void Places::restore(const std::vector<double>& ends, const std::vector<uint32_t
         std::reverse(free_.begin(), free_.end());
 }
 
+int mostPlaces(const Plan& plan) {
+    int most = 1;
+    for (const GroupPlan& group : plan.groups)
+        if (group.life) most = std::max(most, group.count);
+    return most;
+}
+
 void settleBirths() {
     gpu::barrier({Barrier::textureFetch, Barrier::storage, Barrier::command});
 }

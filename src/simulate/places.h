@@ -12,6 +12,7 @@
 
 #include <glm/glm.hpp>
 
+#include "compile/plan.h"
 #include "gpu/buffer.h"
 #include "gpu/program.h"
 #include "scene/emitter.h"
@@ -48,6 +49,9 @@ class Places {
     std::priority_queue<End, std::vector<End>, std::greater<>> next_;  // to be freed
     int mark_ = 0;
 };
+
+// As many as the largest group with life has.
+int mostPlaces(const Plan& plan);
 
 namespace control {
 constexpr int words = 32;  // a group

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "gpu/gl.h"
-#include "simulate/fused_kernel.h"
 #include "simulate/group_kernel.h"
 
 namespace shoal {
@@ -58,18 +57,8 @@ void TextureBirths::make(const Living& living, const std::string& shaderRoot, in
         own.places = listOf(*context_, size_t(living.count()), "places");
         own.newPlaces = Framebuffer(*context_, {&own.places}, nullptr, "places");
     }
-    KernelOptions kernel;
-    kernel.work = KernelOptions::Work::births;
-    kernel.software = context_->info().software;
-    for (const KernelOptions::Targets& draw : drawsOf(storedAtBirth(*living.plan).size(), targets)) {
-        kernel.fragments = draw;
-        gpu::ProgramOptions program = kernelProgram(*plan_, living.group, kernel);
-        program.cache = cache;
-        own.spawn.push_back(&programs_.get(*context_, shaderRoot, program));
-        own.spawn.back()->use();
-        if (living.plan->needs.fields)
-            own.spawn.back()->set("givenFieldParameters", std::span<const glm::vec4>(plan_->fieldParameters));
-    }
+    for (const KernelOptions::Targets& draw : drawsOf(storedAtBirth(*living.plan).size(), targets))
+        own.spawn.push_back(&makeSpawn(*context_, shaderRoot, living, draw, cache));
 }
 
 int TextureBirths::bindStep(const Program& program, size_t group) const {

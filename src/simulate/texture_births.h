@@ -53,7 +53,6 @@ class TextureBirths : public BirthPasses {
     gpu::Context* context_;
     const Tables* tables_;
     std::vector<Own> own_;  // of the plan's groups
-    gpu::Programs programs_;
     TexturePlaces places_;
     gpu::Texture died_;  // lists of deaths
     gpu::Framebuffer newDied_;

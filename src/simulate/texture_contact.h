@@ -67,7 +67,7 @@ class TextureContact : public ContactPasses<ContactState> {
 
     void makeTextures(gpu::Context& context);
     void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
-    // What belongs to one group with contact; sum and spread only where there are spheres on triangles.
+    // Holds what belongs to one group with contact; sum and spread only where there are spheres on triangles.
     struct OfGroup {
         gpu::Program spheres, effectiveSum, spread;
         gpu::Texture shapes;

@@ -21,13 +21,6 @@ int partsOf(int whole, int size) {
     return (whole + size - 1) / size;
 }
 
-int mostPlaces(const Plan& plan) {
-    int most = 1;
-    for (const GroupPlan& group : plan.groups)
-        if (group.life) most = std::max(most, group.count);
-    return most;
-}
-
 // Rows of the bits of so many places.
 int rowsOf(int places) {
     return partsOf(partsOf(places, siblings), siblings);

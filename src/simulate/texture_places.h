@@ -3,7 +3,7 @@
 // (shaders/particles/bits.frag, sums.frag). Down the tree a place is found by its rank, so lists of them are
 // in ascending order (list.frag).
 //
-// What births need of the sums stays on the GPU in words of control, so many a group, four a texel
+// The part that births need of the sums stays on the GPU in words of control, so many a group, four a texel
 // (control.frag).
 #pragma once
 

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "core/image.h"
+#include "gl/births.h"
 #include "gl/blending.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
@@ -42,10 +43,6 @@ void setLife(Scene& scene, double seconds) {
         group.life->capacity = group.count;
         group.life->life = glm::dvec2(seconds);
     }
-}
-
-bool canAge() {
-    return testPath() != Path::pingPong;
 }
 
 glm::ivec3 middleOf(const Image& image) {
@@ -118,7 +115,7 @@ double pixelsPerMeter(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("colour and opacity follow the keyframes", "[render][particles]") {
-    if (!canAge()) return;
+    if (!canSpawn()) return;
     ParticleType type = disc();
     type.colors = {
         {0.1, {1, 0, 0.5}, 1}, {0.3, {0, 1, 0.5}, 1}, {0.5, {0.25, 0, 2}, 1}, {0.9, {0, 0, 0.1}, 1}};
@@ -147,7 +144,7 @@ TEST_CASE("colour and opacity follow the keyframes", "[render][particles]") {
 }
 
 TEST_CASE("particles grow with age, and the dead are not drawn", "[render][particles]") {
-    if (!canAge()) return;
+    if (!canSpawn()) return;
     ParticleType type = disc();
     type.size = {0.4, 0.4};
     type.growth = {0.5, 3};
@@ -214,7 +211,7 @@ TEST_CASE("neighbouring tiles do not bleed, near or far", "[render][particles]")
 }
 
 TEST_CASE("a flip-book's frames fade into one another", "[render][particles]") {
-    if (!canAge()) return;
+    if (!canSpawn()) return;
     const Scratch scratch;
     ParticleType type = disc();
     type.image = ParticleImage{.file = {}, .columns = 3, .rows = 1, .lastTile = 2, .flipBook = true};
@@ -444,7 +441,7 @@ TEST_CASE("whatever the sliders say, no pixel is lost", "[render][particles]") {
             place = {pick({-1, 0, 1}), pick({-0.5, 0, 0.5}), pick({-1e4, -1, 0, 2.9999, 3})};
         Scene scene = sceneOfParticles(type, places);
         scene.groups[0].velocity = {pick({0, 9000}), 0, pick({0, 1})};
-        if (canAge()) setLife(scene, pick({1e-9, 1, 1e30}));
+        if (canSpawn()) setLife(scene, pick({1e-9, 1, 1e30}));
         const Image image = draw(scene, round % 2);
         int lost = 0;  // the picture shows what is no number as the brightest; no light here is
         for (size_t i = 0; i + 3 < image.pixels.size(); i += 4)
