@@ -2,7 +2,7 @@
 // what generated/forces.glsl writes out for a lane.
 #define springPlace(i) x[i]
 #define springVelocity(i) w[i]
-#define mostStiffness(i, other) (1.0 / ((inverseMass[i] + inverseMass[other]) * (substep * substep)))
+#define springInverseMass(i) inverseMass[i]
 #define surfacePlace(i) probe[i]
 #include "step/gather_springs.glsl"
 #include "step/gather_normal.glsl"

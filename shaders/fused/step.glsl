@@ -113,7 +113,7 @@ void kickWhole(int step, float time)
     springForcesNow(step, time);
 #ifdef SPRINGS
     for (int i = 0; i < VERTICES; ++i) {
-        if (!isHeld(pinned[i])) v[i] += force[i] * (inverseMass[i] * substep);
+        if (!isHeld(pinned[i])) v[i] += springKick(force[i], inverseMass[i], substep);
     }
 #endif
 }

@@ -93,35 +93,13 @@ int triangleAt(int base, int count, float x)
 
 #include "generated/emitters.glsl"
 
-// 1 - exp(-y), without a difference that cancels.
-float decayOf(float y)
-{
-    float z = 0.5 * y;
-    float q = z * z;
-    float series = 2.0 * exp(-z) * z * (1.0 + q / 6.0 * (1.0 + q / 20.0 * (1.0 + q / 42.0)));
-    return abs(y) < 1.0 ? series : 1.0 - exp(-y);
-}
-
-float phiOf(float rate, float h)
-{
-    return abs(rate * h) < 1e-6 ? h : decayOf(rate * h) / rate;
-}
-
-// (h - phi) / rate, by its series where h and phi are near.
-float bendOf(float rate, float h)
-{
-    float y = rate * h;
-    float series = h * h * (0.5 - y / 6.0 * (1.0 - y / 4.0 * (1.0 - y / 5.0 * (1.0 - y / 6.0 * (1.0 - y / 7.0)))));
-    return abs(y) < 0.5 ? series : (h - phiOf(rate, h)) / rate;
-}
-
 // The step's coefficients for one of another length.
 void setStep(float h)
 {
     substep = h;
-    decay = vec2(decayOf(dragRate.x * h), decayOf(dragRate.y * h));
-    phi = vec2(phiOf(dragRate.x, h), phiOf(dragRate.y, h));
-    flightBend = vec2(bendOf(dragRate.x, h), bendOf(dragRate.y, h));
+    decay = vec2(dragDecay(dragRate.x * h), dragDecay(dragRate.y * h));
+    phi = vec2(dragPhi(dragRate.x, h), dragPhi(dragRate.y, h));
+    flightBend = vec2(dragBend(dragRate.x, h), dragBend(dragRate.y, h));
 }
 
 // A thrust over any time, s.

@@ -6,6 +6,7 @@
 #include "passes/springs.glsl"
 #include "physics/random.glsl"
 
+uniform float springTime;     // s since the frame's start
 uniform float releaseForce;   // N: above this pull on a pin, all pins of the molecule are released
 uniform float releaseChance;  // in this frame
 uniform int frame;
@@ -24,7 +25,7 @@ void main()
         if (record.w < 0.5) {
             float pull = 0.0;
             for (int v = 0; v < vertexCount; ++v)
-                if (inertia(v).y > 0.5) pull = max(pull, length(springForces(v, molecule)));
+                if (inertia(v).y > 0.5) pull = max(pull, length(springForces(v, molecule, springTime)));
             uint seed = uint(texelFetch(constants, texel, 0).x);
             if (isReleased(pull, releaseForce, seed, frame, releaseChance)) record.w = 1.0;
         }

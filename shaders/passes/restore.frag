@@ -3,7 +3,8 @@
 //   leapfrog   a = F(x, v + a_old h/2) / m;  v += a h/2   (at the start of a frame only a, from v itself)
 #include "passes/springs.glsl"
 
-uniform float kickTime;  // s: h for euler and verlet, h/2 for leapfrog
+uniform float springTime;  // s since the frame's start
+uniform float kickTime;    // s: h for euler and verlet, h/2 for leapfrog
 
 #ifdef LEAPFROG
 layout(location = 0) out vec4 newAcceleration;
@@ -16,14 +17,15 @@ void main()
 {
     ivec2 own = ownAddress();
     vec3 v = texelFetch(velocities, ivec2(gl_FragCoord.xy), 0).xyz;
-    vec3 a = vec3(0.0);
+    vec3 force = vec3(0.0);
     vec4 vertexInertia = inertia(own.x);
-    if (!isPadding(own.y) && !isHeld(vertexInertia, own.y)) {
-        a = springForces(own.x, own.y) * vertexInertia.x;
-        v += a * kickTime;
-    }
+    if (!isPadding(own.y) && !isHeld(vertexInertia, own.y)) force = springForces(own.x, own.y, springTime);
 #ifdef LEAPFROG
+    vec3 a = force * vertexInertia.x;
     newAcceleration = vec4(a, 0.0);
+    v += a * kickTime;
+#else
+    v += springKick(force, vertexInertia.x, kickTime);
 #endif
     newVelocity = vec4(v, 0.0);
 }

@@ -3,9 +3,10 @@
 
 uniform float stiffnessFactor;
 uniform float dampingFactor;
-uniform float springTime;    // s since the frame's start, for muscles
 uniform float predictTime;   // s: leapfrog's force uses the velocity v + a h/2; 0 at the start of a frame
-uniform float stepsSquared;  // 1/h^2, 1/s^2, for verlet
+#ifdef VERLET
+uniform float substep;  // h, s
+#endif
 #ifdef MUSCLES
 uniform vec4 muscleAngles[MUSCLES];  // rad, when the frame begins, four frequencies each
 #endif
@@ -20,11 +21,11 @@ float phase;         // of its muscles, rad
 #else
 #define springVelocity(vertex) vec3(0.0)
 #endif
-#define mostStiffness(vertex, other) (stepsSquared / (inertia(vertex).x + inertia(other).x))
+#define springInverseMass(vertex) inertia(vertex).x
 #include "step/gather_springs.glsl"
 
-// N
-vec3 springForces(int vertex, int molecule)
+// Returns it in N. springTime: s since the frame's start, for muscles.
+vec3 springForces(int vertex, int molecule, float springTime)
 {
     vec4 constant = texelFetch(constants, recordTexel(molecule), 0);
     sprungMolecule = molecule;

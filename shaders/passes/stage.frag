@@ -35,9 +35,10 @@ void main()
     if (stage == 0) x -= shift;
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-    vec3 a = dragAcceleration(v, fieldAt(anchor, x, time), fallAt(anchor, x), texelFetch(vertexNormals, texel, 0).xyz);
+    float now = time + stageTime(stage);
+    vec3 a = dragAcceleration(v, fieldAt(anchor, x, now), fallAt(anchor, x), texelFetch(vertexNormals, texel, 0).xyz);
 #ifdef SPRINGS
-    a += springForces(own.x, own.y) * vertexInertia.x;
+    a += springForces(own.x, own.y, now) * vertexInertia.x;
 #endif
     vec3 sumV = v * shareOf(stage);
     vec3 sumA = a * shareOf(stage);

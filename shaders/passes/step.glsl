@@ -3,7 +3,7 @@
 #include "physics/anchor.glsl"
 
 uniform sampler2D vertexNormals;
-uniform float time;        // s, since the frame's start, of the substep's start or of the stage
+uniform float time;        // s, since the frame's start, of the substep's start
 uniform float substep;     // h, s
 uniform vec3 gravity;      // m/s^2
 uniform float wind;        // factor on the fields

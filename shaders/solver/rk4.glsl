@@ -41,7 +41,7 @@ void advance(int step)
     }
     float start = float(step) * substep;
     for (int s = 0; s < 4; ++s) {
-        stage(s, s == 0 ? step : 1, start + (s == 0 ? 0.0 : s == 3 ? 1.0 : 0.5) * substep);
+        stage(s, s == 0 ? step : 1, start + stageTime(s));
     }
     thrust(false);
 }

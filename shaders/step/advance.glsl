@@ -21,6 +21,12 @@ vec3 velocityAfter(vec3 dragged, vec3 moved)
 #endif
 }
 
+// Returns when stage 0 to 3 of rk4 takes its rates, s after the substep's start.
+float stageTime(int stage)
+{
+    return stage == 0 ? 0.0f : stage == 3 ? substep : 0.5f * substep;
+}
+
 // Returns the share of the rates of stage 0 to 3 of rk4 in the substep.
 float shareOf(int stage)
 {

@@ -1,5 +1,5 @@
 // The springs around a vertex from the topology table, where they are not compiled in. Needs `scale`, `phase`, a vertex's
-// springPlace (m) and springVelocity (m/s), and mostStiffness (N/m, step/springs.glsl) between two.
+// springPlace (m) and springVelocity (m/s) and springInverseMass (1/kg).
 #include "state/topology.glsl"
 #include "step/springs.glsl"
 
@@ -11,6 +11,7 @@ vec3 springForceOn(int vertex, float time)
     int count = int(spans.y);
     vec3 place = springPlace(vertex);
     vec3 velocity = springVelocity(vertex);
+    float inverseMass = springInverseMass(vertex);
     vec3 sum = vec3(0.0);
     for (int s = 0; s < count; ++s) {
         vec4 spring = table(first + 2 * s);
@@ -26,7 +27,7 @@ vec3 springForceOn(int vertex, float time)
 #endif
 #endif
         sum += sprung(place - springPlace(other), velocity - springVelocity(other), spring.y, spring.z, restLength,
-                      mostStiffness(vertex, other));
+                      inverseMass + springInverseMass(other));
     }
     return sum;
 }

@@ -111,26 +111,22 @@ SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs)
     return out;
 }
 
-// The stiffness of a distance constraint (shaders/solver/verlet.glsl).
-std::string mostStiffness(const Molecule& molecule, const Spring& spring) {
-    const double weight =
-        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
-    return concat(glslLiteral(1 / weight), " / (substep * substep)");
-}
-
 const char* springVariables(const Needs& needs) {
     return needs.liveSprings ? "    vec4 s;\n    vec4 m;\n" : "";
 }
 
 // The force of a spring, added to its ends: of the way between these, and of their relative velocity.
-std::string forceText(const Spring& spring, const SpringText& numbers, const std::string& way,
-                      const std::string& relative, const std::string& most) {
+std::string forceText(const Molecule& molecule, const Spring& spring, const SpringText& numbers,
+                      const std::string& way, const std::string& relative) {
+    const double inverseMasses =
+        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
     return concat(numbers.load, "    f = sprung(", way, ", ", numbers.damped ? relative : "vec3(0.0)", ", ",
-                  numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", ", most, ");\n    ",
-                  at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
+                  numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", ",
+                  glslLiteral(inverseMasses), ");\n    ", at("force", spring.a), " += f;\n    ",
+                  at("force", spring.b), " -= f;\n");
 }
 
-std::string springText(const Molecule& molecule, const Needs& needs, bool isBounded) {
+std::string springText(const Molecule& molecule, const Needs& needs) {
     std::string out = concat(
         "// Of all springs, on all vertices, from x and w; time for the muscles.\n"
         "void springForces(float time)\n{\n"
@@ -138,10 +134,9 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
         springVariables(needs), MuscleWaves(molecule, needs).text());
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
-        out += forceText(spring, numbersOf(molecule, i, needs),
+        out += forceText(molecule, spring, numbersOf(molecule, i, needs),
                          concat(at("x", spring.a), " - ", at("x", spring.b)),
-                         concat(at("w", spring.a), " - ", at("w", spring.b)),
-                         isBounded ? mostStiffness(molecule, spring) : "0.0");
+                         concat(at("w", spring.a), " - ", at("w", spring.b)));
     }
     return out + "}\n";
 }
@@ -174,9 +169,9 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
-        out += forceText(spring, numbersOf(molecule, i, needs),
+        out += forceText(molecule, spring, numbersOf(molecule, i, needs),
                          concat("(x", a, " - x", b, ") + (q", a, " - q", b, ")"),
-                         concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"), "0.0");
+                         concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"));
     }
     return out + "}\n";
 }
@@ -336,7 +331,7 @@ KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";
-    if (needs.springs) text.forces += springText(molecule, needs, solver.kind == SolverKind::verlet);
+    if (needs.springs) text.forces += springText(molecule, needs);
     if (needs.normals) text.forces += normalText(molecule);
     if (solver.implicit && needs.springs)
         text.sweeps = sweepText(molecule, needs, true) + sweepText(molecule, needs, false);

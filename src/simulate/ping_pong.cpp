@@ -243,15 +243,14 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     return program;
 }
 
-void PingPong::setSprings(const Program& program, const GroupPlan& group, const Step& step, double time,
+void PingPong::setSprings(const Program& program, const GroupPlan& group, const Step& step,
                           double predictTime) {
     program.set("stiffnessFactor", float(group.stiffness * step.frame.parameters.stiffness));
     program.set("dampingFactor", float(group.damping * step.frame.parameters.damping));
-    program.set("springTime", float(time - step.frame.time));
     if (group.needs.actuation)
         program.set("muscleAngles", std::span<const glm::vec4>(muscleAngles(group.muscles, step.frame.time)));
     program.set("predictTime", float(predictTime));
-    if (group.solver == SolverKind::verlet) program.set("stepsSquared", float(1 / (step.h * step.h)));
+    if (group.solver == SolverKind::verlet) program.set("substep", float(step.h));
 }
 
 void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
@@ -286,7 +285,8 @@ void PingPong::records(const GroupPlan& group, size_t index, const Step& step) {
     const Program& program = prepare(PassKind::records, group, index);
     if (group.needs.release) {
         const ReleaseLimits limits = releaseLimits(group, step.frame);
-        setSprings(program, group, step, step.time, 0);
+        setSprings(program, group, step, 0);
+        program.set("springTime", float(step.time - step.frame.time));
         program.set("releaseForce", limits.force);
         program.set("releaseChance", limits.chance);
         program.set("frame", step.frame.number);
@@ -311,13 +311,13 @@ void PingPong::thrust(const GroupPlan& group, size_t index, const Step& step) {
 
 void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, bool frameStart) {
     const Program& program = prepare(PassKind::restore, group, index);
-    if (group.solver != SolverKind::leapfrog) {
-        setSprings(program, group, step, step.time, 0);
+    const bool leapfrog = group.solver == SolverKind::leapfrog, atEnd = leapfrog && !frameStart;
+    setSprings(program, group, step, atEnd ? step.h / 2 : 0);
+    program.set("springTime", float(step.time - step.frame.time + (atEnd ? step.h : 0)));
+    if (!leapfrog) {
         program.set("kickTime", float(step.h));
         return drawVelocity(group, index);
     }
-    setSprings(program, group, step, frameStart ? step.time : step.time + step.h,
-               frameStart ? 0 : step.h / 2);
     program.set("kickTime", float(frameStart ? 0 : step.h / 2));
     Targets targets = {&state.acceleration.write(index)};
     if (!frameStart) targets.push_back(&state.velocity.write(index));
@@ -343,7 +343,6 @@ void PingPong::advect(const GroupPlan& group, size_t index, const Step& step) {
 
 // Stage s of a substep reads side s - 1 of the stages, or the state, and writes side s, or the new state.
 void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int s) {
-    constexpr double at[] = {0, 0.5, 0.5, 1};
     const size_t read = size_t(s + 1) % 2, write = size_t(s) % 2;
     const Texture& position = s == 0 ? state.position.read(index) : state.stagePosition[read];
     const Texture& velocity = s == 0 ? state.velocity.read(index) : state.stageVelocity[read];
@@ -354,8 +353,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
         drawState(group, {&state.normal});
     }
     const Program& program = prepare(PassKind::stage, group, index);
-    const double time = step.time + at[s] * step.h;
-    if (group.needs.springs) setSprings(program, group, step, time, 0);
+    if (group.needs.springs) setSprings(program, group, step, 0);
     setForces(program, PassKind::stage, group, step);
     program.texture("positions", 0, position);
     program.texture("velocities", 1, velocity);
@@ -363,7 +361,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     program.texture("startVelocities", 9, state.velocity.read(index));
     program.texture("sumVelocities", 10, state.sumVelocity[read]);
     program.texture("sumAccelerations", 11, state.sumAcceleration[read]);
-    program.set("time", float(time - step.frame.time));
+    program.set("time", float(step.time - step.frame.time));
     program.set("substep", float(step.h));
     program.set("stage", s);
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));

@@ -70,7 +70,7 @@ class PingPong : public ExecutionPath {
     void watch(gpu::PassTimers& timers);
 
     const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
-    void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step, double time,
+    void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step,
                     double predictTime);
     void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     using Targets = std::vector<const gpu::Texture*>;

@@ -268,6 +268,38 @@ TEST_CASE("the stages of rk4 add up to its polynomial", "[physics]") {
     CHECK(x.x == Approx(1 + h + h * h / 2 + h * h * h / 6 + h * h * h * h / 24).epsilon(1e-6));
 }
 
+TEST_CASE("the stages of rk4 take their rates where Simpson's rule does", "[physics]") {
+    const float h = 0.5f, start = 2;
+    shader::substep = h;
+    vec3 x(start * start * start * start), sum(0);  // t^4, of dx/dt = 4 t^3
+    for (int s = 0; s < 4; ++s) {
+        const float t = start + shader::stageTime(s);
+        sum += vec3(4 * t * t * t) * shader::shareOf(s);
+    }
+    CHECK(shader::afterStage(3, x, vec3(0), sum).x == Approx(2.5 * 2.5 * 2.5 * 2.5).epsilon(1e-6));
+}
+
+TEST_CASE("the coefficients of drag agree with double precision at every rate, and where there is none",
+          "[physics]") {
+    for (const double rate : {1e-9, 1e-4, 0.03, 0.4, 0.7, 1.5, 30.0, 1e4, -0.2, -1.2})
+        for (const double h : {1e-3, 0.25, 1.0}) {
+            const double decay = -std::expm1(-rate * h), phi = decay / rate;
+            CAPTURE(rate, h);
+            CHECK(shader::dragDecay(float(rate * h)) == Approx(decay).epsilon(5e-7));
+            CHECK(shader::dragPhi(float(rate), float(h)) == Approx(phi).epsilon(1e-6));
+            // (h - phi) / rate by integration, without its difference: the integral of (h - t) exp(-rate t)
+            double bend = 0;
+            const int n = 20000;
+            for (int i = 0; i < n; ++i) {
+                const double t = (i + 0.5) * h / n;
+                bend += (h - t) * std::exp(-rate * t) * h / n;
+            }
+            if (rate * h < 100) CHECK(shader::dragBend(float(rate), float(h)) == Approx(bend).epsilon(5e-6));
+        }
+    CHECK(shader::dragPhi(0, 0.25f) == 0.25f);
+    CHECK(shader::dragBend(0, 0.25f) == 0.03125f);
+}
+
 TEST_CASE("bilinear heights", "[physics]") {
     CHECK(shader::bilinear(1, 2, 3, 4, {0, 0}) == 1);
     CHECK(shader::bilinear(1, 2, 3, 4, {1, 0}) == 2);
