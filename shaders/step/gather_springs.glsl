@@ -11,7 +11,7 @@ vec3 springForceOn(int vertex, float time)
     int count = int(spans.y);
     vec3 place = springPlace(vertex);
     vec3 velocity = springVelocity(vertex);
-    float inverseMass = springInverseMass(vertex);
+    float own = springInverseMass(vertex);
     vec3 sum = vec3(0.0);
     for (int s = 0; s < count; ++s) {
         vec4 spring = table(first + 2 * s);
@@ -27,7 +27,7 @@ vec3 springForceOn(int vertex, float time)
 #endif
 #endif
         sum += sprung(place - springPlace(other), velocity - springVelocity(other), spring.y, spring.z, restLength,
-                      inverseMass + springInverseMass(other));
+                      own + springInverseMass(other));
     }
     return sum;
 }

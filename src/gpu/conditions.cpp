@@ -1,13 +1,15 @@
-#include "gpu/shader_source.h"
+#include "gpu/conditions.h"
 
 #include <algorithm>
 #include <cctype>
-#include <sstream>
+#include <cstdlib>
+
+#include "gpu/shader_source.h"
 
 namespace shoal::gpu {
 namespace {
 
-// Words, and the signs ! ( ) && ||, of a condition or directive; a comment ends it.
+// Words, and the signs ! ( ) > && ||, of a condition or directive; a comment ends it.
 std::vector<std::string> tokensOf(std::string_view text) {
     std::vector<std::string> out;
     for (size_t i = 0; i < text.size();) {
@@ -29,111 +31,89 @@ std::vector<std::string> tokensOf(std::string_view text) {
     return out;
 }
 
-class Resolver {
-  public:
-    explicit Resolver(ShaderSource& source) : source_(source) {}
-
-    void go() {
-        std::istringstream lines(source_.text);
-        const std::vector<ShaderSource::Line> origins = std::move(source_.lines);
-        source_.text.clear();
-        source_.lines.clear();
-        std::string line;
-        for (const ShaderSource::Line& origin : origins) {
-            std::getline(lines, line);
-            where_ = {source_.files[static_cast<size_t>(origin.file)], origin.line, 0, {}};
-            if (directive(line) || !taken()) continue;
-            // what was taken out leaves no gaps
-            if (line.find_first_not_of(' ') == std::string::npos && blank_) continue;
-            blank_ = line.find_first_not_of(' ') == std::string::npos;
-            source_.text += line + "\n";
-            source_.lines.push_back(origin);
-        }
-        if (!open_.empty()) throw Error(open_.back().where, "#if without #endif");
-    }
-
-  private:
-    struct Branch {
-        bool now, done;  // taken; some branch of this #if was
-        Location where;
-    };
-
-    bool taken() const {
-        return std::all_of(open_.begin(), open_.end(), [](const Branch& branch) { return branch.now; });
-    }
-
-    // Whether the line is one that goes.
-    bool directive(const std::string& line) {
-        const size_t start = line.find_first_not_of(' ');
-        if (start == std::string::npos || line[start] != '#') return false;
-        std::vector<std::string> words = tokensOf(std::string_view(line).substr(start + 1));
-        if (words.empty()) return false;
-        const std::string word = words.front();
-        words.erase(words.begin());
-        if (word == "ifdef" || word == "ifndef") {
-            need(words.size() == 1);
-            open((defined_.count(words[0]) == 1) == (word == "ifdef"));
-        } else if (word == "if") {
-            open(either(words));
-        } else if (word == "else") {
-            need(!open_.empty());
-            open_.back().now = !open_.back().done;
-            open_.back().done = true;
-        } else if (word == "endif") {
-            need(!open_.empty());
-            open_.pop_back();
-        } else if (word == "define" && taken()) {
-            need(!words.empty());
-            defined_.insert(words[0]);
-            return words.size() == 1;
-        } else if (word == "undef" && taken()) {
-            need(words.size() == 1);
-            defined_.erase(words[0]);
-        } else {
-            need(word != "elif");
-            return false;
-        }
-        return true;
-    }
-
-    void open(bool condition) { open_.push_back({condition, condition, where_}); }
-
-    // a && b || c, from the left as C has it
-    bool either(const std::vector<std::string>& words) const {
-        bool any = false, all = true;
-        size_t i = 0;
-        for (;;) {
-            bool wanted = true;
-            for (; i < words.size() && words[i] == "!"; ++i)
-                wanted = !wanted;
-            need(i + 3 < words.size() && words[i] == "defined" && words[i + 1] == "(" && words[i + 3] == ")");
-            all = all && (defined_.count(words[i + 2]) == 1) == wanted;
-            i += 4;
-            if (i == words.size()) return any || all;
-            need(words[i] == "&&" || words[i] == "||");
-            if (words[i] == "||") {
-                any = any || all;
-                all = true;
-            }
-            ++i;
-        }
-    }
-
-    void need(bool understood) const {
-        if (!understood) throw Error(where_, "a directive of a form that this shader may not use");
-    }
-
-    ShaderSource& source_;
-    std::set<std::string> defined_;
-    std::vector<Branch> open_;
-    Location where_;
-    bool blank_ = false;  // the last line that stayed
-};
+void need(bool understood, const Location& where) {
+    if (!understood) throw Error(where, "a directive of a form that this shader may not use");
+}
 
 }  // namespace
 
-void resolveConditions(ShaderSource& source) {
-    Resolver(source).go();
+bool Conditions::taken() const {
+    return std::all_of(open_.begin(), open_.end(), [](const Branch& branch) { return branch.now; });
+}
+
+bool Conditions::stays(std::string_view line, const Location& where) {
+    const size_t start = line.find_first_not_of(" \t");
+    if (start == std::string_view::npos || line[start] != '#') return taken();
+    std::vector<std::string> words = tokensOf(line.substr(start + 1));
+    if (words.empty()) return taken();
+    const std::string word = words.front();
+    words.erase(words.begin());
+    return !directive(word, words, where) && taken();
+}
+
+void Conditions::needClosed(size_t depth) const {
+    if (open_.size() > depth) throw Error(open_.back().where, "#if without #endif");
+}
+
+// Returns whether the line goes.
+bool Conditions::directive(const std::string& word, const std::vector<std::string>& words,
+                           const Location& where) {
+    const auto open = [&](bool condition) { open_.push_back({condition, condition, where}); };
+    if (word == "ifdef" || word == "ifndef") {
+        need(words.size() == 1, where);
+        open((defined_.count(words[0]) == 1) == (word == "ifdef"));
+    } else if (word == "if") {
+        open(holds(words, where));
+    } else if (word == "elif" || word == "else") {
+        need(!open_.empty(), where);
+        Branch& branch = open_.back();
+        branch.now = !branch.done && (word == "else" || holds(words, where));
+        branch.done = branch.done || branch.now;
+    } else if (word == "endif") {
+        need(!open_.empty(), where);
+        open_.pop_back();
+    } else if (word == "define" && taken()) {
+        need(!words.empty(), where);
+        defined_[words[0]] = words.size() > 1 ? words[1] : "";
+        return words.size() == 1;
+    } else if (word == "undef" && taken()) {
+        need(words.size() == 1, where);
+        defined_.erase(words[0]);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+// Reads a && b || c from the left, as C has it.
+bool Conditions::holds(const std::vector<std::string>& words, const Location& where) const {
+    bool any = false, all = true;
+    size_t i = 0;
+    const auto is = [&](size_t ahead, const char* word) {
+        return i + ahead < words.size() && words[i + ahead] == word;
+    };
+    for (;;) {
+        bool wanted = true;
+        for (; is(0, "!"); ++i)
+            wanted = !wanted;
+        bool term = false;
+        if (is(0, "defined") && is(1, "(") && is(3, ")")) {
+            term = defined_.count(words[i + 2]) == 1;
+            i += 4;
+        } else {
+            need(is(1, ">") && i + 2 < words.size() && defined_.count(words[i]) == 1, where);
+            term = std::atoi(defined_.at(words[i]).c_str()) > std::atoi(words[i + 2].c_str());
+            i += 3;
+        }
+        all = all && term == wanted;
+        if (i == words.size()) return any || all;
+        need(is(0, "&&") || is(0, "||"), where);
+        if (is(0, "||")) {
+            any = any || all;
+            all = true;
+        }
+        ++i;
+    }
 }
 
 }  // namespace shoal::gpu

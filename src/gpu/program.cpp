@@ -147,7 +147,8 @@ Program::Program(Context& context, const std::string& shaderRoot, const ProgramO
     }
     locations_ = readLocations(id());
     for (const Stage& stage : stages) {
-        declared_.merge(declared(stage.source.text, "uniform"));
+        for (const std::string* text : {&stage.source.text, &stage.source.leftOut})
+            declared_.merge(declared(*text, "uniform"));
         for (const std::string& block : declared(stage.source.text, "buffer"))
             storageBindings_.emplace(block, storageBinding(id(), block));
     }

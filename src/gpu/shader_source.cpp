@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "core/file.h"
+#include "gpu/conditions.h"
 
 namespace shoal::gpu {
 
@@ -75,7 +76,14 @@ class Resolver {
         source.files.push_back(name);
         return static_cast<int>(source.files.size()) - 1;
     }
-    void addLine(std::string_view line, int file, int number) {
+    // Leaves it out where a condition does, and what that leaves of gaps.
+    void addLine(std::string_view line, int file, int number, bool inComment = false) {
+        const bool stays = inComment ? conditions_.taken()
+                                     : conditions_.stays(line, {source.files[size_t(file)], number, 0, {}});
+        const bool blank = withoutSpaces(line).empty();
+        if (!stays) source.leftOut.append(line) += '\n';
+        if (!stays || (blank && blank_)) return;
+        blank_ = blank;
         source.text.append(line);
         source.text += '\n';
         source.lines.push_back({file, number});
@@ -92,17 +100,20 @@ class Resolver {
         const int file = addFile(shown);
         int number = 0;
         bool inComment = false;
+        const size_t depth = conditions_.depth();
         forEachLine(text, [&](std::string_view line) {
             ++number;
             std::string_view rest;
             if (!inComment && isInclude(line, rest)) {
-                const int column = static_cast<int>(line.find('#')) + 1;
-                add(quoted(rest, {shown, number, column, {}}), {shown, number, column, {}});
+                const Location here{shown, number, static_cast<int>(line.find('#')) + 1, {}};
+                const std::string asked = quoted(rest, here);
+                if (conditions_.taken()) add(asked, here);
             } else {
-                addLine(line, file, number);
+                addLine(line, file, number, inComment);
             }
             inComment = endsInsideComment(line, inComment);
         });
+        conditions_.needClosed(depth);
     }
 
     ShaderSource source;
@@ -142,6 +153,8 @@ class Resolver {
     std::string root_;
     const std::map<std::string, std::string>& generated_;
     std::set<std::string> included_;
+    Conditions conditions_;
+    bool blank_ = false;  // the last line that stayed
 };
 
 // One message of a driver: the line of the text it points to, and where its words begin.

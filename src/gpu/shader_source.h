@@ -1,10 +1,10 @@
-// Shader files with includes, and a line table; conditions taken out (conditions.cpp). Pure text: no OpenGL,
-// testable without a context.
+// Shader files with includes, and a line table; conditions taken out (gpu/conditions.h). Pure text: no
+// OpenGL, testable without a context.
 //
 // Shader files have no #version line: `header` goes in front, then one #define a line, then the file with
-// every #include "folder/file.glsl" replaced by that file, once each, from the root of the shaders. #include
-// is resolved whatever #if surrounds it. There is no #line in the result, because drivers disagree on what
-// it means; instead the driver's log is rewritten with the table.
+// every #include "folder/file.glsl" that is used replaced by that file, once each, from the root of the
+// shaders. An #include in a branch that is left out is none. There is no #line in the result, because drivers
+// disagree on what it means; instead the driver's log is rewritten with the table.
 #pragma once
 
 #include <map>
@@ -23,6 +23,7 @@ struct ShaderSource {
         int line = 0;  // from 1
     };
     std::string text;
+    std::string leftOut;             // by conditions: what this declares may be set, to no effect
     std::vector<Line> lines;         // one for each line of `text`
     std::vector<std::string> files;  // as they are named in messages; [0] is the header
 
@@ -34,8 +35,8 @@ struct ShaderSource {
 };
 
 // `defines`: "NAME" or "NAME value". `generated`: files that exist only in memory, by the name they are
-// included under; they go before files on disk, `file` itself among them. Error: no such file, located at the
-// #include that asks.
+// included under; they go before files on disk, `file` itself among them. Error, located: no such file; a
+// condition that Conditions does not know.
 ShaderSource resolveShader(const std::string& root, const std::string& file,
                            const std::vector<std::string>& defines,
                            const std::map<std::string, std::string>& generated, const std::string& header);
@@ -48,16 +49,5 @@ const char* header430();  // #version 430 core, the first with compute shaders
 // members.
 std::set<std::string, std::less<>> declared(std::string_view text, std::string_view keyword);
 bool isIdentifier(char c);  // a letter, a digit or _
-
-// Takes the branches that #if, #ifdef and #else leave out of a shader's text, so that people read, and
-// drivers compile, only what is used.
-//
-// Understood: #define NAME [value], #undef NAME, #ifdef, #ifndef, #else, #endif and #if with defined(NAME),
-// !,
-// && and || without brackets. A name counts as defined from its #define on. Defines without a value go, too;
-// all else stays.
-//
-// Lines keep their origin. Error, located: a condition of another form, or one that does not end.
-void resolveConditions(ShaderSource& source);
 
 }  // namespace shoal::gpu

@@ -283,7 +283,6 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     if (options.fragments && born) out.generated["generated/newborn.frag"] = newbornText(*options.fragments);
     out.label = concat(born ? "births of " : "fused step of ", group.name);
     out.rewrite = [loops = loopsOf(plan, group, options)](gpu::ShaderSource& source) {
-        gpu::resolveConditions(source);
         expand(source, loops);
     };
     return out;

@@ -32,19 +32,18 @@ TEST_CASE("a shader is its header, its defines and its includes, once each", "[s
     CHECK(source.text ==
           "#version 330 core\n"
           "#define COUNT 3\n"
-          "#define FLAG\n"
           "float a;\n"
           "float b;\n"
           "float a2;\n"
           "void main() {}\n");
-    REQUIRE(source.lines.size() == 7);
-    CHECK(std::count(source.text.begin(), source.text.end(), '\n') == 7);
+    REQUIRE(source.lines.size() == 6);
+    CHECK(std::count(source.text.begin(), source.text.end(), '\n') == 6);
     CHECK(origin(source, 1) == "shader header:1");
-    CHECK(origin(source, 3) == "shader header:3");
-    CHECK(origin(source, 4) == "generated:lib/a.glsl:1");
-    CHECK(origin(source, 5) == "generated:lib/b.glsl:2");
-    CHECK(origin(source, 6) == "generated:lib/a.glsl:3");
-    CHECK(origin(source, 7) == "generated:main.frag:3");
+    CHECK(origin(source, 2) == "shader header:2");
+    CHECK(origin(source, 3) == "generated:lib/a.glsl:1");
+    CHECK(origin(source, 4) == "generated:lib/b.glsl:2");
+    CHECK(origin(source, 5) == "generated:lib/a.glsl:3");
+    CHECK(origin(source, 6) == "generated:main.frag:3");
 }
 
 TEST_CASE("only directives include", "[shader]") {
@@ -59,6 +58,40 @@ TEST_CASE("only directives include", "[shader]") {
                                         "main.frag");
     CHECK(source.text.find("float some;\n") != std::string::npos);
     CHECK(source.lines.size() == 7);
+}
+
+TEST_CASE("what a condition leaves out includes nothing, and is there for whoever asks later", "[shader]") {
+    const Files files = {{"main.frag",
+                          "#if defined(DEEP) && !defined(FLAT)\n"
+                          "#include \"lib/deep.glsl\"\n"
+                          "#elif LEVELS > 2\n"
+                          "float levels;\n"
+                          "#else\n"
+                          "uniform float flat;\n"
+                          "#endif\n"
+                          "#include \"lib/shared.glsl\"\n"},
+                         {"lib/deep.glsl", "#include \"lib/shared.glsl\"\nfloat deep;\n"},
+                         {"lib/shared.glsl", "float shared;\n"}};
+    const auto textOf = [&](const std::vector<std::string>& defines) {
+        return resolve(files, "main.frag", defines).text;
+    };
+    const std::string header = "#version 330 core\n#define LEVELS 2\n";
+    CHECK(textOf({"LEVELS 2"}) == header + "uniform float flat;\nfloat shared;\n");
+    CHECK(textOf({"LEVELS 2", "DEEP"}) == header + "float shared;\nfloat deep;\n");
+    CHECK(textOf({"LEVELS 2", "DEEP", "FLAT"}) == header + "uniform float flat;\nfloat shared;\n");
+    CHECK(textOf({"LEVELS 3"}) == "#version 330 core\n#define LEVELS 3\nfloat levels;\nfloat shared;\n");
+    CHECK(resolve(files, "main.frag", {"LEVELS 3"}).leftOut.find("uniform float flat;") != std::string::npos);
+}
+
+TEST_CASE("a condition of another form is located, and one that does not end", "[shader]") {
+    for (const char* wrong : {"#if FOO", "#if (defined(FOO))", "#if FOO > 1", "#else", "#endif",
+                              "#elif defined(A)", "#if defined(A)", "#ifdef A\n#else"}) {
+        INFO(wrong);
+        CHECK_THROWS_WITH(resolve({{"main.frag", wrong}}, "main.frag"),
+                          Catch::Contains("generated:main.frag:1: "));
+    }
+    CHECK_THROWS_WITH(resolve({{"main.frag", "#include \"a\"\n#endif\n"}, {"a", "#ifdef A\n"}}, "main.frag"),
+                      Catch::Contains("generated:a:1: #if without #endif"));
 }
 
 TEST_CASE("an include that is missing is located where it is asked for", "[shader]") {

@@ -544,7 +544,7 @@ TEST_CASE("the shaders of drawn particles are sound GLSL", "[shaders]") {
             validator.addPicture("particles/particle.frag", set);
         }
     }
-    CHECK(validator.count() == 180);
+    CHECK(validator.count() == 172);
     validator.check();
 }
 
