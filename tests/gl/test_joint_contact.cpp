@@ -142,22 +142,44 @@ TEST_CASE("a floor that moves carries what lies on it, body or point", "[numeric
     }
 }
 
-// It touches the floor and then the ramp, mostly in one substep; only the ramp is left to press.
+// It touches the floor and then the ramp, mostly in one substep; only the ramp is left to press. All of it
+// may move.
 TEST_CASE("what slides from a floor onto a ramp goes on along it", "[numerics][contact]") {
     const double junction = 0.01 - 0.01 * std::sqrt(2.0);
-    std::vector<test::Item> items;
-    for (int i = 0; i < 16; ++i)
-        items.push_back(at({junction - 0.0005 - 0.0008 * i - 0.15, 0.01 + 0.05, 0.1 * i}));
-    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, items);
-    scene.gravity = {};
-    scene.groups[0].velocity = {3, -1, 0};
-    scene.colliders = {collider(test::plane({0, 1, 0}), 0, 0, 0.01),
-                       collider(test::plane({-std::sqrt(0.5), std::sqrt(0.5), 0}), 0, 0, 0.01)};
+    for (const glm::dvec3& all : {glm::dvec3(0), glm::dvec3(0, -5, 0)}) {
+        std::vector<test::Item> items;
+        for (int i = 0; i < 16; ++i)
+            items.push_back(at({junction - 0.0005 - 0.0008 * i - 0.147, 0.01 + 0.049, 0.1 * i}));
+        Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, items);
+        scene.gravity = {};
+        scene.groups[0].velocity = all + glm::dvec3(3, -1, 0);
+        scene.colliders = {collider(test::plane({0, 1, 0}), 0, 0, 0.01),
+                           collider(test::plane({-std::sqrt(0.5), std::sqrt(0.5), 0}), 0, 0, 0.01)};
+        for (Collider& one : scene.colliders)
+            if (all.y != 0) one.path = ride(all);
+        setSteps(scene, 1 / 60.0, 4);
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation, 6);
+        for (const glm::dvec3& v : simulation.snapshot(0).velocities)
+            CHECK(glm::distance(v, all + glm::dvec3(1.5, 1.5, 0)) < 1e-5);
+    }
+}
+
+// By 0.6 rad a frame, about its own axis: nothing of its shape changes.
+TEST_CASE("a point rests on a smooth roller that turns", "[numerics][contact]") {
+    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, {at({0, 0.51, 0})});
+    scene.gravity = {0, -9.81, 0};
+    scene.colliders = {collider(CapsuleCollider{{-1, 0, 0}, {1, 0, 0}, 0.5}, 0, 0, 0.01)};
+    ColliderPath turning;
+    for (int i = 0; i <= 20; ++i)
+        turning.keyframes.push_back({i / 18.0, {{}, glm::angleAxis(2.0 * i, glm::dvec3(1, 0, 0))}});
+    scene.colliders[0].path = turning;
     setSteps(scene, 1 / 60.0, 4);
     Simulation simulation = test::simulationOf(scene);
-    run(simulation, 6);
-    for (const glm::dvec3& v : simulation.snapshot(0).velocities)
-        CHECK(glm::distance(v, {1.5, 1.5, 0}) < 1e-5);
+    for (int i = 0; i < 20; ++i) {
+        simulation.frame();
+        CHECK(simulation.snapshot(0).positions[0].y == Approx(0.51).margin(2e-6));
+    }
 }
 
 // Gravity presses on all three of a corner; halves of drifts must not add up.
