@@ -169,9 +169,11 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         }
         if (crease || n == mostTouches - 1) {
             // the third that presses, or the last of many
-            bool fits = dot(position, before.normal) - beforeOff > -touching;
-            c = Contact(crease && fits ? position - (velocity - t.velocity) * drift.kickDrift : from, t.velocity);
-            if (!(crease && fits)) followPosition(c, position, velocity, drift.step);
+            vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
+            vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back - c.position, t.normal) + t.distance);
+            bool fits = crease && min(backs.x, backs.y) > -touching;
+            c = Contact(fits ? back : from, t.velocity);
+            if (!fits) followPosition(c, position, velocity, drift.step);
             break;
         }
         float off = dot(c.position, t.normal) - t.distance;

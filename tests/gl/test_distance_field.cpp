@@ -1,4 +1,5 @@
 // Distance fields on the GPU: the surface's own text against its definition in double, and contact with it.
+#include <algorithm>
 #include <cmath>
 
 #include "gl/numerics.h"
@@ -147,6 +148,40 @@ TEST_CASE("distance field: points come to rest, on flat and round places, and st
 }
 
 // A field 100 km away: positions are relative to anchors there.
+// Through the slab the way of a substep is 0.8 m.
+TEST_CASE("distance field: a slab stops what is fast", "[numerics][contact][distanceField]") {
+    std::vector<test::Item> items;
+    for (int i = 0; i < 16; ++i)
+        items.push_back(at({0.05 * (i - 8), 5 + i / 16.0 * 200 / 240, 0.03 * (i % 5)}));
+    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, items);
+    scene.groups[0].velocity = {0, -200, 0};
+    scene.colliders = {fieldOf(box({-1, -0.05, -1}, {1, 0.05, 1}), 40, 0.5, 0)};
+    setSteps(scene, 1 / 60.0, 4);
+    Simulation simulation = test::simulationOf(scene);
+    run(simulation, 3);
+    for (const glm::dvec3& v : simulation.snapshot(0).velocities)
+        CHECK(glm::distance(v, {0, 100, 0}) < 0.1);
+}
+
+// Where a field is level nothing but its middle says which way is out, and in the middle of it nothing but
+// up.
+TEST_CASE("distance field: what starts where it is level comes out", "[numerics][contact][distanceField]") {
+    Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog,
+                                {at({0.1, 0, 0}), at({0, 0, -0.1}), at({0, 0, 0})});
+    scene.gravity = {};
+    Collider cube = fieldOf(box(glm::dvec3(-0.25), glm::dvec3(0.25)), 16, 0, 0);
+    for (float& distance : std::get<DistanceFieldCollider>(*cube.shape).field.distances)
+        distance = std::max(distance, -0.05f);
+    scene.colliders = {cube};
+    setSteps(scene, 1 / 60.0, 4);
+    Simulation simulation = test::simulationOf(scene);
+    run(simulation, 60);
+    const Snapshot now = simulation.snapshot(0);
+    CHECK(now.positions[0].x == Approx(0.26).margin(0.01));
+    CHECK(now.positions[1].z == Approx(-0.26).margin(0.01));
+    CHECK(now.positions[2].y == Approx(0.26).margin(0.01));
+}
+
 TEST_CASE("distance field: far from the origin as near it", "[numerics][contact][distanceField]") {
     const glm::dvec3 far(1e5, -2e4, 5e4);
     Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, {at(far + glm::dvec3(0.2, 0.3, 0.1))});

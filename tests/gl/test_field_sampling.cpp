@@ -124,4 +124,20 @@ TEST_CASE("a uniform wind is the same however often it is read", "[fused][sampli
     }
 }
 
+// With one substep a frame, at whose end an implicit solver takes the field.
+TEST_CASE("a solver with history reads the field once a frame where its substeps would",
+          "[fused][sampling]") {
+    if (!test::canFuse()) return;
+    Scene scene = test::sceneOf(test::leaf(150, 1), SolverKind::bdf2Xpbd);
+    scene.groups[0].drag = {1, 1};
+    scene.fields = {test::field(OscillatingField{{3, 0.5, -1}, 2, 0.5})};
+    glm::dvec3 ends[2];
+    for (const Sampling sampling : {Sampling::vertexSubstep, Sampling::vertexFrame}) {
+        Simulation simulation = simulationOf(scene, sampling, substepsPerSecond);
+        test::run(simulation, 100);
+        ends[int(sampling)] = simulation.snapshot(0).positions[0];
+    }
+    CHECK(glm::distance(ends[0], ends[1]) < 1e-6);
+}
+
 }  // namespace shoal

@@ -1,4 +1,7 @@
 // Every kind of field on both paths, against the recurrence in double precision.
+#include <cmath>
+#include <numbers>
+
 #include "gl/agreement.h"
 #include "gl/numerics.h"
 #include "reference/discrete.h"
@@ -25,6 +28,15 @@ GridField film(std::vector<double> times, bool repeats) {
     return out;
 }
 
+// Some molecules lie between its last cells and, around its border, the first.
+GridField wrapped() {
+    GridField out = film({0, 0.3}, false);
+    out.wrap = true;
+    out.low = {-5, -2.5, -3};
+    out.high = {1, 2.5, 1};
+    return out;
+}
+
 WavesField sea(std::optional<double> depth) {
     WavesField out;
     out.origin = {0.5, 3, 0};
@@ -40,6 +52,7 @@ TEST_CASE("every kind of field moves molecules as the reference says", "[numeric
                                       film({0.1, 0.2, 0.3}, true),
                                       film({0.05, 0.2, 0.6}, false),
                                       film({-0.1, 0, 0.17, 0.25}, true),
+                                      wrapped(),
                                       sea({}),
                                       sea(3.0),
                                       HurricaneField{{0.5, -1, 0.2}, 6, 1.5, 1.4, 0.4, 9, 0.2},
@@ -71,6 +84,37 @@ TEST_CASE("every kind of field moves molecules as the reference says", "[numeric
                 CHECK(error < 1e-5);
             }
         }
+}
+
+// A point without springs, dragged by a uniform wind U sin(w t + a):
+// v = p(t) + (v(0) - p(0)) e^(-g t), p = U g (g sin(w t + a) - w cos(w t + a)) / (g^2 + w^2).
+TEST_CASE("every solver keeps its order in a wind that changes", "[numerics][fields]") {
+    const double wave = 8 * std::numbers::pi, rate = 3, angle = 0.5, time = 0.5, peak = 2;
+    const auto particular = [&](double t) {
+        return peak * rate * (rate * std::sin(wave * t + angle) - wave * std::cos(wave * t + angle)) /
+               (rate * rate + wave * wave);
+    };
+    const auto summed = [&](double t) {
+        return -peak * rate * (rate / wave * std::cos(wave * t + angle) + std::sin(wave * t + angle)) /
+               (rate * rate + wave * wave);
+    };
+    const double way = summed(time) - summed(0) - particular(0) * (1 - std::exp(-rate * time)) / rate;
+    for (const SolverKind kind : test::solversHere()) {
+        double error[2];
+        for (const int finer : {0, 1}) {
+            Scene scene = test::sceneOf(test::point(1), kind);
+            scene.gravity = {};
+            scene.groups[0].drag = {rate, rate};
+            scene.fields = {
+                test::field(OscillatingField{{peak, 0, 0}, wave / (2 * std::numbers::pi), angle})};
+            test::setSteps(scene, 1 / 60.0, 1 << finer);
+            Simulation simulation = test::simulationOf(scene);
+            test::run(simulation, 30);
+            error[finer] = std::abs(simulation.snapshot(0).positions[0].x - way);
+        }
+        INFO(name(kind) << ": " << error[0] << " m, then " << error[1] << " m");
+        CHECK((error[1] < 1e-6 || std::log2(error[0] / error[1]) > test::orderOf(kind) - 0.3));
+    }
 }
 
 }  // namespace shoal

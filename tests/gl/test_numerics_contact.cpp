@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "gl/numerics.h"
+#include "reference/colliders.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
 
@@ -217,6 +218,32 @@ TEST_CASE("passes: points come to rest on a plane, a sphere's top and a height f
                 CHECK(x.y - heightOf(field, x.x, x.z) == Approx(expected).margin(0.001));
             }
         }
+    }
+}
+
+// Contact puts what is inside onto the surface, along the normal, in one long step without gravity. Some
+// start beside the field, where there is nothing, and some in its outermost cells.
+TEST_CASE("height field: the shader's surface is the reference's, up to its borders", "[numerics][contact]") {
+    for (const bool sampledNormals : {false, true}) {
+        std::vector<test::Item> items;
+        for (int i = 0; i < 24; ++i)
+            for (int k = 0; k < 24; ++k)
+                items.push_back(at({-5.4 + 0.47 * i, -0.45, -4.37 + 0.379 * k}));
+        Scene scene = test::sceneOf(test::point(1), SolverKind::euler, items);
+        scene.gravity = {};
+        scene.colliders = {collider(waves(sampledNormals), 0, 0)};
+        setSteps(scene, 1, 1);
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation, 1);
+        const Snapshot now = simulation.snapshot(0);
+        double worst = 0;
+        for (size_t i = 0; i < items.size(); ++i) {
+            const reference::Surface s = reference::surfaceAt(*scene.colliders[0].shape, items[i].position);
+            const double depth = std::max(0.0, 0.01 - s.distance);
+            worst = std::max(worst, glm::distance(now.positions[i], items[i].position + depth * s.normal));
+        }
+        CAPTURE(sampledNormals);
+        CHECK(worst < 3e-6);
     }
 }
 

@@ -207,6 +207,30 @@ TEST_CASE("a pin lets go above a force and not below", "[numerics]") {
     }
 }
 
+// Two weights hang from two pins, the heavy one from the first or from the last.
+TEST_CASE("the strongest pull on a pin lets all of them go", "[numerics]") {
+    for (const bool heavyFirst : {true, false}) {
+        for (const double limit : {15.0, 25.0}) {
+            Molecule molecule;
+            molecule.name = "weights";
+            for (int i = 0; i < 2; ++i) {
+                const double mass = heavyFirst == (i == 0) ? 2 : 0.5, k = 500;
+                molecule.vertices.push_back({.position = {i, 3, 0}, .mass = 1, .pinned = true});
+                molecule.vertices.push_back({.position = {i, 2, 0}, .mass = mass});
+                molecule.springs.push_back({2 * i, 2 * i + 1, k, 0, 1 - mass * 9.81 / k, {}});
+            }
+            Scene scene = test::sceneOf(molecule, SolverKind::leapfrog);
+            scene.gravity = {0, -9.81, 0};
+            scene.groups[0].release = Release{limit, {}, 0};
+            setSteps(scene, 1 / 60.0, 4);
+            Simulation simulation = test::simulationOf(scene);
+            run(simulation, 2);
+            CAPTURE(heavyFirst, limit);
+            CHECK(simulation.snapshot(0).released[0] == (limit < 2 * 9.81));
+        }
+    }
+}
+
 TEST_CASE("pins let go at their rate", "[numerics]") {
     Molecule molecule = test::pair(1, 1, 100, 0);
     molecule.vertices[0].pinned = true;

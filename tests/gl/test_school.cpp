@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "compile/plan.h"
+#include "gl/births.h"
 #include "gl/feature_scenes.h"
 #include "gl/gl_test.h"
 #include "gl/school_reference.h"
@@ -280,6 +281,44 @@ TEST_CASE("One fish swims at its cruise, and turns by bending alone", "[school]"
     Run left(scene);
     left.frames(60);
     CHECK(meanOf(scene, left.simulation, 0).place.x > 0.1);
+}
+
+TEST_CASE("A school of points: one goes on at its cruise, turns to its home, and sees no dead", "[school]") {
+    if (!canRun()) return;
+    Scene scene = water();
+    scene.groups = {fish("points", 1, {0, 0, 0})};
+    Group& group = scene.groups[0];
+    group.molecule = point(0.01);
+    group.place.box = {glm::dvec3(0, 0, 0.1), glm::dvec3(0, 0, 0.1)};
+    group.drag = {1, 1};
+    group.velocity = {0, 0, group.school->cruise};
+    group.school->wander = 0;
+    Run straight(scene);
+    straight.frames(120);
+    const Snapshot swum = straight.simulation.snapshot(0);
+    CHECK(swum.velocities[0].z == Approx(group.school->cruise).epsilon(0.02));
+    CHECK(std::abs(swum.velocities[0].x) < 1e-3);
+    // another lies dead in front of it
+    group.life.emplace().capacity = 2;
+    group.count = 2;
+    group.place.box = {glm::dvec3(0), glm::dvec3(0)};
+    group.place.items = {at({0, 0, 0.1}), at({0.05, 0, 0.2})};
+    group.place.kind = Placement::Kind::list;
+    for (const bool dead : {true, false}) {
+        Run both(scene);
+        SavedState state = both.simulation.save();
+        if (dead) state.groups[0].lives[1] = {0, 0};
+        both.simulation.load(state);
+        both.frames(120);
+        CHECK((glm::distance(both.simulation.snapshot(0).positions[0], swum.positions[0]) < 1e-4) == dead);
+    }
+    group.count = 1;
+    group.place.items.resize(1);
+    group.life.reset();
+    group.school->home = SchoolHome{{}, {3, 0, 0}, 0.1, 3};
+    Run left(scene);
+    left.frames(60);
+    CHECK(left.simulation.snapshot(0).positions[0].x > 0.05);
 }
 
 TEST_CASE("Other numbers take effect at once, and others' names do not", "[school]") {

@@ -414,7 +414,7 @@ TEST_CASE("hard: impact of a stiff body", "[hard][contact][body]") {
                         if (v > -1.99) ++since[size_t(m)];
                         if (since[size_t(m)] == 2)  // before another corner comes down
                             judge.near(concat("off the rigid body's / 2 m/s, e ", e), (v - rigid) / 2, 0,
-                                       0.02);
+                                       1e-3);
                     }
                 }
                 judge.atMost("missed", double(std::count(since.begin(), since.end(), 0)), 0);

@@ -80,6 +80,21 @@ TEST_CASE("paths: a frame's parameters hold its poses and velocities", "[collide
     CHECK(glm::length(motion.spin - dvec3(0, 0, 0.5)) < 1e-6);
 }
 
+// A rotation and its negative are the same; between them a frame must not go the long way round.
+TEST_CASE("paths: a frame turns by the short way whatever the signs of its quaternions",
+          "[colliders][path]") {
+    ColliderPath path;
+    path.keyframes = {{0, {}}, {1, {{}, -about({0, 1, 0}, 1)}}, {2, {{}, about({0, 1, 0}, 2)}}};
+    std::vector<glm::vec4> parameters(7);
+    for (double time = 0; time < 2; time += 0.03) {
+        setPoses(parameters, {{path, 0, true, true, 0.5}}, 6, time, 1 / 60.0);
+        CAPTURE(time);
+        CHECK(glm::dot(parameters[3], parameters[4]) > 0.999f);
+        const dvec3 expected{0, time + 1 / 60.0 < 2 ? 1 : 0, 0};
+        if (expected.y > 0) CHECK(glm::length(glm::vec3(parameters[5]) - glm::vec3(expected)) < 1e-5f);
+    }
+}
+
 TEST_CASE("colliders: what stands still alone keeps its text, what moves changes no text with its numbers",
           "[colliders][path]") {
     std::vector<glm::vec4> samples;
