@@ -12,7 +12,7 @@ namespace shoal {
 
 struct GroupForces {
     // generated/scene_forces.glsl, of those functions that are needed.
-    //   vec3 forceAcceleration(vec3 anchor, vec3 position)    m/s^2, of attract and vortexLine
+    //   vec3 forceAcceleration(vec3 anchor, vec3 position)    m/s^2, of the kinds that depend on the place
     //   vec3 thrustedVelocity(vec3 velocity, bool whole)      after a substep or half of one
     //   vec3 thrustedOver(vec3 velocity, float time)          after any time, s
     //   vec3 withWind(vec3 velocity)                          m/s, of the fluid; always

@@ -150,7 +150,8 @@ const Description& describe(const ForcePath::Keyframe*) {
             .needed()
             .key("offset", &Keyframe::offset, {"m", "What is added to the position."})
             .key("factor", &Keyframe::factor,
-                 {"", "What multiplies the strength, pull and turn, rate, or velocity."});
+                 {"",
+                  "What multiplies the strength: the acceleration, the rate or the velocity, but no bound."});
     return it;
 }
 

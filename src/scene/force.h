@@ -24,7 +24,7 @@ struct ForcePath {
     struct Keyframe {
         double time = 0;       // s
         glm::dvec3 offset{0};  // m, added to the position
-        double factor = 1;     // on the strength: strength, pull and turn, rate, or velocity
+        double factor = 1;     // on the strength, as the kind's `times` says
     };
     std::vector<Keyframe> keyframes;  // at least two; their times rise
     bool repeats = false;

@@ -63,6 +63,24 @@ Scene orbit(SolverKind kind, int substeps) {
 
 }  // namespace
 
+TEST_CASE("every kind of force acts as its closed form says, and what sits at its place stays finite",
+          "[forces]") {
+    const double h = 1e-3;
+    for (const test::KindOfForce& kind : test::kindsOfForce()) {
+        if (!kind.known) continue;
+        Scene scene =
+            test::sceneOf(test::point(0.3), SolverKind::euler, {at(kind.known->x), at(*placeOf(kind.shape))});
+        scene.forces.push_back(forceOf(kind.shape));
+        setSteps(scene, h, 1);
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation, 1);
+        const std::vector<glm::dvec3> velocities = simulation.snapshot(0).velocities;
+        INFO(kindName(kind.shape));
+        CHECK(glm::length(velocities[0] / h - kind.known->value) < 1e-5 * glm::length(kind.known->value));
+        CHECK(glm::length(velocities[1]) < 1e-5);
+    }
+}
+
 TEST_CASE("a circular orbit comes back after its period, to the solver's order", "[forces]") {
     for (const SolverKind kind : test::solversHere()) {
         if (test::orderOf(kind) < 2) continue;
@@ -168,6 +186,21 @@ TEST_CASE("thrust: exponential whatever the step, to its limit and no further", 
             CHECK(glm::length(end.velocity[0]) == Approx(3).margin(rounding));
             CHECK(end.velocity[0].x / end.velocity[0].z == Approx(0.75).margin(1e-4));
         }
+    }
+}
+
+TEST_CASE("a thrust at its limit and one that damps follow the reference's recurrence", "[forces]") {
+    for (const SolverKind kind : test::explicitSolvers) {
+        Scene scene = test::sceneOf(test::point(0.3), kind, {at({1, 2, 3})});
+        scene.groups[0].velocity = {0, 4, 0};
+        scene.forces = {forceOf(ThrustForce{0.8, 4}), forceOf(ThrustForce{-0.2, 1})};
+        setSteps(scene, 1 / 60.0, 4);
+        Simulation simulation = test::simulationOf(scene);
+        reference::State state = test::stateOf(simulation.snapshot(0), 0);
+        reference::frame(test::problemOf(scene, 0), state, kind, 1 / 6.0, 40);
+        run(simulation, 10);
+        INFO(name(kind));
+        CHECK(simulation.snapshot(0).positions[0].y == Approx(state.position[0].y).margin(1e-5));
     }
 }
 

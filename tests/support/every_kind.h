@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/description.h"
 #include "reference/problem.h"
 #include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
@@ -20,6 +21,18 @@ namespace shoal::test {
 struct Known {
     glm::dvec3 x{0}, value{0};
 };
+
+// A force or a field as a file gives it: written and read again. What the description leaves out becomes its
+// default.
+template <typename Thing>
+Thing readBack(const Thing& thing) {
+    const JsonValue written = describe(&thing).write(thing);
+    JsonReader reader(written, "written.json");
+    Thing out;
+    describe(&out).read(reader, out);
+    reader.finish();
+    return out;
+}
 
 // u = (2 + 0.8 z, 0.5 x - 0.1 x z, 0.3 y) with z up, without its product x z, which no shear has.
 inline ShearField shear() {

@@ -115,9 +115,27 @@ TEST_CASE("every kind of force is there, and as its closed form says", "[forces]
     for (const test::KindOfForce& kind : test::kindsOfForce()) {
         there[kind.shape.index()] = true;
         INFO(kindName(kind.shape));
+        CHECK(kind.known.has_value() == placeOf(kind.shape).has_value());
         if (!kind.known) continue;
-        const dvec3 found = referenceAcceleration(kind.shape, kind.known->x);
-        CHECK(glm::length(found - kind.known->value) < 1e-12);
+        const auto& [x, value] = *kind.known;
+        CHECK(glm::length(referenceAcceleration(kind.shape, x) - value) < 1e-12);
+
+        const ForceShape scaled =
+            std::visit([](const auto& one) { return ForceShape(one.times(-2)); }, kind.shape);
+        CHECK(glm::length(referenceAcceleration(scaled, x) + 2.0 * value) < 1e-12);
+
+        Force force;
+        force.shape = kind.shape;
+        CHECK(glm::length(referenceAcceleration(*test::readBack(force).shape, x) - value) < 1e-12);
+
+        const double bound = fastestRate(force) * fastestRate(force);  // 1/s^2, of the gradient anywhere
+        for (int axis = 0; axis < 3; ++axis) {
+            dvec3 step(0);
+            step[axis] = 1e-5;
+            const dvec3 change =
+                referenceAcceleration(kind.shape, x + step) - referenceAcceleration(kind.shape, x - step);
+            CHECK(glm::length(change) / 2e-5 <= bound + 1e-5);
+        }
     }
     CHECK(std::find(there.begin(), there.end(), false) == there.end());
 }

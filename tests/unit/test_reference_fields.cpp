@@ -67,7 +67,11 @@ TEST_CASE("every kind of field is there, and as its closed form says", "[referen
     for (const test::KindOfField& kind : test::kindsOfField()) {
         there[kind.shape.index()] = true;
         INFO(kindName(kind.shape));
-        if (kind.known) same(fieldVelocity(kind.shape, kind.known->x, 0), kind.known->value);
+        if (!kind.known) continue;
+        const auto& [x, value] = *kind.known;
+        same(fieldVelocity(kind.shape, x, 0), value);
+        if (std::holds_alternative<ShearField>(kind.shape)) continue;  // its gradient has no writer
+        same(fieldVelocity(*test::readBack(test::field(kind.shape)).shape, x, 0), value);
     }
     CHECK(std::find(there.begin(), there.end(), false) == there.end());
 }
