@@ -127,7 +127,7 @@ BenchSession::BenchSession(const Options& options, double usual, double quick)
       contextSeconds(measure::secondsSince(start)),
       cache(context, cacheFolder()),
       machine(measuredOn(context)),
-      device{&context, shaderRoot(), &cache, drawMaker(context), machine.cores, {}} {
+      device{&context, shaderRoot(), &cache, drawMaker(context), machine.cores, {}, !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
 }
 

@@ -29,7 +29,9 @@ namespace shoal::bench {
 struct BenchResult {
     BenchCase one;
     std::string leftOut;         // why it was not measured; empty: it was
-    measure::Spread frame = {};  // s
+    measure::Spread frame = {};  // s, wall time
+    // s, the device's own time of the same frames (gpu/pass_timers.h); no samples: a processor runs it.
+    measure::Spread device = {};
     int framesPerSample = 1;
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
     double operations = 0;                  // BenchRunner's
@@ -196,7 +198,8 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry);
 
 struct SchoolTimes {
     SchoolCase one;
-    measure::Spread frame;                                    // s
+    measure::Spread frame;                                    // s, wall time
+    measure::Spread device = {};                              // s, as BenchResult's
     double perFish() const { return frame.min / one.count; }  // s
 };
 
