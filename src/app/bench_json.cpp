@@ -11,6 +11,7 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
     JsonValue out = object(key("group", one.group), key("case", one.label), key("subject", name(one.subject)),
                            key("molecule", one.molecule), key("count", one.count));
     if (!result.leftOut.empty()) return append(out, key("leftOut", result.leftOut));
+    if (!result.failed.empty()) return append(out, key("failed", result.failed));
     if (!isCopy(one.subject))
         append(out, key("solver", shoal::name(one.solver)), key("substeps", one.substeps),
                key("wind", name(one.wind)));

@@ -24,6 +24,8 @@ std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all
     const std::string label = "  " + result.one.label;
     if (!result.leftOut.empty())
         return formatted("%*s   left out: %s\n", benchColumns[0], label.c_str(), result.leftOut.c_str());
+    if (!result.failed.empty())
+        return formatted("%*s   failed: %s\n", benchColumns[0], label.c_str(), result.failed.c_str());
     const Ratios ratios = ratiosOf(result, all);
     const auto each = [&](size_t bytes) -> std::string {
         return bytes > 0 ? formatted("%.0f", double(bytes) / result.one.count) : "-";
@@ -44,8 +46,8 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
         if (result.one.group != group) {
             group = result.one.group;
             out << "\n"
-                << tableRow({group, "min ms", "median ms", "device ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
-                             "moved", "GB/s", "copy"},
+                << tableRow({group, "min ms", "median ms", "device ms", "ns each", "/AVX-512", "/AVX2",
+                             "vs p-p", "state", "moved", "GB/s", "copy"},
                             benchColumns);
         }
         out << rowOf(result, results);

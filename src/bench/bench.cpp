@@ -99,7 +99,8 @@ std::vector<BenchResult> measureGroup(const std::vector<BenchCase>& cases, const
     std::vector<BenchResult> out;
     out.reserve(cases.size());
     for (const BenchCase& one : cases)
-        out.push_back({.one = one, .leftOut = reasonToLeaveOut(one, molecule, device)});
+        out.push_back(
+            {.one = one, .leftOut = reasonToLeaveOut(one, molecule, device), .mayFail = device.goesOn});
     measureInTurn(out, schedule, progress, [&](BenchResult& result) {
         return std::make_unique<FrameEntrant>(result, molecule, start, device);
     });

@@ -91,9 +91,7 @@ class PairCopy : public SortRunner {
         : from_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copied"),
           to_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copy") {}
     void restart() override {}
-    void run() override {
-        from_.copyTo(to_, to_.bytes());
-    }
+    void run() override { from_.copyTo(to_, to_.bytes()); }
     bool isSorted() override { return true; }
 
   private:

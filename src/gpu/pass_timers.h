@@ -100,9 +100,9 @@ class PassTimers {
     int callsLastFrame_ = 0, windowStart_ = 0;
 };
 
-// The device's own time of what some calls ask of it, from two timestamps among its commands; waits for it. For
-// benchmarks: without what the processor takes to issue them, as far as the driver hands them over together. On
-// a CPU rasteriser the queries are not right.
+// The device's own time of what some calls ask of it, from two timestamps among its commands; waits for it.
+// For benchmarks: without what the processor takes to issue them, as far as the driver hands them over
+// together. On a CPU rasteriser the queries are not right.
 class DeviceTimer {
   public:
     DeviceTimer() : begin_(glGenQueries), end_(glGenQueries) {}
