@@ -11,14 +11,17 @@ namespace shoal::bench {
 
 namespace {
 
-constexpr int copiedQuads = 1 << 20, samplesOfRate = 5;
+constexpr int copiedQuads = 1 << 20, leastSamples = 5, mostSamples = 200;
+constexpr double secondsOfRate = 0.3;  // a short sample finds a quiet moment
 
 // s a frame, the shortest; the device's own time where that can be had.
 double fastestFrame(BenchRunner& runner, const BenchDevice& device) {
     runner.run(1);  // compiles, touches memory
     gpu::DeviceTimer timer;
     double best = 0;
-    for (int i = 0; i < samplesOfRate; ++i) {
+    const measure::Clock::time_point start = measure::Clock::now();
+    for (int i = 0; i < mostSamples; ++i) {
+        if (i >= leastSamples && measure::secondsSince(start) > secondsOfRate) break;
         const double own = device.ownTimes ? timer.secondsOf([&] { runner.frame(); })
                                            : measure::secondsOf([&] { runner.run(1); });
         if (i == 0 || own < best) best = own;

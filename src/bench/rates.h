@@ -15,7 +15,8 @@ struct DeviceRates {
 };
 
 // From <folder>/rates/<key>.json, which is made where it is missing; an empty folder keeps nothing. The key
-// says device, driver and processor. Takes about a tenth of a second on a GPU. Nothing below OpenGL 4.3.
+// says device, driver and processor. Takes about a second, and should find the
+// device with nothing else to do: what is kept is as good as that moment. Nothing below OpenGL 4.3.
 // Error: out of memory, the driver refuses a shader.
 std::optional<DeviceRates> deviceRates(const BenchDevice& device, const std::string& processor,
                                        const std::string& folder);
