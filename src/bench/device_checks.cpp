@@ -129,7 +129,8 @@ Scene falling(const std::string& folder, const std::string& molecule, SolverKind
     return scene;
 }
 
-class CheckMaker {
+// Checks run later, and hold on to it.
+class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
   public:
     CheckMaker(const std::vector<NamedFile>& scenes, const std::string& moleculeFolder,
                const StoredStates& stored, const BenchDevice& device)
@@ -152,7 +153,7 @@ class CheckMaker {
 
   private:
     void add(const char* kind, const std::string& name, std::function<Mismatch()> run) {
-        out_.push_back({kind, name, std::move(run)});
+        out_.push_back({kind, name, [self = shared_from_this(), run = std::move(run)] { return run(); }});
     }
 
     Scene sceneNamed(const std::string& name) const {
@@ -243,7 +244,7 @@ std::vector<std::pair<std::string, Scene>> solverScenes(const std::string& molec
 
 std::vector<DeviceCheck> deviceChecks(const std::vector<NamedFile>& scenes, const std::string& moleculeFolder,
                                       const StoredStates& stored, const BenchDevice& device) {
-    return CheckMaker(scenes, moleculeFolder, stored, device).all();
+    return std::make_shared<CheckMaker>(scenes, moleculeFolder, stored, device)->all();
 }
 
 }  // namespace shoal::bench

@@ -1,4 +1,5 @@
 // `shoal bench --report`: one file about a device, whatever fails; and `shoal explain --cost`.
+#include <csignal>
 #include <filesystem>
 
 #include "cli/shoal_command.h"
@@ -21,6 +22,7 @@ Words reportWords(const std::string& file, const std::string& only) {
 // The shipped data in a folder of its own, to be damaged.
 std::string copiedData(const Scratch& scratch) {
     const fs::path folder = scratch / "data";
+    fs::create_directories(folder);
     for (const char* part : {"shaders", "molecules", "models"})
         fs::copy(sourceFile(part), folder / part, fs::copy_options::recursive);
     return folder.string();
@@ -145,7 +147,7 @@ TEST_CASE("bench --report refuses what it cannot do, and leaves nothing behind",
 
     // what was there stays when it ends early
     scratch.write("b.json", "before");
-    StartedShoal started(reportWords(scratch.path("b.json"), "state: "));
+    StartedShoal started(reportWords(scratch.path("b.json"), "state: solver"));
     started.waitForError("checks: ");
     started.send(SIGTERM);
     CHECK(started.finish().signal == SIGTERM);
