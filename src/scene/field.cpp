@@ -5,6 +5,7 @@
 
 #include "core/describe.h"
 #include "scene/field_files/field_file.h"
+#include "scene/noise_tile.h"
 
 namespace shoal {
 
@@ -45,6 +46,10 @@ GlslCalls OscillatingField::calls() const {
                 .clock({.rate = turn * frequency, .start = phase})};
 }
 
+static const std::vector<std::string> noiseForms = {"table", "computed"};
+static const Says saysNoise = {
+    "", "Whether the noise is read from a table that repeats, which is fast, or computed at every place."};
+
 const Description& describe(const GustField*) {
     using F = GustField;
     static const Description it =
@@ -59,7 +64,8 @@ const Description& describe(const GustField*) {
             .key("length", &F::length, {"m", "The size of a front along the direction.", aboveZero()})
             .key("width", &F::width, {"m", "The size of a front across the direction.", aboveZero()})
             .key("frontSpeed", &F::frontSpeed, {"m/s", "The speed of the fronts along the direction."})
-            .key("seed", &F::seed, {"", "The seed of the noise."});
+            .key("seed", &F::seed, {"", "The seed of the noise."})
+            .word("noise", &F::noise, noiseForms, saysNoise);
     return it;
 }
 
@@ -67,17 +73,22 @@ GlslCalls GustField::calls() const {
     const glm::dvec3 along = glm::normalize(direction);
     // an axis across: horizontal unless the wind blows vertically
     const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    return {GlslCall("gustVelocity")
-                .place()
-                .time()
-                .vector(along)
-                .vector(glm::normalize(glm::cross(up, along)))
-                .number(speed)
-                .number(strength)
-                .number(frontSpeed)
-                .pair({length, width})
-                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
-                .text(concat(seed, "u"))};
+    const bool computed = noise == NoiseForm::computed;
+    const NoiseTile tile = noiseTile(0);
+    const glm::dvec2 size(length * (computed ? 1 : tile.cells.x), width * (computed ? 1 : tile.cells.y));
+    GlslCall out(computed ? "gustVelocity" : "gustFromTile");
+    if (!computed) out.tile(tile);
+    out.place()
+        .time()
+        .vector(along)
+        .vector(glm::normalize(glm::cross(up, along)))
+        .number(speed)
+        .number(strength)
+        .number(frontSpeed)
+        .pair(size)
+        .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / size.x})
+        .text(concat(seed, "u"));
+    return {out};
 }
 
 // The rows of the gradient, which glm stores as columns.
@@ -193,20 +204,23 @@ const Description& describe(const CurlNoiseField*) {
                 "octaves", &F::octaves,
                 {"", "How many octaves it has, each of half the length and period and 2^(−1/3) of the speed.",
                  Range::between(1, 4)})
-            .key("seed", &F::seed, {"", "The seed of the noise."});
+            .key("seed", &F::seed, {"", "The seed of the noise."})
+            .word("noise", &F::noise, noiseForms, saysNoise);
     return it;
 }
 
 GlslCalls CurlNoiseField::calls() const {
-    return {GlslCall("curlNoiseVelocity")
-                .place()
-                .time()
-                .number(speed)
-                .number(length)
-                .number(period)
-                .text(concat(octaves))
-                .clock({.kind = FieldClock::Kind::cells, .rate = 1 / period})
-                .text(concat(seed, "u"))};
+    const bool computed = noise == NoiseForm::computed;
+    const NoiseTile tile = noiseTile(octaves);
+    GlslCall out(computed ? "curlNoiseVelocity" : "curlNoiseFromTile");
+    if (!computed) out.tile(tile);
+    out.place().time().number(speed).number(length * (computed ? 1 : tile.cells.x)).number(period);
+    if (computed)
+        out.text(concat(octaves));
+    else
+        out.number(momentDrift(octaves) / std::numbers::sqrt3 / tile.cells.x);
+    out.clock({.kind = FieldClock::Kind::cells, .rate = 1 / period}).text(concat(seed, "u"));
+    return {out};
 }
 
 GlslCalls GridField::calls() const {

@@ -25,8 +25,17 @@ static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
     return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
+static gpu::Format tileFormat(const gpu::Context& context, const NoiseTile& tile) {
+    using gpu::Format;
+    if (tile.channels() == 1) return context.info().software ? Format::r32f : Format::r16f;
+    return context.info().software ? Format::rgba32f : Format::rgba16f;
+}
+
 Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
     : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
+    for (const NoiseTile& tile : plan.noiseTiles)
+        noiseTiles.emplace_back(context, tileFormat(context, tile), tile.texels, valuesOf(tile),
+                                tile.sampler());
     if (sampleForm == Form::texture) {
         samples = makeSamples(context, plan);
         return;
@@ -36,6 +45,13 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
     const std::span<const glm::vec4> table(plan.samples);
     sampleBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, table, "samples");
     sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
+}
+
+void Tables::bindNoiseTiles(const gpu::Program& program, const Plan& plan) const {
+    constexpr int firstUnit = 24;  // beyond all others; OpenGL 3.3 has 48
+    for (size_t i = 0; i < noiseTiles.size(); ++i)
+        if (program.uses(plan.noiseTiles[i].sampler()))
+            program.texture(plan.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
 }
 
 }  // namespace shoal
