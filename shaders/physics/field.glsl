@@ -74,15 +74,14 @@ vec3 tilePlace(uint number)
     return vec3(float(number * 3518319155u), float(number * 2882110345u), float(number * 2360945575u)) * 2.3283064e-10f;
 }
 
-// Where a gust reads its noise: as gustVelocity, and moved across by a part of the tile for each tile along. size: of the
-// tile, m. The fronts had travelled by `gone` + `cells` tiles when the frame began.
-vec3 gustPlace(vec3 x, float time, vec3 along, vec3 across, float frontSpeed, vec2 size, float gone, uint cells, uint seed)
+// Where a gust reads its noise: as gustVelocity, and moved across by a part of the tile for each tile along. row0, row1,
+// row2: along the wind and across, tiles a m; rate: of the fronts, tiles a s, which had travelled by `gone` + `cells` tiles
+// when the frame began.
+vec3 gustPlace(vec3 x, float time, vec3 row0, vec3 row1, vec3 row2, float rate, float gone, uint cells, uint seed)
 {
-    vec3 third = cross(along, across);
-    vec3 p = vec3((dot(x, along) - frontSpeed * time) / size.x - gone, dot(x, across) / size.y, dot(x, third) / size.y);
-    p.y += 0.191f * p.x - float(cells * 820338753u) * 2.3283064e-10f;
-    p.z += 0.118f * p.x - float(cells * 506806141u) * 2.3283064e-10f;
-    return p + tilePlace(2654435769u * seed);
+    float s = dot(x, row0) - rate * time - gone;
+    vec3 travelled = vec3(0.0f, float(cells * 820338753u), float(cells * 506806141u)) * 2.3283064e-10f;
+    return vec3(s, dot(x, row1) + 0.191f * s, dot(x, row2) + 0.118f * s) + (tilePlace(2654435769u * seed) - travelled);
 }
 
 // Curl noise that changes: the same tile, seen by two moments that follow one another, each at a place of its own and
@@ -103,20 +102,21 @@ vec3 momentDirection(uint number)
     return vec3(x, y, x * y);
 }
 
-// size: of the tile, m; drift: along each axis, tiles a moment. `gone` + `cells` moments had passed when the frame began.
-MomentPair momentsOf(vec3 x, float time, float size, float period, float drift, float gone, uint cells, uint seed)
+// scale: tiles a m; rate: moments a s; drift: along each axis, tiles a moment. `gone` + `cells` moments had passed when the
+// frame began.
+MomentPair momentsOf(vec3 x, float time, float scale, float rate, float drift, float gone, uint cells, uint seed)
 {
-    float age = gone + time / period;
+    float age = gone + rate * time;
     float whole = floor(age);
     float f = age - whole;
     uint number = cells + uint(int(whole)) + 2654435769u * seed;
     float later = fade(f);
     float earlier = 1.0f - later;
-    float scale = 1.0f / sqrt(earlier * earlier + later * later);
-    vec3 p = x / size;
+    float norm = 1.0f / sqrt(earlier * earlier + later * later);
+    vec3 p = x * scale;
     return MomentPair(p + tilePlace(number) - (drift * f) * momentDirection(number),
-                      p + tilePlace(number + 1u) + (drift * (1.0f - f)) * momentDirection(number + 1u), scale * earlier,
-                      scale * later);
+                      p + tilePlace(number + 1u) + (drift * (1.0f - f)) * momentDirection(number + 1u), norm * earlier,
+                      norm * later);
 }
 
 // One wave train of linear theory; x is relative to a point of the still surface. phase: at that point when the frame

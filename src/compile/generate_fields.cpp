@@ -66,7 +66,7 @@ std::vector<std::string> describeGrids(const std::vector<Field>& fields,
         out.push_back(concat("tile of ", tile.octaves > 0 ? "curl noise" : "gusts",
                              tile.octaves > 1 ? concat(" of ", tile.octaves, " octaves") : "", ", ",
                              tile.texels.x, " x ", tile.texels.y, " x ", tile.texels.z, ": ",
-                             mebibytes(tile.bytes()), ", twice that on a CPU rasteriser"));
+                             mebibytes(tile.bytes())));
     return out;
 }
 

@@ -15,7 +15,7 @@ namespace shoal::gpu {
 
 // Name, and what one texel is in memory when it is uploaded or read back:
 //   rgba32f   4 floats          rgba16f   4 half floats     rgba8, srgb8a8   4 bytes
-//   r32f      1 float           r16f      1 half float
+//   r32f      1 float           rgb10a2   3 numbers from 0 to 1 in units of 1/1023, 10 bits each
 //   rgba32ui  4 uint32          rg32ui    2 uint32          r32ui            1 uint32
 //   (these three are read through usampler2D)
 //   depth24   1 uint32 (0..2^32-1 is 0..1)                  depth32f         1 float
@@ -28,7 +28,7 @@ enum class Format {
     rg32ui,
     r32ui,
     r32f,
-    r16f,
+    rgb10a2,
     depth24,
     depth32f
 };
@@ -84,10 +84,9 @@ class Texture {
 class VolumeTexture {
   public:
     VolumeTexture() = default;
-    // rgba32f, rgba16f, r32f or r16f; `values`: floats in all of them, as many as the format has channels a
-    // texel, x fastest. Counted as parameters. Error: larger than the context allows. OutOfMemory: says how
-    // much it would take.
-    VolumeTexture(Context& context, Format format, const glm::ivec3& size, std::span<const float> values,
+    // `data`: texelBytes(format) for each texel, x fastest. Counted as parameters. Error: larger than the
+    // context allows. OutOfMemory: says how much it would take.
+    VolumeTexture(Context& context, Format format, const glm::ivec3& size, std::span<const std::byte> data,
                   const char* label);
 
     void bind(int unit) const;

@@ -136,7 +136,7 @@ glm::dvec3 readTile(const NoiseTile& tile, const glm::dvec3& place) {
             weight *= upper ? share[d] : 1 - share[d];
             index = index * size_t(count) + size_t((low[d] + upper + count) % count);
         }
-        for (int k = 0; k < std::min(tile.channels(), 3); ++k)
+        for (int k = 0; k < tile.channels(); ++k)
             sum[k] += weight * double(values[index * size_t(tile.channels()) + size_t(k)]);
     }
     return sum;

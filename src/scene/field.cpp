@@ -73,22 +73,33 @@ GlslCalls GustField::calls() const {
     const glm::dvec3 along = glm::normalize(direction);
     // an axis across: horizontal unless the wind blows vertically
     const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const bool computed = noise == NoiseForm::computed;
+    const glm::dvec3 across = glm::normalize(glm::cross(up, along));
+    if (noise == NoiseForm::computed)
+        return {GlslCall("gustVelocity")
+                    .place()
+                    .time()
+                    .vector(along)
+                    .vector(across)
+                    .number(speed)
+                    .number(strength)
+                    .number(frontSpeed)
+                    .pair({length, width})
+                    .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
+                    .text(concat(seed, "u"))};
     const NoiseTile tile = noiseTile(0);
-    const glm::dvec2 size(length * (computed ? 1 : tile.cells.x), width * (computed ? 1 : tile.cells.y));
-    GlslCall out(computed ? "gustVelocity" : "gustFromTile");
-    if (!computed) out.tile(tile);
-    out.place()
-        .time()
-        .vector(along)
-        .vector(glm::normalize(glm::cross(up, along)))
-        .number(speed)
-        .number(strength)
-        .number(frontSpeed)
-        .pair(size)
-        .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / size.x})
-        .text(concat(seed, "u"));
-    return {out};
+    const double tileLength = length * tile.cells.x, tileWidth = width * tile.cells.y;
+    return {GlslCall("gustFromTile")
+                .tile(tile)
+                .place()
+                .time()
+                .vector(along * speed)
+                .vector(along * speed * strength)
+                .vector(along / tileLength)
+                .vector(across / tileWidth)
+                .vector(glm::cross(along, across) / tileWidth)
+                .number(frontSpeed / tileLength)
+                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / tileLength})
+                .text(concat(seed, "u"))};
 }
 
 // The rows of the gradient, which glm stores as columns.
@@ -210,17 +221,29 @@ const Description& describe(const CurlNoiseField*) {
 }
 
 GlslCalls CurlNoiseField::calls() const {
-    const bool computed = noise == NoiseForm::computed;
+    const FieldClock clock{.kind = FieldClock::Kind::cells, .rate = 1 / period};
+    const std::string seedText = concat(seed, "u");
+    if (noise == NoiseForm::computed)
+        return {GlslCall("curlNoiseVelocity")
+                    .place()
+                    .time()
+                    .number(speed)
+                    .number(length)
+                    .number(period)
+                    .text(concat(octaves))
+                    .clock(clock)
+                    .text(seedText)};
     const NoiseTile tile = noiseTile(octaves);
-    GlslCall out(computed ? "curlNoiseVelocity" : "curlNoiseFromTile");
-    if (!computed) out.tile(tile);
-    out.place().time().number(speed).number(length * (computed ? 1 : tile.cells.x)).number(period);
-    if (computed)
-        out.text(concat(octaves));
-    else
-        out.number(momentDrift(octaves) / std::numbers::sqrt3 / tile.cells.x);
-    out.clock({.kind = FieldClock::Kind::cells, .rate = 1 / period}).text(concat(seed, "u"));
-    return {out};
+    return {GlslCall("curlNoiseFromTile")
+                .tile(tile)
+                .place()
+                .time()
+                .number(speed * tile.range / 511)
+                .number(1 / (length * tile.cells.x))
+                .number(1 / period)
+                .number(momentDrift(octaves) / std::numbers::sqrt3 / tile.cells.x)
+                .clock(clock)
+                .text(seedText)};
 }
 
 GlslCalls GridField::calls() const {

@@ -113,11 +113,6 @@ double meanSquare(const Periodic<T>& grid, double (*product)(const T&, const T&)
     return sum / double(grid.values.size());
 }
 
-// The value of a half float that is nearest.
-float half(double value) {
-    return glm::unpackHalf1x16(glm::packHalf1x16(float(value)));
-}
-
 // The curl of a potential that is known in the middles between the values: differences over the boxes between
 // eight middles, in which as much flows in as out.
 std::vector<float> curlTile(const NoiseTile& tile) {
@@ -151,11 +146,14 @@ std::vector<float> curlTile(const NoiseTile& tile) {
         one * std::sqrt(expected / meanSquare<glm::dvec3>(velocity, [](const auto& a, const auto& b) {
                             return glm::dot(a, b);
                         }));
+    const double unit = tile.range / 511;
     std::vector<float> out;
-    out.reserve(velocity.values.size() * 4);
+    out.reserve(velocity.values.size() * 3);
     for (const glm::dvec3& u : velocity.values)
-        for (const double number : {u.x * scale, u.y * scale, u.z * scale, 0.0})
-            out.push_back(half(number));
+        for (int d = 0; d < 3; ++d) {
+            EXPECTS(std::abs(u[d] * scale) <= tile.range);
+            out.push_back(float(std::round(u[d] * scale / unit) * unit));
+        }
     return out;
 }
 
@@ -178,7 +176,7 @@ std::vector<float> gustTile(const NoiseTile& tile) {
         std::sqrt(meanSquare<double>(grid, [](const double& a, const double& b) { return a * b; }));
     std::vector<float> out;
     for (const double n : grid.values)
-        out.push_back(half(n * scale));
+        out.push_back(glm::unpackHalf1x16(glm::packHalf1x16(float(n * scale))));
     return out;
 }
 
@@ -193,10 +191,10 @@ const char* NoiseTile::sampler() const {
 NoiseTile noiseTile(int octaves) {
     EXPECTS(octaves >= 0 && octaves < kinds);
     static const NoiseTile tiles[kinds] = {{0, {128, 64, 64}, {16, 8, 8}},
-                                           {1, glm::ivec3(64), glm::ivec3(8)},
-                                           {2, glm::ivec3(64), glm::ivec3(6)},
-                                           {3, glm::ivec3(64), glm::ivec3(4)},
-                                           {4, glm::ivec3(96), glm::ivec3(4)}};
+                                           {1, glm::ivec3(64), glm::ivec3(8), 4},
+                                           {2, glm::ivec3(64), glm::ivec3(6), 5},
+                                           {3, glm::ivec3(64), glm::ivec3(4), 6},
+                                           {4, glm::ivec3(96), glm::ivec3(4), 7}};
     return tiles[octaves];
 }
 

@@ -17,22 +17,23 @@ struct NoiseTile {
     int octaves = 0;       // of curl noise; 0: the tile of gusts
     glm::ivec3 texels{0};  // values along x, y, z, in the middles of as many parts of the tile
     glm::ivec3 cells{0};   // of the largest octave's lattice: the tile's sides in lengths and widths of a field
+    double range = 0;      // of curl noise: the largest component, 511 units
 
     const char* sampler() const;                          // its name in shaders
-    int channels() const { return octaves > 0 ? 4 : 1; }  // a velocity and a zero, or a speed
+    int channels() const { return octaves > 0 ? 3 : 1; }  // of a velocity, or of n
     size_t count() const { return size_t(texels.x) * size_t(texels.y) * size_t(texels.z); }
-    size_t bytes() const { return count() * size_t(channels()) * 2; }  // as half floats
+    size_t bytes() const { return count() * 4; }
     bool operator==(const NoiseTile&) const = default;
 };
 
 // The tile of gusts (0), or of curl noise of 1 to 4 octaves.
 NoiseTile noiseTile(int octaves);
 
-// The tile's values, x fastest, then y, then z: each is a half float's, so that textures of either width hold
-// the same. Made once a process, the same on every machine.
-//   curl noise  the velocity where `speed` is 1. Its RMS between the values is the computed noise's. As much
-//               flows into each box between eight values as out of it.
-//   gusts       the noise n, with the mean 0 and the computed noise's standard deviation
+// The tile's values, x fastest, then y, then z. Made once a process, the same on every machine.
+//   curl noise  the velocity where `speed` is 1, in whole units of range / 511, so that 10 bits hold each
+//               component. Its RMS, between the values as well, is the computed noise's. But for these units
+//               as much flows into each box between eight values as out of it.
+//   gusts       the noise n, with the mean 0 and the computed noise's standard deviation, in half floats
 const std::vector<float>& valuesOf(const NoiseTile& tile);
 
 // Where in a tile a moment of curl noise, or a seed of gusts, is read: fractions of the tile in 2^-32.

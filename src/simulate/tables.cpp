@@ -25,17 +25,21 @@ static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
     return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
-static gpu::Format tileFormat(const gpu::Context& context, const NoiseTile& tile) {
-    using gpu::Format;
-    if (tile.channels() == 1) return context.info().software ? Format::r32f : Format::r16f;
-    return context.info().software ? Format::rgba32f : Format::rgba16f;
+// A component of 10 bits is 512 + its number of units.
+static gpu::VolumeTexture makeTile(gpu::Context& context, const NoiseTile& tile) {
+    const std::vector<float>& values = valuesOf(tile);
+    if (tile.channels() == 1)
+        return {context, gpu::Format::r32f, tile.texels, std::as_bytes(std::span(values)), tile.sampler()};
+    std::vector<uint32_t> words(tile.count());
+    for (size_t i = 0; i < values.size(); ++i)
+        words[i / 3] |= uint32_t(512 + std::lround(values[i] * 511 / tile.range)) << (10 * (i % 3));
+    return {context, gpu::Format::rgb10a2, tile.texels, std::as_bytes(std::span(words)), tile.sampler()};
 }
 
 Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
     : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
     for (const NoiseTile& tile : plan.noiseTiles)
-        noiseTiles.emplace_back(context, tileFormat(context, tile), tile.texels, valuesOf(tile),
-                                tile.sampler());
+        noiseTiles.push_back(makeTile(context, tile));
     if (sampleForm == Form::texture) {
         samples = makeSamples(context, plan);
         return;

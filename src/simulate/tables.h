@@ -20,8 +20,7 @@ struct Tables {
     gpu::Texture samples;  // as a texture
     gpu::Buffer sampleBuffer;
     gpu::BufferTexture sampleTexels;  // as a buffer; null: there are none
-    // Of the plan's, in half floats. A CPU rasteriser has to widen those at every fetch: there in floats.
-    std::vector<gpu::VolumeTexture> noiseTiles;
+    std::vector<gpu::VolumeTexture> noiseTiles;  // of the plan's
 
     // Error: more samples than the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
