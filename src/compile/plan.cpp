@@ -308,7 +308,10 @@ bool Plan::hasLife() const {
 }
 
 size_t Plan::tableBytes() const {
-    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
+    size_t tiles = 0;
+    for (const NoiseTile& tile : noiseTiles)
+        tiles += tile.bytes();
+    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4) + tiles;
 }
 
 Plan compile(const Scene& scene, const CompileOptions& options) {
@@ -369,7 +372,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     });
     if (any(&Needs::fields)) {
         fields = generateFields(scene.fields, plan.samples);
-        plan.grids = describeGrids(scene.fields);
+        plan.grids = describeGrids(scene.fields, fields.noiseTiles);
     }
     if (any(&Needs::collide) || any(&Needs::avoids))
         colliders = generateColliders(scene.colliders, plan.samples);
@@ -388,6 +391,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldParameters = std::move(fields.parameters);
     plan.fieldWeights = std::move(fields.weights);
     plan.fieldClocks = std::move(fields.clocks);
+    plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
