@@ -1,11 +1,11 @@
 // Spheres of contact (src/simulate/molecule_contact.h). A slot is a place in the order of their cells.
 //
 //   places   by slot: xyz local position as bits (physics/cells.glsl), w label: group * 2^26 + molecule
-//   cells    by slot: xyz cell, w radius as bits
-//   sorted   by slot: x key of its cell, y sphere
+//   sorted   by slot: y its sphere
+//   cells    by sphere: xyz cell, w radius as bits
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
-// With TEXTURES motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
+// With TEXTURES cells and motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
 // numbers.
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
@@ -18,8 +18,8 @@ uniform UINTS motions;
 uniform UINTS cells;
 
 #ifdef TEXTURES
-// Where the motion of a slot is.
-int motionOf(int slot)
+// Where the cell and the motion of a slot are.
+int recordOf(int slot)
 {
     return slot;
 }
@@ -42,7 +42,7 @@ int sphereOf(int slot)
     return int(texelFetch(sorted, slot).y);
 }
 
-int motionOf(int slot)
+int recordOf(int slot)
 {
     return sphereOf(slot);
 }

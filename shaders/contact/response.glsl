@@ -19,9 +19,10 @@ struct Sphere {
 Sphere sphereAt(int slot)
 {
     uvec4 place = fetch(places, slot);
-    uvec4 motion = fetch(motions, motionOf(slot));
+    int record = recordOf(slot);
+    uvec4 motion = fetch(motions, record);
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), uintBitsToFloat(motion.w),
-                  uintBitsToFloat(fetch(cells, slot).w));
+                  uintBitsToFloat(fetch(cells, record).w));
 }
 
 // Seen from `a`; the same to the bit from either side. `side`: 1 for one of the two, -1 for the other.

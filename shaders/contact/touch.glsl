@@ -4,9 +4,8 @@ uvec4 entries[LIST / 4];
 #else
 layout(std430, binding = 0) buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Counts { uint counts[]; };
-// The slots that touch something, in no particular order: what is done for each depends on nothing but itself. The first
-// words are what glDispatchComputeIndirect takes.
-layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
+layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
+#include "contact/touching.glsl"
 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
@@ -29,14 +28,14 @@ void loadOwn(int slot)
     ownSlot = slot;
     ownPlace = uintBitsToFloat(place.xyz);
     ownLabel = place.w;
-    uvec4 own = fetch(cells, slot);
+    uvec4 own = fetch(cells, recordOf(slot));
     ownCell = ivec3(own.xyz);
     ownRadius = uintBitsToFloat(own.w);
 }
 
 ivec3 cellOf(int slot)
 {
-    return ivec3(fetch(cells, slot).xyz);
+    return ivec3(fetch(cells, recordOf(slot)).xyz);
 }
 
 // Whether spheres of this label are to be looked at.
@@ -83,7 +82,7 @@ void take(int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float limit = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    float limit = ownRadius + uintBitsToFloat(fetch(cells, recordOf(slot)).w);
     bool touches = dot(d, d) < limit * limit;
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
@@ -100,9 +99,7 @@ void finish(int slot)
     counts[slot] = uint(found);
     bool touches = last && found > 0;
     while (touches) {
-        uint at = atomicAdd(actives, 1u);
-        atomicMax(groupsX, at / 64u + 1u);
-        activeSlots[at] = uint(slot);
+        addTouching(slot);
         if (found > LIST) atomicAdd(dropped, uint(found - LIST));
         touches = false;
     }
