@@ -7,6 +7,7 @@ using gpu::Program;
 
 void MoleculeContact::dispatchTouching(const Program& program) const {
     useTouching(program);
+    ++dispatches_;
     program.dispatchIndirect(touchingGroups_, 0);
 }
 

@@ -45,6 +45,8 @@ class ContactResult {
     virtual std::vector<std::pair<int, int>> found() const = 0;
     virtual int listLength() const = 0;  // contacts that one sphere may have
     virtual size_t bytes() const = 0;    // on the device
+    // Dispatches of the last step, those without a workgroup among them; 0 in fragments.
+    virtual int dispatches() const { return 0; }
 };
 
 struct LifeCounts {

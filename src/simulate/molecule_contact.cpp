@@ -215,6 +215,7 @@ void MoleculeContact::settled() {
 }
 
 void MoleculeContact::dispatch(const Program& program, size_t count) const {
+    ++dispatches_;
     program.dispatch(int((count + contactLanes - 1) / contactLanes));
 }
 
@@ -272,6 +273,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
 
 void MoleculeContact::sortKeys(bool staggered) {
     if (!counted_) {
+        dispatches_ += 3 * sort_->passes(size_t(contact_->spheres), contact_->tableBits);
         sort_->sort((staggered ? staggered_ : pairs_).buffer, size_t(contact_->spheres), contact_->tableBits);
         return;
     }
@@ -279,6 +281,7 @@ void MoleculeContact::sortKeys(bool staggered) {
     starts_.set("keys", keyMask() + 1);
     starts_.storage("CellCounts", 5, cellCounts_);
     starts_.storage("Starts", 1, cellStarts_.buffer);
+    ++dispatches_;
     starts_.dispatch(int((size_t(keyMask()) + cellTile) / cellTile));
     settled();
     Textures(collect_).add("arrivals", arrivals_.texture).add("starts", cellStarts_.texture);
@@ -314,6 +317,7 @@ void MoleculeContact::order(bool staggered) {
 }
 
 void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
+    dispatches_ = 0;
     for (const bool staggered : {true, false}) {
         if (staggered && !staggered_.buffer) continue;
         makeKeys(staggered, frame, state);

@@ -45,6 +45,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
     size_t bytes() const override;
+    int dispatches() const override { return dispatches_; }
 
   private:
     using Buffers = const std::vector<GroupBuffers>;
@@ -111,6 +112,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void dispatchTouching(const gpu::Program& program) const;
 
     gpu::Context* context_;
+    mutable int dispatches_ = 0;
     bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
     bool triangles_ = false, self_ = false, walls_ = false;
