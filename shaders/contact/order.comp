@@ -1,4 +1,4 @@
-// Spheres in the order of their keys and, in a cell, of their numbers: where each cell begins, and places by slot.
+// Spheres in the order of their keys and, in a cell, of their numbers: where each cell begins, and places and cells by slot.
 //   without COUNTED: a lane a slot, after a stable sort
 //   COUNTED: a lane a sphere of `members`; its slot follows from its number, so that a repeat gives the same slots
 #ifdef COUNTED
@@ -9,6 +9,7 @@ uniform bool onlyOrder;           // of a second grid
 
 layout(std430, binding = 0) writeonly buffer Sorted { uvec2 sorted[]; };
 layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
+layout(std430, binding = 4) writeonly buffer Cells { uvec4 newCells[]; };
 #else
 #include "sort/starts.glsl"
 
@@ -16,6 +17,7 @@ uniform int keyMask;
 
 // A 4-vector as two doubles, because a CPU rasteriser makes its stores one by one.
 layout(std430, binding = 1) writeonly buffer Places { dvec2 newPlaces[]; };
+layout(std430, binding = 4) writeonly buffer Cells { dvec2 newCells[]; };
 #endif
 #ifdef SLOTS
 layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
@@ -25,6 +27,7 @@ layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
 layout(local_size_x = 64) in;
 
 uniform usamplerBuffer spherePlaces;
+uniform usamplerBuffer sphereCells;
 uniform int count;
 
 void main()
@@ -40,11 +43,14 @@ void main()
     sorted[slot] = uvec2(key, sphere);
     if (onlyOrder) return;
     newPlaces[slot] = texelFetch(spherePlaces, int(sphere));
+    newCells[slot] = texelFetch(sphereCells, int(sphere));
 #else
     uvec2 pair = texelFetch(sorted, slot).xy;
     uint sphere = pair.y;
     uvec4 place = texelFetch(spherePlaces, int(sphere));
+    uvec4 cell = texelFetch(sphereCells, int(sphere));
     newPlaces[slot] = dvec2(packDouble2x32(place.xy), packDouble2x32(place.zw));
+    newCells[slot] = dvec2(packDouble2x32(cell.xy), packDouble2x32(cell.zw));
     writeStarts(slot, pair.x, count, keyMask + 1);
 #endif
 #ifdef SLOTS

@@ -2,10 +2,10 @@
 //
 //   places   by slot: xyz local position as bits (physics/cells.glsl), w label: group * 2^26 + molecule
 //   sorted   by slot: y its sphere
-//   cells    by sphere: xyz cell, w radius as bits
+//   cells    by slot: xyz cell, w radius as bits
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
-// With TEXTURES cells and motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
+// With TEXTURES motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
 // numbers.
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
@@ -18,8 +18,8 @@ uniform UINTS motions;
 uniform UINTS cells;
 
 #ifdef TEXTURES
-// Where the cell and the motion of a slot are.
-int recordOf(int slot)
+// Where the motion of a slot is.
+int motionOf(int slot)
 {
     return slot;
 }
@@ -42,7 +42,7 @@ int sphereOf(int slot)
     return int(texelFetch(sorted, slot).y);
 }
 
-int recordOf(int slot)
+int motionOf(int slot)
 {
     return sphereOf(slot);
 }

@@ -19,10 +19,9 @@ struct Sphere {
 Sphere sphereAt(int slot)
 {
     uvec4 place = fetch(places, slot);
-    int record = recordOf(slot);
-    uvec4 motion = fetch(motions, record);
+    uvec4 motion = fetch(motions, motionOf(slot));
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), uintBitsToFloat(motion.w),
-                  uintBitsToFloat(fetch(cells, record).w));
+                  uintBitsToFloat(fetch(cells, slot).w));
 }
 
 // Seen from `a`; the same to the bit from either side. `side`: 1 for one of the two, -1 for the other.

@@ -28,14 +28,14 @@ void loadOwn(int slot)
     ownSlot = slot;
     ownPlace = uintBitsToFloat(place.xyz);
     ownLabel = place.w;
-    uvec4 own = fetch(cells, recordOf(slot));
+    uvec4 own = fetch(cells, slot);
     ownCell = ivec3(own.xyz);
     ownRadius = uintBitsToFloat(own.w);
 }
 
 ivec3 cellOf(int slot)
 {
-    return ivec3(fetch(cells, recordOf(slot)).xyz);
+    return ivec3(fetch(cells, slot).xyz);
 }
 
 // Whether spheres of this label are to be looked at.
@@ -82,7 +82,7 @@ void take(int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float limit = ownRadius + uintBitsToFloat(fetch(cells, recordOf(slot)).w);
+    float limit = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
     bool touches = dot(d, d) < limit * limit;
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);

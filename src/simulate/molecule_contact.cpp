@@ -90,7 +90,8 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     spherePlaces_ = array(padded_, Texel::uint4, "contact places");
     places_ = array(padded_, Texel::uint4, "contact places in order");
     motions_ = array(padded_, Texel::uint4, "contact motions");
-    cells_ = array(padded_, Texel::uint4, "contact cells");
+    sphereCells_ = array(padded_, Texel::uint4, "contact cells");
+    cells_ = array(padded_, Texel::uint4, "contact cells in order");
     const size_t cells = size_t(1) << contact_->tableBits;
     pairs_ = array(padded_, Texel::uint2, "contact keys");
     if (contact_->settings.search == ContactSearch::staggered)
@@ -265,7 +266,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         program.storage("Pairs", 0, pairs.buffer);
         program.storage("Places", 1, spherePlaces_.buffer);
         program.storage("Motions", 2, motions_.buffer);
-        program.storage("Cells", 3, cells_.buffer);
+        program.storage("Cells", 3, sphereCells_.buffer);
         dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
@@ -296,7 +297,7 @@ void MoleculeContact::sortKeys(bool staggered) {
 void MoleculeContact::order(bool staggered) {
     if (staggered && !counted_) return;
     Textures textures(order_);
-    textures.add("spherePlaces", spherePlaces_.texture);
+    textures.add("spherePlaces", spherePlaces_.texture).add("sphereCells", sphereCells_.texture);
     if (counted_) {
         textures.add("arrivals", arrivals_.texture)
             .add("starts", cellStarts_.texture)
@@ -310,6 +311,7 @@ void MoleculeContact::order(bool staggered) {
     }
     order_.set("count", contact_->spheres);
     order_.storage("Places", 1, places_.buffer);
+    order_.storage("Cells", 4, cells_.buffer);
     if (slots_.buffer) order_.storage("Slots", 2, slots_.buffer);
     useTouching(order_);
     dispatch(order_, size_t(contact_->spheres));
@@ -380,11 +382,12 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 
 size_t MoleculeContact::bytes() const {
     size_t out = 0;
-    for (const Array* array : {&arrivals_,    &cellStarts_,   &members_,   &pairs_,           &staggered_,
-                               &slots_,       &lists_,        &counts_,    &pushed_,          &shifts_,
-                               &velocities_,  &normals_,      &nearWalls_, &effectiveCounts_, &wallPushed_,
-                               &apart_,       &groupsOf_,     &materials_, &impulses_[0],     &impulses_[1],
-                               &impulses_[2], &spherePlaces_, &motions_,   &cells_,           &places_})
+    for (const Array* array :
+         {&arrivals_,    &cellStarts_,      &members_,     &pairs_,        &staggered_,   &slots_,
+          &lists_,       &counts_,          &pushed_,      &shifts_,       &velocities_,  &normals_,
+          &nearWalls_,   &effectiveCounts_, &wallPushed_,  &apart_,        &groupsOf_,    &materials_,
+          &impulses_[0], &impulses_[1],     &impulses_[2], &spherePlaces_, &sphereCells_, &motions_,
+          &cells_,       &places_})
         out += array->buffer ? array->buffer.bytes() : 0;
     return out + touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
 }

@@ -126,7 +126,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
         normals_, velocities_;
     Array apart_, groupsOf_, materials_;
     std::array<Array, 3> impulses_;
-    Array spherePlaces_, motions_, cells_, places_;
+    Array spherePlaces_, motions_, sphereCells_, cells_, places_;
     Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
     gpu::Buffer touching_, touchingGroups_;        // shaders/contact/touching.glsl
     gpu::Buffer dropped_;                          // contacts that no list had room for, so far
