@@ -20,17 +20,21 @@ def case(report, group, label):
     return None
 
 
+def short(value):
+    """Three digits that count, without an exponent."""
+    return f"{float(f'{value:.3g}'):,.10g}"
+
+
 def milliseconds(one):
     """Wall time, and the device's own where it was measured."""
     if one is None:
         return ""
     own = one.get("deviceMinSeconds")
-    return f"{one['minSeconds'] * 1e3:.3g}" + (f" ({own * 1e3:.3g})" if own is not None else "")
+    return short(one["minSeconds"] * 1e3) + (f" ({short(own * 1e3)})" if own is not None else "")
 
 
 def rate(one, key, unit):
-    """Three digits that count, without an exponent."""
-    return f"{float(f'{one[key] / unit:.3g}'):,.10g}" if one and one.get(key) else ""
+    return short(one[key] / unit) if one and one.get(key) else ""
 
 
 def checks(report):
@@ -41,7 +45,7 @@ def checks(report):
 def drawn(report, width):
     for one in report["drawn"]:
         if one["scene"] == "tree/leaves" and one["width"] == width and "draw" in one:
-            return f"{(one['simulate']['minSeconds'] + one['draw']['minSeconds']) * 1e3:.3g}"
+            return short((one["simulate"]["minSeconds"] + one["draw"]["minSeconds"]) * 1e3)
     return ""
 
 
