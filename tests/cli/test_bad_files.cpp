@@ -80,7 +80,7 @@ TEST_CASE("mistakes in a scene are located", "[cli]") {
         {"\"type\": \"gust\"", "\"type\": \"gusts\"", "\"gusts\"", "did you mean \"gust\"?"},
         {"\"count\": 3", "\"count\": 0", "0,\n     \"place\"", "1"},
         {"\"count\": 3", "\"count\": -1", "-1,\n     \"place\"", "1"},
-        {"\"count\": 3", "\"count\": 2000000000", "2000000000", "from 1 to 1000000000"},
+        {"\"count\": 3", "\"count\": 2000000000", "2000000000", "from 1 to 1073741824"},
         {"\"model\": \"hill\", \"select\"", "\"model\": \"hil\", \"select\"", "\"hil\"",
          "did you mean \"hill\"?"},
         {"\"object\": \"post\"", "\"object\": \"pots\"", "", "pots"},
@@ -183,8 +183,8 @@ TEST_CASE("a step that is too long names the substeps that would do", "[cli]") {
 }
 
 TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
-    refusal({"run", helloScene(), "--headless", "--count", "1000000001"}, "expected at most 1000000000");
-    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 1000000000");
+    refusal({"run", helloScene(), "--headless", "--count", "1073741825"}, "expected at most 1073741824");
+    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 1073741824");
     const Scratch scratch;  // 9 vertices each are too many before that
     const std::string scene = scratch.write(
         "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 900000000, "molecule": ")" +

