@@ -34,7 +34,7 @@ int explainCommand(const Options& options) {
         return 0;
     }
     std::cout
-        << "// As a GPU gets it. A CPU rasteriser runs up to " << FusedLimits::softwareLane
+        << "// As a GPU gets it. A CPU rasteriser runs up to " << FusedLimits::laneVertices
         << " vertices in a lane (--lanes molecule), and stores and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;

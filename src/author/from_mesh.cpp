@@ -393,7 +393,7 @@ class Maker {
 }  // namespace
 
 int mostMadeVertices() {
-    return FusedLimits::workgroup(PathLimits{}, SolverKind::leapfrog);
+    return FusedLimits::vertices(PathLimits{}.maxSharedBytes);
 }
 
 void checkOptions(const FromMesh& o) {

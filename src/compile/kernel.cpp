@@ -40,8 +40,6 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
             if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
         out += "    return pull;\n}\n";
     }
-    if (countsMuscles(needs))
-        out += parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
@@ -111,11 +109,10 @@ SpringText numbersOf(const Molecule& molecule, size_t index, const Needs& needs)
     return out;
 }
 
-// The stiffness of a distance constraint (shaders/solver/verlet.glsl).
-std::string mostStiffness(const Molecule& molecule, const Spring& spring) {
-    const double weight =
-        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
-    return concat(glslLiteral(1 / weight), " / (substep * substep)");
+// The stiffness of a distance constraint.
+std::string mostStiffness(const Spring& spring) {
+    return concat("constraintStiffness(", at("inverseMass", spring.a), " + ", at("inverseMass", spring.b),
+                  ")");
 }
 
 const char* springVariables(const Needs& needs) {
@@ -141,7 +138,7 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
         out += forceText(spring, numbersOf(molecule, i, needs),
                          concat(at("x", spring.a), " - ", at("x", spring.b)),
                          concat(at("w", spring.a), " - ", at("w", spring.b)),
-                         isBounded ? mostStiffness(molecule, spring) : "0.0");
+                         isBounded ? mostStiffness(spring) : "0.0");
     }
     return out + "}\n";
 }
@@ -333,6 +330,9 @@ std::vector<size_t> sweepOrder(const Molecule& molecule) {
 KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
     KernelText text;
     text.molecule = moleculeText(molecule, needs);
+    if (countsMuscles(needs))
+        text.muscles = parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
+    text.waves = MuscleWaves(molecule, needs).arrayText();
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";

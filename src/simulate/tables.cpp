@@ -25,17 +25,27 @@ static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
     return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
-Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
-    : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
-    if (sampleForm == Form::texture) {
+Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
+    if (form == Form::texture) {
+        topology = makeTable(context, plan.topology, plan.topologyRows, "topology");
         samples = makeSamples(context, plan);
         return;
     }
+    const std::span<const glm::vec4> entries(plan.topology);
+    topologyBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, entries, "topology");
     if (plan.samples.empty()) return;
     gpu::BufferTexture::checkTexels(context.info(), plan.samples.size(), "samples");
     const std::span<const glm::vec4> table(plan.samples);
     sampleBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, table, "samples");
     sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
+}
+
+void Tables::updateTopology(const Plan& plan, size_t group) {
+    const auto first = size_t(plan.groups[group].topologyBase);
+    const size_t end = group + 1 < plan.groups.size() ? size_t(plan.groups[group + 1].topologyBase)
+                                                      : plan.topology.size();
+    topologyBuffer.update(gpu::Traffic::Kind::parameters, first * sizeof(glm::vec4),
+                          plan.topology.data() + first, (end - first) * sizeof(glm::vec4));
 }
 
 }  // namespace shoal

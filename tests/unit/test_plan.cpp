@@ -285,9 +285,9 @@ TEST_CASE("a molecule beyond the device's shared memory is refused with the numb
     const Plan plan = compile(scene);
     CHECK_THAT(messageOf([&] { choosePath(plan, Path::fused, limits); }),
                Catch::Contains("400 vertices") &&
-                   Catch::Contains(concat("at most ", FusedLimits::workgroup(limits, SolverKind::leapfrog))));
+                   Catch::Contains(concat("at most ", FusedLimits::vertices(limits.maxSharedBytes))));
     CHECK(choosePath(plan, Path::automatic, limits).path == Path::pingPong);
-    molecule.vertices.resize(size_t(FusedLimits::workgroup(limits, SolverKind::leapfrog)));
+    molecule.vertices.resize(size_t(FusedLimits::vertices(limits.maxSharedBytes)));
     CHECK(choosePath(compile(scene), Path::fused, limits).path == Path::fused);
 }
 
