@@ -40,10 +40,13 @@ Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits
     if (implicit && (wanted == Lanes::vertex || group.vertexCount > FusedLimits::laneVertices))
         throw Error(
             group.location,
-            concat(name(group.solver), " keeps a molecule in one lane, which holds at most ",
-                   FusedLimits::laneVertices, " vertices; a molecule of \"", group.name, "\" has ",
-                   group.vertexCount,
-                   wanted == Lanes::vertex ? ": leave out --lanes vertex" : ": use an explicit solver"));
+            wanted == Lanes::vertex
+                ? concat(name(group.solver), ", which \"", group.name,
+                         "\" takes, goes over the springs of a molecule one after the other, in one lane: "
+                         "leave out --lanes vertex or use an explicit solver")
+                : concat(name(group.solver), " keeps a molecule in one lane, which holds at most ",
+                         FusedLimits::laneVertices, " vertices; a molecule of \"", group.name, "\" has ",
+                         group.vertexCount, ": use an explicit solver"));
     if (implicit && group.springCount > FusedLimits::laneSprings)
         throw Error(group.location,
                     concat(name(group.solver), " writes out the springs of a molecule, at most ",
