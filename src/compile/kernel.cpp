@@ -48,12 +48,13 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     double mass = 0;
     for (const Vertex& vertex : molecule.vertices)
         mass += vertex.mass;
+    // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a loop does
     const auto mean = [&](const char* comment, const char* name, const char* array) {
         std::string text =
             concat("\n// ", comment, ", by mass.\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
         for (size_t v = 0; v < count; ++v)
-            text += concat("    sum += ", array, "[", v, "] * ",
-                           glslLiteral(molecule.vertices[v].mass / mass), ";\n");
+            text += concat("    sum += inRegister(", array, "[", v, "] * ",
+                           glslLiteral(molecule.vertices[v].mass / mass), ");\n");
         return text + "    return sum;\n}\n";
     };
     if (needs.thrust) out += mean("Of w", "meanVelocity", "w");

@@ -28,10 +28,10 @@ void checkSame(const Scene& scene, int frames, const CompileOptions& options = {
     test::run(rows, frames);
     const SavedState one = lane.save(), other = rows.save();
     for (size_t g = 0; g < plan.groups.size(); ++g) {
-        CHECK(one.groups[g].positions == other.groups[g].positions);
-        CHECK(one.groups[g].velocities == other.groups[g].velocities);
+        CHECK((one.groups[g].positions == other.groups[g].positions));
+        CHECK((one.groups[g].velocities == other.groups[g].velocities));
         CHECK((one.groups[g] == other.groups[g]));
-        CHECK(lane.snapshot(g).normals == rows.snapshot(g).normals);
+        CHECK((lane.snapshot(g).normals == rows.snapshot(g).normals));
     }
     CHECK(lane.hash() == rows.hash());
 }
@@ -86,12 +86,18 @@ TEST_CASE("a lane a vertex samples fields, pushes and touches as a lane a molecu
     forced.forces = everyForce();
     forced.groups[0].release.reset();
     setStableSubsteps(forced);
-    checkSame(forced, 12);
+    {
+        INFO("forces, colliders that move");
+        checkSame(forced, 12);
+    }
 
     Scene high = fullScene(chain(7, true), SolverKind::euler);
     high.solver.fieldSampling = FieldSampling::vertexFrame;
     high.colliders = {everyCollider()[2]};  // kept from finding to answering
-    checkSame(high, 12);
+    {
+        INFO("a height field");
+        checkSame(high, 12);
+    }
 
     for (const int vertices : {1, 12}) {
         INFO(vertices << " vertices without springs");
@@ -108,13 +114,22 @@ TEST_CASE("schools, contact between molecules and live springs are the same with
     school.groups[0].drag = {40, 1};
     school.groups[0].school.emplace().bend = 1.5;
     school.groups[0].school->home = SchoolHome{{}, {0, 2, 0}, 0.1, 20};
-    checkSame(school, 5);
-    checkSame(school, 3, {.liveSprings = true});
+    {
+        INFO("school");
+        checkSame(school, 5);
+    }
+    {
+        INFO("school, live");
+        checkSame(school, 3, {.liveSprings = true});
+    }
 
     Scene heap = fullScene(sheet(3, 3, false), SolverKind::leapfrog);
     heap.groups[0].contact.emplace().radius = 0.1;
     heap.groups[0].release.reset();
-    checkSame(heap, 6);
+    {
+        INFO("contact");
+        checkSame(heap, 6);
+    }
 
     Scene live = fullScene(sheet(5, 3, true), SolverKind::leapfrog);
     const Plan plan = compile(live, {.liveSprings = true});
