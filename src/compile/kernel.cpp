@@ -48,7 +48,8 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     double mass = 0;
     for (const Vertex& vertex : molecule.vertices)
         mass += vertex.mass;
-    // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a loop does
+    // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a
+    // loop does
     const auto mean = [&](const char* comment, const char* name, const char* array) {
         std::string text =
             concat("\n// ", comment, ", by mass.\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
@@ -136,10 +137,9 @@ std::string springText(const Molecule& molecule, const Needs& needs, bool isBoun
         springVariables(needs), MuscleWaves(molecule, needs).text());
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
-        out += forceText(spring, numbersOf(molecule, i, needs),
-                         concat(at("x", spring.a), " - ", at("x", spring.b)),
-                         concat(at("w", spring.a), " - ", at("w", spring.b)),
-                         isBounded ? mostStiffness(spring) : "0.0");
+        out += forceText(
+            spring, numbersOf(molecule, i, needs), concat(at("x", spring.a), " - ", at("x", spring.b)),
+            concat(at("w", spring.a), " - ", at("w", spring.b)), isBounded ? mostStiffness(spring) : "0.0");
     }
     return out + "}\n";
 }

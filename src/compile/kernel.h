@@ -42,8 +42,8 @@ struct Needs {
 struct KernelText {
     // Of a lane a molecule. generated/molecule.glsl: masses, pins, sums over the vertices
     std::string molecule;
-    std::string forces;    // generated/forces.glsl: springForces, surfaceNormals
-    std::string sweeps;    // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
+    std::string forces;  // generated/forces.glsl: springForces, surfaceNormals
+    std::string sweeps;  // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
     // For generated/packing.glsl of a lane: loadState, and expressions of the 4-vectors that are stored.
     std::string load;
     std::vector<std::string> state, normals;

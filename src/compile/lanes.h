@@ -1,8 +1,10 @@
-// How the molecules of a group are spread over the lanes of a compute device: the two forms of the fused kernel, what each
-// can hold, and which one is taken. Pure functions. What the choice rests on is measured: the table in lanes.cpp.
+// How the molecules of a group are spread over the lanes of a compute device: the two forms of the fused
+// kernel, what each can hold, and which one is taken. Pure functions. What the choice rests on is measured:
+// the table in lanes.cpp.
 //
 //   molecule   a lane a molecule, whose topology is written out as text: all of it in registers
-//   vertex     a lane a vertex: a workgroup takes several molecules side by side, and neighbouring lanes do the
+//   vertex     a lane a vertex: a workgroup takes several molecules side by side, and neighbouring lanes do
+//   the
 //              same vertex of neighbouring molecules, with the positions and velocities of the others in
 //              shared memory (shaders/fused/gather.glsl). Its text is the same for every topology.
 #pragma once

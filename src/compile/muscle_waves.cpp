@@ -57,7 +57,8 @@ std::string MuscleWaves::text() const {
 
 std::string MuscleWaves::arrayText() const {
     if (waves_.empty()) return {};
-    std::string out = concat("#include \"physics/spring.glsl\"\n\n#define WAVES ", waves_.size(), "\nfloat waves[WAVES];\n\n",
+    std::string out = concat("#include \"physics/spring.glsl\"\n\n#define WAVES ", waves_.size(),
+                             "\nfloat waves[WAVES];\n\n",
                              "void moveMuscles(float time)\n{\n    float clock = swimClock(time);\n");
     for (size_t i = 0; i < waves_.size(); ++i)
         out += concat("    waves[", i, "] = ", waveText(i));

@@ -21,8 +21,8 @@ class MuscleWaves {
     // Returns the rest length that the muscles give to a spring of rest length `length`; both are GLSL.
     std::string lengthOf(const std::string& length, const Spring& spring) const;
 
-    // Returns the same for a lane a vertex (shaders/step/gather_springs.glsl): WAVES, the array of them and what moves them;
-    // empty where there are none.
+    // Returns the same for a lane a vertex (shaders/step/gather_springs.glsl): WAVES, the array of them and
+    // what moves them; empty where there are none.
     std::string arrayText() const;
     // A spring's part in a wave; nothing where there are none.
     struct Share {

@@ -117,8 +117,8 @@ void packStart(const Scene& scene, GroupPlan& group) {
 static glm::vec4 muscleOf(const Molecule& molecule, const GroupPlan& group, const MuscleWaves& waves,
                           const Spring& spring) {
     const Actuation actuation = spring.actuation.value_or(Actuation{});
-    const auto number = group.needs.steers ? bendOf(molecule, spring)
-                                           : double(muscleNumber(group.muscles, spring));
+    const auto number =
+        group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring));
     if (const std::optional<MuscleWaves::Share> share = waves.shareOf(spring))
         return {share->amplitude, share->wave, 0, number};
     return {actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase, number};
@@ -134,7 +134,8 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
         const bool pinned = group.needs.pins && vertex.pinned;
-        topology[base + count + v] = glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, vertex.mass / mass);
+        topology[base + count + v] =
+            glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, vertex.mass / mass);
 
         const size_t firstSpring = topology.size();
         int springs = 0;

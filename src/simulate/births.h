@@ -16,8 +16,8 @@ namespace shoal {
 
 class Births : public BirthPasses {
   public:
-    // Borrows all but the strings. `together`: of each group, the molecules that a workgroup of its step takes.
-    // Error, located at the group: more places than the context holds.
+    // Borrows all but the strings. `together`: of each group, the molecules that a workgroup of its step
+    // takes. Error, located at the group: more places than the context holds.
     Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
            const std::vector<int>& together, gpu::ProgramCache* cache);
 
@@ -40,8 +40,7 @@ class Births : public BirthPasses {
         PlaceSet set;
         const gpu::Program* spawn = nullptr;  // none: nothing is born
     };
-    void make(const Living& living, const std::string& shaderRoot, int together,
-              gpu::ProgramCache* cache);
+    void make(const Living& living, const std::string& shaderRoot, int together, gpu::ProgramCache* cache);
     void countPlaces(const Living& living, int scheduled, bool allocates);
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
     void bindBirths(const Living& living, std::vector<GroupBuffers>& state) const;

@@ -29,10 +29,10 @@ struct KernelOptions {
     std::string factors = {};               // bdf2-corotated: its matrix as constants; empty: a uniform block
     Lanes lanes = Lanes::molecule;          // not automatic
     int sharedBytes = PathLimits{}.maxSharedBytes;  // of a workgroup, for a lane a vertex
-    bool normals = false;                   // a frame writes them, where the shape has a surface
-    bool groupVote = false;                 // ContextInfo::groupVote
-    bool software = false;                  // what suits a CPU rasteriser
-    bool watch = false;                     // a frame looks for states that run away
+    bool normals = false;                           // a frame writes them, where the shape has a surface
+    bool groupVote = false;                         // ContextInfo::groupVote
+    bool software = false;                          // what suits a CPU rasteriser
+    bool watch = false;                             // a frame looks for states that run away
 };
 
 // Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where

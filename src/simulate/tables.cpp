@@ -42,8 +42,8 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
 
 void Tables::updateTopology(const Plan& plan, size_t group) {
     const auto first = size_t(plan.groups[group].topologyBase);
-    const size_t end = group + 1 < plan.groups.size() ? size_t(plan.groups[group + 1].topologyBase)
-                                                      : plan.topology.size();
+    const size_t end =
+        group + 1 < plan.groups.size() ? size_t(plan.groups[group + 1].topologyBase) : plan.topology.size();
     topologyBuffer.update(gpu::Traffic::Kind::parameters, first * sizeof(glm::vec4),
                           plan.topology.data() + first, (end - first) * sizeof(glm::vec4));
 }

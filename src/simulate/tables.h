@@ -9,8 +9,8 @@
 namespace shoal {
 
 struct Tables {
-    // The fused path reads from buffers, which need no second coordinate: on a CPU rasteriser a fetch then costs half
-    // as much.
+    // The fused path reads from buffers, which need no second coordinate: on a CPU rasteriser a fetch then
+    // costs half as much.
     enum class Form { texture, buffer };
 
     gpu::Texture topology, samples;  // as textures
@@ -19,7 +19,8 @@ struct Tables {
 
     // Error: more samples than the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form form);
-    // Takes over the plan's topology of a group from its base on, which has changed in numbers alone. Of buffers.
+    // Takes over the plan's topology of a group from its base on, which has changed in numbers alone. Of
+    // buffers.
     void updateTopology(const Plan& plan, size_t group);
 };
 

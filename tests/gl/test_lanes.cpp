@@ -36,8 +36,8 @@ void checkSame(const Scene& scene, int frames, const CompileOptions& options = {
     CHECK(lane.hash() == rows.hash());
 }
 
-// Springs that are muscles, pins that are released, drag by direction, a plane and a field; molecules that differ in size
-// and phase, and no multiple of a workgroup.
+// Springs that are muscles, pins that are released, drag by direction, a plane and a field; molecules that
+// differ in size and phase, and no multiple of a workgroup.
 Scene fullScene(const Molecule& plain, SolverKind solver) {
     Molecule molecule = plain;
     addMuscles(molecule, 0.1);
@@ -62,7 +62,8 @@ Molecule chain(int vertices, bool sprung) {
 
 }  // namespace
 
-TEST_CASE("a lane a vertex leaves the bits of a lane a molecule with every explicit solver", "[fused][lanes]") {
+TEST_CASE("a lane a vertex leaves the bits of a lane a molecule with every explicit solver",
+          "[fused][lanes]") {
     if (!canFuse()) return;
     // 15 vertices in eight rows: one place of the last row is over
     for (const SolverKind solver : explicitSolvers) {
@@ -184,7 +185,8 @@ TEST_CASE("by name a form refuses what it cannot hold, in one line", "[fused][la
         return messageOf([&] { on(compile(scene), lanes); });
     };
     const Scene stiff = swarm(sheet(3, 3, false), 3, SolverKind::bdf2Xpbd);
-    CHECK_THAT(message(stiff, Lanes::vertex), Catch::Contains("one after the other") && Catch::Contains("--lanes"));
+    CHECK_THAT(message(stiff, Lanes::vertex),
+               Catch::Contains("one after the other") && Catch::Contains("--lanes"));
     CHECK(on(compile(stiff), Lanes::automatic).lanes(0) == Lanes::molecule);
     const Scene large = swarm(chain(70, true), 3, SolverKind::leapfrog);
     CHECK_THAT(message(large, Lanes::molecule), Catch::Contains("a lane holds at most"));
