@@ -15,12 +15,6 @@ const char* when(PassPlan::When moment) {
     return words[size_t(moment)];
 }
 
-std::string mebibytes(size_t bytes) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2) << double(bytes) / (1 << 20) << " MiB";
-    return out.str();
-}
-
 }  // namespace
 
 static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {
@@ -166,6 +160,12 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             listPasses(out, plan, g);
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
+        if (choice.path == Path::fused) {
+            const PathLimits limits;
+            out << "  lanes    on a GPU a lane a " << name(chooseLanes(group, Lanes::automatic, limits))
+                << "; a lane a vertex holds " << FusedLimits::vertices(limits.maxSharedBytes)
+                << " vertices with " << limits.maxSharedBytes << " bytes of shared memory\n";
+        }
         tellSchool(out, plan, g);
         listBirths(out, group);
         const std::string absent = leftOut(group, choice.path != Path::pingPong);

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iomanip>
 #include <sstream>
 
 #include "compile/call_writer.h"
@@ -39,12 +38,6 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
                "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                out.source, "    return u;\n}\n");
     return out;
-}
-
-static std::string mebibytes(size_t bytes) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2) << double(bytes) / (1 << 20) << " MiB";
-    return out.str();
 }
 
 std::vector<std::string> describeGrids(const std::vector<Field>& fields,
