@@ -1,18 +1,22 @@
 #!/usr/bin/env bash
 # Packs the command, its libraries, the shaders and the data into one folder, and that into FOLDER.tar.gz.
 # The folder runs on other machines without our packages; see cmake/bundle_launcher.sh, which becomes its `shoal`.
-# Run as: cmake/bundle.sh BINARY FOLDER
+# With TESTS, the folder of the test programs, these and what they read go in as well, and its `tested` starts them
+# (cmake/bundle_tested.sh).
+# Run as: cmake/bundle.sh BINARY FOLDER [TESTS]
 set -euo pipefail
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-limit=$((100 * 1024 * 1024)) # bytes; Embree alone has 42 MiB
+limit=$((100 * 1024 * 1024)) # bytes, without tests; Embree alone has 42 MiB
+test_programs=(shoal-unit shoal-gl shoal-hard shoal-baseline)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "bundle: $*"; exit 1; }
 
-[ $# -eq 2 ] || fail "run as: bundle.sh BINARY FOLDER"
+[ $# -eq 2 ] || [ $# -eq 3 ] || fail "run as: bundle.sh BINARY FOLDER [TESTS]"
 binary=$1
 folder=${2%/}
+tests=${3-}
 [ -x "$binary" ] || fail "$binary is not there; build it first"
 case $folder in *[:\;]*) fail "the folder's name may not contain : or ;, which separate search paths" ;; esac
 if [ -e "$folder" ] && [ ! -e "$folder/bin/shoal" ] && [ -n "$(ls -A "$folder")" ]; then
@@ -61,11 +65,11 @@ shared() { # library
     esac
 }
 
-# "name path" of each library that the command takes, libEGL included, which it opens at run time.
-libraries() {
+# "name path" of each library that a program takes, libEGL included, which it opens at run time.
+libraries() { # program
     local trace
-    trace=$(LC_ALL=C LD_TRACE_LOADED_OBJECTS=1 LD_PRELOAD="libEGL.so.1" "$binary" 2>&1)
-    if grep -q "=> not found" <<<"$trace"; then fail "$binary itself does not run here: $trace"; fi
+    trace=$(LC_ALL=C LD_TRACE_LOADED_OBJECTS=1 LD_PRELOAD="libEGL.so.1" "$1" 2>&1)
+    if grep -q "=> not found" <<<"$trace"; then fail "$1 itself does not run here: $trace"; fi
     sed -n 's|^[[:space:]]*\(lib[^ ]*\) => \(/[^ ]*\) (.*|\1 \2|p' <<<"$trace"
 }
 
@@ -130,6 +134,18 @@ molecules       molecule files
 models          meshes and scenes
 licenses        of the libraries in lib; LICENSE is Shoal's
 TEXT
+    [ -z "$tests" ] || cat >>"$part/README.txt" <<TEXT
+
+The tests are in here as well:
+
+    ./tested shoal-gl "[agreement]"     of OpenGL; without a word all of them, some minutes on a GPU
+    ./tested shoal-hard                 the hard cases
+    ./tested shoal-unit                 what needs no OpenGL
+    ./tested shoal-baseline             times of the hand-written baselines
+
+They look for their files in $source_dir, which becomes a link to this folder: that takes the right to
+make it. SHOAL_TEST_CONTEXT, SHOAL_TEST_PATH and the options of Catch2 mean what they always do.
+TEXT
 }
 
 part=$folder.part
@@ -137,28 +153,50 @@ rm -rf "$part"
 mkdir -p "$part/bin" "$part/lib/fallback"
 trap 'rm -rf "$part"' EXIT
 
-cp "$binary" "$part/bin/shoal"
-strip --strip-unneeded "$part/bin/shoal"
-found=$(libraries)
-while read -r name path; do
-    of_glibc "$name" || of_driver "$name" || pack_library "$name" "$path"
-done <<<"$found"
+pack_program() { # program, where
+    mkdir -p "$(dirname "$2")"
+    cp "$1" "$2"
+    strip --strip-unneeded "$2"
+    local found name path
+    found=$(libraries "$1")
+    while read -r name path; do
+        of_glibc "$name" || of_driver "$name" || [ -e "$part/lib/$name" ] || pack_library "$name" "$path"
+    done <<<"$found"
+}
+
+pack_program "$binary" "$part/bin/shoal"
 [ -e "$part/lib/fallback/libEGL.so.1" ] || say "libEGL.so.1 of libglvnd is not installed here: the machine must have it"
 cat >"$part/lib/egl_nvidia.json" <<'JSON'
 {"file_format_version": "1.0.0", "ICD": {"library_path": "libEGL_nvidia.so.0"}}
 JSON
 
 tar -C "$source_dir" --exclude='*.py' --exclude=__pycache__ -cf - shaders molecules models LICENSE | tar -C "$part" -xf -
+if [ -n "$tests" ]; then
+    for program in "${test_programs[@]}"; do pack_program "$tests/$program" "$part/build/tests/$program"; done
+    # what tests read beside the data: golden pictures, documents that they compare, sources
+    (cd "$source_dir" && tar --exclude=__pycache__ -cf - CMakeLists.txt dev src tests docs/*.md) |
+        tar -C "$part" -xf -
+    ln -s ../shoal "$part/build/shoal"
+fi
 glibc=$(needed_glibc "$part/bin" "$part"/lib/lib*)
 fallback_glibc=$(needed_glibc "$part/bin" "$part/lib")
 needs="glibc $glibc or newer"
 if [ "$fallback_glibc" != "$glibc" ]; then needs+=" ($fallback_glibc where libstdc++ or the like is missing or old)"; fi
-sed -e "s/@GLIBC@/$needs/" -e "s/@MACHINE@/$(uname -m)/" "$source_dir/cmake/bundle_launcher.sh" >"$part/shoal"
-chmod 755 "$part/shoal"
+write_launcher() { # name, what it starts, more for sed
+    sed -e "s|@WHAT@|$2|" -e "s/@GLIBC@/$needs/" -e "s/@MACHINE@/$(uname -m)/" "${@:3}" \
+        "$source_dir/cmake/bundle_launcher.sh" >"$part/$1"
+    chmod 755 "$part/$1"
+}
+write_launcher shoal bin/shoal -e '/@TESTED@/d'
+if [ -n "$tests" ]; then
+    write_launcher tested "a program of build/tests" -e "/@TESTED@/r $source_dir/cmake/bundle_tested.sh" \
+        -e '/@TESTED@/d'
+    sed -i "s|@ROOT@|$source_dir|" "$part/tested"
+fi
 write_readme "$needs"
 
 size=$(du -sb "$part" | cut -f1)
-if [ "$size" -ge "$limit" ]; then
+if [ -z "$tests" ] && [ "$size" -ge "$limit" ]; then
     say "The bundle would have $size bytes and may have $limit. The largest files:"
     (cd "$part" && find . -type f -printf '%12s  %p\n' | sort -rn | sed -n '1,15p') >&2
     exit 1

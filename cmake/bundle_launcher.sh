@@ -1,5 +1,5 @@
 #!/bin/sh
-# Starts bin/shoal with the libraries of this folder.
+# Starts @WHAT@ with the libraries of this folder.
 #
 #   lib           libraries that only Shoal uses; always these.
 #   lib/fallback  libraries that an OpenGL driver may use as well, one folder each. Two copies of one, or an older
@@ -11,11 +11,13 @@ here=$(readlink -f -- "$0")
 here=${here%/*}
 machine=${LD_LIBRARY_PATH-}
 ours=$here/lib
+program=$here/bin/shoal
+# @TESTED@
 
 # What the dynamic loader finds for the program and more libraries, which are opened at run time. Nothing runs.
 trace() { # libraries, with spaces between
     LC_ALL=C LD_TRACE_LOADED_OBJECTS=1 LD_PRELOAD="$1${LD_PRELOAD:+ $LD_PRELOAD}" \
-        LD_LIBRARY_PATH="$ours${machine:+:$machine}" "$here/bin/shoal" 2>&1 || true
+        LD_LIBRARY_PATH="$ours${machine:+:$machine}" "$program" 2>&1 || true
 }
 
 found() { # library
@@ -91,4 +93,4 @@ if [ -z "${__EGL_VENDOR_LIBRARY_FILENAMES-}${__EGL_VENDOR_LIBRARY_DIRS-}" ] && f
 fi
 
 export LD_LIBRARY_PATH="$ours${machine:+:$machine}"
-exec "$here/bin/shoal" "$@"
+exec "$program" "$@"

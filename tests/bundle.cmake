@@ -1,6 +1,6 @@
-# Packs a bundle (cmake/bundle.sh) into a scratch folder, then: it is complete without the machine's libraries, small
-# enough, runs from another folder without an environment, and takes its own shaders. Where this process may change
-# the root folder, the bundle also runs in one that holds nothing but glibc and a shell.
+# Packs a bundle with the tests (cmake/bundle.sh) into a scratch folder, then: it is complete without the machine's
+# libraries, small enough without the tests, runs from another folder without an environment, and takes its own shaders. Where this process may change
+# the root folder, the bundle and its tests also run in one that holds nothing but glibc and a shell.
 # Run as: cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DSCRATCH=... -P bundle.cmake
 set(bundle ${SCRATCH}/shoal)
 set(elsewhere ${SCRATCH}/elsewhere)
@@ -26,12 +26,13 @@ endfunction()
 
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${elsewhere})
-run(text ${SOURCE_DIR}/cmake/bundle.sh ${BUILD_DIR}/shoal ${bundle})
+run(text ${SOURCE_DIR}/cmake/bundle.sh ${BUILD_DIR}/shoal ${bundle} ${BUILD_DIR}/tests)
 message("${text}")
 
 # Small enough.
 file(GLOB_RECURSE files ${bundle}/*)
 set(bytes 0)
+list(FILTER files EXCLUDE REGEX "^${bundle}/(build|src|tests|docs)/")
 foreach(file ${files})
   file(SIZE ${file} size)
   math(EXPR bytes "${bytes} + ${size}")
@@ -42,7 +43,7 @@ endif()
 
 # Complete: every library that its parts need is glibc's or in the bundle itself.
 file(GLOB fallbacks ${bundle}/lib/fallback/*)
-file(GLOB_RECURSE parts ${bundle}/bin/* ${bundle}/lib/*.so*)
+file(GLOB_RECURSE parts ${bundle}/bin/* ${bundle}/build/tests/* ${bundle}/lib/*.so*)
 set(path ${bundle}/lib ${fallbacks})
 list(JOIN path ":" path)
 set(glibc "^(ld-linux.*|libc|libm|libmvec|libpthread|libdl|librt|libresolv|libutil)[.]so")
@@ -76,6 +77,14 @@ if(NOT EXISTS ${elsewhere}/pictures/frame-00002.png)
   message(FATAL_ERROR "no picture where the command ran:\n${text}")
 endif()
 
+# What there is to test is told.
+execute_process(COMMAND ${plain} ../shoal/tested shoal-all RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text
+    WORKING_DIRECTORY ${elsewhere})
+if(code EQUAL 0)
+  message(FATAL_ERROR "a test program that is not there was started:\n${text}")
+endif()
+expect("${text}" "there are shoal-baseline shoal-gl shoal-hard shoal-unit")
+
 # The shaders are the bundle's: a mistake in them shows, on whichever path.
 foreach(shader passes/advect.frag fused/frame.glsl)
   file(APPEND ${bundle}/shaders/${shader} "\n#error from the bundle\n")
@@ -99,7 +108,9 @@ endif()
 find_program(chroot NAMES chroot PATHS /usr/sbin /sbin)
 find_program(sh NAMES sh)
 find_program(readlink NAMES readlink)
-run(text ldd ${sh} ${readlink})
+find_program(mkdir NAMES mkdir)
+find_program(ln NAMES ln)
+run(text ldd ${sh} ${readlink} ${mkdir} ${ln})
 string(REGEX MATCHALL "/[^ \n]+[.]so[^ \n]*" lines "${text}")
 run(text ldd ${bundle}/bin/shoal)
 string(REGEX MATCH "/[^ \n]*/ld-linux[^ \n]*" loader "${text}")
@@ -109,7 +120,7 @@ foreach(file ${lines})
   get_filename_component(folder ${file} DIRECTORY)
   file(COPY ${file} DESTINATION ${bare}${folder} FOLLOW_SYMLINK_CHAIN)
 endforeach()
-foreach(program ${sh} ${readlink})
+foreach(program ${sh} ${readlink} ${mkdir} ${ln})
   get_filename_component(name ${program} NAME)
   file(REAL_PATH ${program} real)
   file(MAKE_DIRECTORY ${bare}/bin)
@@ -123,6 +134,8 @@ if(code EQUAL 0)
   expect("${text}" "\"leaf\": 9 vertices")
   run(text ${plain} /shoal/shoal explain /shoal/models/hello/hello.scene.json)
   expect("${text}" "each molecule is read and written once a frame")
+  run(text ${plain} /shoal/tested shoal-unit "[molecule]")
+  expect("${text}" "All tests passed")
   execute_process(COMMAND ${plain} /shoal/shoal info --context egl RESULT_VARIABLE code OUTPUT_VARIABLE text
       ERROR_VARIABLE text)
   if(NOT code EQUAL 1)

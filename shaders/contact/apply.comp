@@ -62,13 +62,13 @@ void main()
     }
 }
 #else
-#include "contact/active.glsl"
+#include "contact/touching.glsl"
 
-uniform usamplerBuffer sorted;  // y sphere
+uniform usamplerBuffer sorted;  // by slot: y its sphere
 
 void main()
 {
-    int slot = activeSlot();
+    int slot = touchingSlot();
     int lane = slot < 0 ? -1 : int(texelFetch(sorted, slot).y) - firstSphere;
     bool touched = lane >= 0 && lane < partSpheres;
     while (touched) {

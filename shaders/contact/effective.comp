@@ -1,5 +1,5 @@
 // A lane a slot in contact: contact/effective.glsl.
-#include "contact/active.glsl"
+#include "contact/touching.glsl"
 #include "contact/effective.glsl"
 
 #ifdef TRIANGLES
@@ -13,7 +13,7 @@ layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCou
 
 void main()
 {
-    int taken = activeSlot();
+    int taken = touchingSlot();
     int slot = max(taken, 0);
     Sphere own = sphereAt(slot);
     NormalSum sum = normalsOf(slot, own, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));

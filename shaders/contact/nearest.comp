@@ -1,5 +1,5 @@
 // A lane a slot in contact: contact/nearest.glsl.
-#include "contact/active.glsl"
+#include "contact/touching.glsl"
 #include "contact/nearest.glsl"
 
 layout(std430, binding = 0) writeonly buffer NewImpulses { vec4 newImpulses[]; };
@@ -7,7 +7,7 @@ layout(std430, binding = 2) writeonly buffer Shifts { vec4 shifts[]; };
 
 void main()
 {
-    int taken = activeSlot();
+    int taken = touchingSlot();
     int slot = max(taken, 0);
     Nearest response = respondToNearest(slot, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
     if (taken >= 0) {

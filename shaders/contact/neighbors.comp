@@ -5,7 +5,7 @@
 #include "contact/touch.glsl"
 
 #ifdef STAGGERED
-uniform usamplerBuffer staggered;  // x key, y sphere
+uniform usamplerBuffer staggered;  // by place: y its sphere
 uniform usamplerBuffer slots;      // of a sphere
 #endif
 

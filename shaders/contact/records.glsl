@@ -1,8 +1,8 @@
 // Spheres of contact (src/simulate/molecule_contact.h). A slot is a place in the order of their cells.
 //
 //   places   by slot: xyz local position as bits (physics/cells.glsl), w label: group * 2^26 + molecule
+//   sorted   by slot: y its sphere
 //   cells    by slot: xyz cell, w radius as bits
-//   sorted   by slot: x key of its cell, y sphere
 //   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
 //
 // With TEXTURES motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'

@@ -1,12 +1,12 @@
 // A lane a slot in contact: a stage of contact/respond.glsl.
-#include "contact/active.glsl"
+#include "contact/touching.glsl"
 #include "generated/stage.glsl"
 
 layout(std430, binding = 0) writeonly buffer NewImpulses { vec4 newImpulses[]; };
 
 void main()
 {
-    int taken = activeSlot();
+    int taken = touchingSlot();
     int slot = max(taken, 0);
     respond(slot, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
 #ifdef WALLS

@@ -1,13 +1,18 @@
-// A lane a sphere of one group: from the state to records in the spheres' own order, and the key of its cell.
+// A lane a sphere of one group: from the state to records in the spheres' own order, and the key of its cell, with
+// the sphere's number or, with COUNTED, with how many spheres of the cell have come before it.
 #include "contact/shape.glsl"
 #include "contact/sphere.glsl"
 
 uniform int label;       // of the group's first molecule
-uniform int keyMask;
 uniform vec3 cellShift;  // m, of a staggered grid
 uniform bool onlyKeys;   // the records have been written
 
 layout(std430, binding = 0) writeonly buffer Pairs { uvec2 pairs[]; };
+#ifdef COUNTED
+#include "contact/cell_counts.glsl"
+#else
+uniform int keys;  // of the table of cells
+#endif
 layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
@@ -22,7 +27,15 @@ void main()
     int sphere = firstSphere + lane;
     StateSphere own = sphereOfState(molecule, lane - molecule * SPHERES);
     CellPlace place = cellPlaceOf(own, sphere, cellShift);
-    pairs[sphere] = uvec2(cellKey(place.cell, uint(keyMask)), uint(sphere));
+    uint key = cellKey(place.cell, uint(keys - 1));
+#ifdef COUNTED
+    if (int(gl_GlobalInvocationID.x) < partSpheres) {
+        pairs[sphere] = uvec2(key, atomicAdd(cellCounts[key], 1u));
+        atomicAdd(cellCounts[keys + int(key) / CELL_TILE], 1u);
+    }
+#else
+    pairs[sphere] = uvec2(key, uint(sphere));
+#endif
     if (onlyKeys) return;
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), floatBitsToUint(own.weight));

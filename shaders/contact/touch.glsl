@@ -4,9 +4,8 @@ uvec4 entries[LIST / 4];
 #else
 layout(std430, binding = 0) buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Counts { uint counts[]; };
-// The slots that touch something, in no particular order: what is done for each depends on nothing but itself. The first
-// words are what glDispatchComputeIndirect takes.
-layout(std430, binding = 2) buffer Active { uint groupsX; uint groupsY; uint groupsZ; uint actives; uint dropped; uint activeSlots[]; };
+layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
+#include "contact/touching.glsl"
 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
@@ -100,9 +99,7 @@ void finish(int slot)
     counts[slot] = uint(found);
     bool touches = last && found > 0;
     while (touches) {
-        uint at = atomicAdd(actives, 1u);
-        atomicMax(groupsX, at / 64u + 1u);
-        activeSlots[at] = uint(slot);
+        addTouching(slot);
         if (found > LIST) atomicAdd(dropped, uint(found - LIST));
         touches = false;
     }

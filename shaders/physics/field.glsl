@@ -11,7 +11,7 @@ vec3 oscillatingVelocity(float time, vec3 velocity, float angularFrequency, floa
 }
 
 // along, across1, across2: an orthonormal frame; size = (length, width); frozen turbulence that travels.
-// n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of about 0.4. The fronts had
+// n = (noise(p) + noise(2 p + 17.31)/2) * 1.2, a mean of 0 and a standard deviation of 0.257. The fronts had
 // travelled by `gone` + `cells` of their length when the frame began.
 vec3 gustVelocity(vec3 x, float time, vec3 along, vec3 across, float speed, float strength, float frontSpeed,
                   vec2 size, float gone, uint cells, uint seed)
@@ -63,6 +63,60 @@ vec3 curlNoiseVelocity(vec3 x, float time, float speed, float size, float period
         amplitude *= 0.79370053f;
     }
     return sum;
+}
+
+// Noise by table (src/scene/noise_tile.h): places in a tile are in tiles, and the tile repeats. shaders/state/noise_tile.glsl
+// reads it there.
+
+// A place for each number, far from that of the next.
+vec3 tilePlace(uint number)
+{
+    return vec3(float(number * 3518319155u), float(number * 2882110345u), float(number * 2360945575u)) * 2.3283064e-10f;
+}
+
+// Where a gust reads its noise: as gustVelocity, and moved across by a part of the tile for each tile along. row0, row1,
+// row2: along the wind and across, tiles a m; rate: of the fronts, tiles a s, which had travelled by `gone` + `cells` tiles
+// when the frame began.
+vec3 gustPlace(vec3 x, float time, vec3 row0, vec3 row1, vec3 row2, float rate, float gone, uint cells, uint seed)
+{
+    float s = dot(x, row0) - rate * time - gone;
+    vec3 travelled = vec3(0.0f, float(cells * 820338753u), float(cells * 506806141u)) * 2.3283064e-10f;
+    return vec3(s, dot(x, row1) + 0.191f * s, dot(x, row2) + 0.118f * s) + (tilePlace(2654435769u * seed) - travelled);
+}
+
+// Curl noise that changes: the same tile, seen by two moments that follow one another, each at a place of its own and
+// adrift along one of the four diagonals of a tetrahedron, so that no direction is before another and small eddies change
+// faster than large ones, as when large ones sweep them along [Tennekes 1975]. The velocity is firstPart * tile(first) +
+// secondPart * tile(second); the squares of the parts add up to 1.
+struct MomentPair {
+    vec3 first;
+    vec3 second;
+    float firstPart;
+    float secondPart;
+};
+
+vec3 momentDirection(uint number)
+{
+    float x = (number & 2u) == 0u ? 1.0f : -1.0f;
+    float y = (number & 1u) == 0u ? 1.0f : -1.0f;
+    return vec3(x, y, x * y);
+}
+
+// scale: tiles a m; rate: moments a s; drift: along each axis, tiles a moment. `gone` + `cells` moments had passed when the
+// frame began.
+MomentPair momentsOf(vec3 x, float time, float scale, float rate, float drift, float gone, uint cells, uint seed)
+{
+    float age = gone + rate * time;
+    float whole = floor(age);
+    float f = age - whole;
+    uint number = cells + uint(int(whole)) + 2654435769u * seed;
+    float later = fade(f);
+    float earlier = 1.0f - later;
+    float norm = 1.0f / sqrt(earlier * earlier + later * later);
+    vec3 p = x * scale;
+    return MomentPair(p + tilePlace(number) - (drift * f) * momentDirection(number),
+                      p + tilePlace(number + 1u) + (drift * (1.0f - f)) * momentDirection(number + 1u), norm * earlier,
+                      norm * later);
 }
 
 // One wave train of linear theory; x is relative to a point of the still surface. phase: at that point when the frame

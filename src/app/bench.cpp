@@ -49,15 +49,16 @@ struct Wanted {
     bool errors = false, starts = false, passes = false;
 };
 
-Wanted wantedOf(const Options& options) {
+// Error: there is none, unless there may be none.
+Wanted wantedOf(const Options& options, bool some = true) {
     const auto named = [&](const std::string& name) { return name.find(options.only) != std::string::npos; };
     const std::vector<BenchCase> all = benchCases(options.quick);
-    std::vector<BenchCase> some;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(some),
+    std::vector<BenchCase> chosen;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(chosen),
                  [&](const BenchCase& one) { return named(one.name()); });
-    Wanted out{byGroup(some), named(errors), named(starts), named(passes)};
-    if (!some.empty() || out.errors || out.starts || out.passes) {
-        if (!options.plot.empty()) checkPlot(options.plot, some);
+    Wanted out{byGroup(chosen), named(errors), named(starts), named(passes)};
+    if (!some || !chosen.empty() || out.errors || out.starts || out.passes) {
+        if (!options.plot.empty()) checkPlot(options.plot, chosen);
         return out;
     }
     std::string names;
@@ -86,24 +87,50 @@ std::vector<double> expectedSeconds(const Wanted& wanted, const BenchReport& rep
     return out;
 }
 
+// Runs a part. Where the device goes on after failures, that of a whole part is one of the report's.
+template <typename Part>
+void runPart(const BenchDevice& device, const std::string& name, BenchReport& report, const Part& part) {
+    try {
+        part();
+        device.context->checkAlive();
+    } catch (const gpu::DeviceLost&) {
+        throw;
+    } catch (const Error& error) {
+        if (!device.goesOn) throw;
+        BenchResult failed;
+        failed.one.group = name;
+        failed.one.label = "all of it";
+        failed.failed = error.what();
+        report.results.push_back(std::move(failed));
+    }
+}
+
 void measureAll(const Wanted& wanted, const BenchMolecules& molecules, const BenchDevice& device,
                 const measure::Schedule& schedule, BenchReport& report) {
     WholeRun run(expectedSeconds(wanted, report));
     const auto progress = [&](double share) { run.tell(share); };
     for (const std::vector<BenchCase>& group : wanted.groups) {
-        const std::vector<BenchResult> results = measureGroup(group, molecules, device, schedule, progress);
-        report.results.insert(report.results.end(), results.begin(), results.end());
+        runPart(device, group.front().group, report, [&] {
+            const std::vector<BenchResult> results =
+                measureGroup(group, molecules, device, schedule, progress);
+            report.results.insert(report.results.end(), results.begin(), results.end());
+        });
         run.next();
     }
     if (wanted.passes) {
-        report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, progress);
+        runPart(device, passes, report, [&] {
+            report.passes = measurePasses(molecules, device, report.quick, report.secondsAGroup, progress);
+        });
         run.next();
     }
     if (wanted.errors) {
-        report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, progress);
+        runPart(device, errors, report,
+                [&] { report.errors = measureErrors(molecules, device, report.quick ? 16 : 64, progress); });
         run.next();
     }
-    if (wanted.starts) report.starts = measureStart(molecules, device, report.quick, progress);
+    if (wanted.starts)
+        runPart(device, starts, report,
+                [&] { report.starts = measureStart(molecules, device, report.quick, progress); });
     run.end();
     report.seconds = run.elapsed();
 }
@@ -122,12 +149,20 @@ static DrawMaker drawMaker(gpu::Context& context) {
     };
 }
 
+// The driver is asked to tell of a lost device where a report must not be of one.
+static gpu::ContextOptions contextOf(const Options& options) {
+    gpu::ContextOptions out = hiddenContext(options);
+    out.tellsLoss = !options.report.empty();
+    return out;
+}
+
 BenchSession::BenchSession(const Options& options, double usual, double quick)
-    : context(hiddenContext(options)),
+    : context(contextOf(options)),
       contextSeconds(measure::secondsSince(start)),
       cache(context, cacheFolder()),
       machine(measuredOn(context)),
-      device{&context, shaderRoot(), &cache, drawMaker(context), machine.cores, {}} {
+      device{&context,      shaderRoot(), &cache, drawMaker(context),
+             machine.cores, {},           false,  !context.info().software} {
     schedule.seconds = options.seconds.value_or(options.quick ? quick : usual);
 }
 
@@ -152,10 +187,9 @@ void WholeRun::show(int percent) {
         bar_->step();
 }
 
-int benchCommand(const Options& options) {
+BenchReport measureSpeeds(const Options& options, BenchSession& session) {
     const Wanted wanted = wantedOf(options);
     const BenchMolecules molecules(moleculeFolder());
-    BenchSession session(options, 12, 2);
     const gpu::ContextInfo& info = session.context.info();
     BenchReport report;
     report.machine = session.machine;
@@ -172,9 +206,22 @@ int benchCommand(const Options& options) {
             return std::make_unique<BulletRunner>(one, molecule);
         };
     measureAll(wanted, molecules, session.device, session.schedule, report);
+    return report;
+}
+
+bool hasSpeeds(const Options& options) {
+    const Wanted wanted = wantedOf(options, false);
+    return !wanted.groups.empty() || wanted.errors || wanted.starts || wanted.passes;
+}
+
+int benchCommand(const Options& options) {
+    wantedOf(options);  // before anything is made
+    BenchSession session(options, 12, 2);
+    const BenchReport report = measureSpeeds(options, session);
     session.end();
     if (!options.plot.empty())
-        plotBench(options.plot, report.machine.processor + ", " + info.renderer, report.results);
+        plotBench(options.plot, report.machine.processor + ", " + report.machine.context.renderer,
+                  report.results);
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     if (!options.plot.empty() && !options.json) std::cout << "\nplot: " << printable(options.plot) << "\n";
     return 0;

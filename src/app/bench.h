@@ -69,6 +69,10 @@ struct BenchReport {
     std::vector<bench::PassTable> passes;
 };
 
+// Measures what `--only` asks for. Error: nothing is called so.
+BenchReport measureSpeeds(const Options& options, BenchSession& session);
+bool hasSpeeds(const Options& options);  // whether something is
+
 std::string asText(const BenchReport& report);
 JsonValue asJson(const BenchReport& report);
 

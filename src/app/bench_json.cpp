@@ -11,6 +11,7 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
     JsonValue out = object(key("group", one.group), key("case", one.label), key("subject", name(one.subject)),
                            key("molecule", one.molecule), key("count", one.count));
     if (!result.leftOut.empty()) return append(out, key("leftOut", result.leftOut));
+    if (!result.failed.empty()) return append(out, key("failed", result.failed));
     if (!isCopy(one.subject))
         append(out, key("solver", shoal::name(one.solver)), key("substeps", one.substeps),
                key("wind", name(one.wind)));
@@ -21,9 +22,10 @@ JsonValue asJson(const BenchResult& result, const std::vector<BenchResult>& all)
     if (one.subject != Subject::multiplyAdd) each = result.perMolecule() * 1e9;
     if (result.movedBytes > 0) moved = double(result.movedBytes);
     const Ratios ratios = ratiosOf(result, all);
-    return append(out, key("samples", result.frame.samples), key("framesPerSample", result.framesPerSample),
-                  key("minSeconds", result.frame.min), key("medianSeconds", result.frame.median),
-                  key("nanosecondsPerMolecule", each), key("overAvx512", ratios.avx512),
+    append(out, key("samples", result.frame.samples), key("framesPerSample", result.framesPerSample),
+           key("minSeconds", result.frame.min), key("medianSeconds", result.frame.median));
+    appendDeviceTime(out, result.device);
+    return append(out, key("nanosecondsPerMolecule", each), key("overAvx512", ratios.avx512),
                   key("overAvx2", ratios.avx2), key("fasterThanPingPong", ratios.pingPong),
                   key("stateBytesPerMolecule", double(result.stateBytes) / one.count),
                   key("movedBytesPerFrame", moved), key("bytesPerSecond", ratios.bandwidth),

@@ -98,16 +98,18 @@ std::string timesText(const Times& all) {
     for (const ParticleTimes& t : all) {
         if (t.one.group != group) {
             group = t.one.group;
-            out += formatted("\n%s; ms a frame, shortest (median)\n  %-40s%18s%10s%9s%8s%12s%11s\n",
-                             group.c_str(), "", "", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
+            out += formatted(
+                "\n%s; ms a frame, shortest (median), and the device's own\n  "
+                "%-40s%18s%10s%10s%9s%8s%12s%11s\n",
+                group.c_str(), "", "", "device", "steps/s", "ns each", "GB/s", "error m", "UberFlow");
         }
         out += formatted("  %-40s", t.one.label.c_str());
         if (!t.leftOut.empty()) {
             out += " left out: " + t.leftOut + "\n";
             continue;
         }
-        out += formatted("%9.3f (%6.4g)%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3, 1 / t.frame.min,
-                         t.perParticle() * 1e9);
+        out += formatted("%9.3f (%6.4g)%10s%10.4g%9.3g", t.frame.min * 1e3, t.frame.median * 1e3,
+                         deviceMilliseconds(t.device).c_str(), 1 / t.frame.min, t.perParticle() * 1e9);
         out += t.movedBytes > 0 ? formatted("%8.1f", double(t.movedBytes) * 1e-9 / t.frame.min)
                                 : formatted("%8s", "");
         out += t.error ? formatted("%12.1e", *t.error) : formatted("%12s", "");
@@ -147,6 +149,7 @@ JsonValue asJson(const ParticleTimes& t) {
            key("samples", t.frame.samples), key("nanosecondsPerParticle", t.perParticle() * 1e9),
            key("movedBytesPerFrame", unlessZero(double(t.movedBytes))), key("busBytesPerFrame", t.busBytes),
            key("positionError", t.error), key("publishedFramesPerSecond", unlessZero(t.one.published)));
+    appendDeviceTime(out, t.device);
     if (t.one.allocator)
         append(out, key("allocator", name(*t.one.allocator)), key("turnover", t.one.turnover),
                key("living", t.live), key("bornPerFrame", t.born), key("lostPerFrame", t.lost),

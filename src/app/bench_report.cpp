@@ -18,18 +18,21 @@ std::string orDash(const std::optional<double>& value) {
     return value ? short3(*value) : "-";
 }
 
-constexpr int benchColumns[] = {-40, 10, 11, 9, 9, 7, 8, 7, 7, 7, 6};
+constexpr int benchColumns[] = {-40, 10, 11, 11, 9, 9, 7, 8, 7, 7, 7, 6};
 
 std::string rowOf(const BenchResult& result, const std::vector<BenchResult>& all) {
     const std::string label = "  " + result.one.label;
     if (!result.leftOut.empty())
         return formatted("%*s   left out: %s\n", benchColumns[0], label.c_str(), result.leftOut.c_str());
+    if (!result.failed.empty())
+        return formatted("%*s   failed: %s\n", benchColumns[0], label.c_str(), result.failed.c_str());
     const Ratios ratios = ratiosOf(result, all);
     const auto each = [&](size_t bytes) -> std::string {
         return bytes > 0 ? formatted("%.0f", double(bytes) / result.one.count) : "-";
     };
     return tableRow(
         {label, formatted("%.3f", result.frame.min * 1e3), formatted("%.3f", result.frame.median * 1e3),
+         deviceMilliseconds(result.device),
          result.one.subject == Subject::multiplyAdd ? "-" : short3(result.perMolecule() * 1e9),
          orDash(ratios.avx512), orDash(ratios.avx2), orDash(ratios.pingPong), each(result.stateBytes),
          each(result.movedBytes), ratios.bandwidth ? short3(*ratios.bandwidth * 1e-9) : "-",
@@ -43,8 +46,8 @@ void addTimes(std::ostringstream& out, const std::vector<BenchResult>& results) 
         if (result.one.group != group) {
             group = result.one.group;
             out << "\n"
-                << tableRow({group, "min ms", "median ms", "ns each", "/AVX-512", "/AVX2", "vs p-p", "state",
-                             "moved", "GB/s", "copy"},
+                << tableRow({group, "min ms", "median ms", "device ms", "ns each", "/AVX-512", "/AVX2",
+                             "vs p-p", "state", "moved", "GB/s", "copy"},
                             benchColumns);
         }
         out << rowOf(result, results);
@@ -158,6 +161,7 @@ std::string asText(const BenchReport& report) {
     out << twoLines(report.machine) << "\n"
         << "euler, 4 substeps a frame of 1/60 s unless a case says otherwise; pictures of " << pictureWidth
         << " x " << pictureHeight << ".\n"
+        << "min, median: wall time; device: the device's own, the shortest, where it is no processor.\n"
         << "ns each and the ratios are of the shortest times. /AVX-512, /AVX2: times as long as that "
            "baseline.\n"
         << "vs p-p: times as fast as ping-pong. state, moved: bytes of a molecule, kept on the device and "

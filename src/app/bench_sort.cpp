@@ -62,14 +62,15 @@ std::string ratesText(const Report& report) {
 }
 
 std::string timesText(const SortTable& table) {
-    std::string out =
-        concat("\n", table.side, " x ", table.side,
-               "                          passes    min ms  median ms  samples  GB/s a pass  copy\n");
+    std::string out = concat(
+        "\n", table.side, " x ", table.side,
+        "                          passes    min ms  median ms  device ms  samples  GB/s a pass  copy\n");
     for (const SortTime& time : table.times) {
         if (!time.leftOut.empty()) continue;
-        out += formatted("  %-32s%6s%10.3f%11.3f%9d", time.name.c_str(),
+        out += formatted("  %-32s%6s%10.3f%11.3f%11s%9d", time.name.c_str(),
                          time.passes > 0 ? std::to_string(time.passes).c_str() : "-", time.seconds.min * 1e3,
-                         time.seconds.median * 1e3, time.seconds.samples);
+                         time.seconds.median * 1e3, deviceMilliseconds(time.device).c_str(),
+                         time.seconds.samples);
         const double count = time.copy ? 1 : time.passes;
         if (count > 0) out += formatted("%13.2f", count * 16e-9 * double(table.pairs()) / time.seconds.min);
         if (const auto share = table.shareOfCopy(time)) out += formatted("%5.0f%%", 100 * *share);
@@ -88,9 +89,10 @@ std::string asText(const Report& report) {
 JsonValue asJson(const SortTable& table, const SortTime& time) {
     JsonValue out = object(key("side", table.side), key("pairs", table.pairs()), key("case", time.name));
     if (!time.leftOut.empty()) return append(out, key("leftOut", time.leftOut));
-    return append(out, key("passes", time.passes), key("samples", time.seconds.samples),
-                  key("minSeconds", time.seconds.min), key("medianSeconds", time.seconds.median),
-                  key("millionItemsPerSecond", table.itemsPerSecond(time) * 1e-6),
+    append(out, key("passes", time.passes), key("samples", time.seconds.samples),
+           key("minSeconds", time.seconds.min), key("medianSeconds", time.seconds.median));
+    appendDeviceTime(out, time.device);
+    return append(out, key("millionItemsPerSecond", table.itemsPerSecond(time) * 1e-6),
                   key("shareOfCopy", table.shareOfCopy(time)));
 }
 

@@ -12,6 +12,7 @@ int checkCommand(const Options& options);
 int explainCommand(const Options& options);
 int infoCommand(const Options& options);
 int benchCommand(const Options& options);
+int benchDeviceCommand(const Options& options);     // shoal bench --report
 int benchSortCommand(const Options& options);       // shoal bench sort
 int benchCollideCommand(const Options& options);    // shoal bench collide
 int benchParticlesCommand(const Options& options);  // shoal bench particles

@@ -1,6 +1,7 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/explain_cost.h"
 #include "app/measure.h"
 #include "core/json.h"
 #include "run/data_paths.h"
@@ -8,8 +9,8 @@
 
 namespace shoal::app {
 
-// Explains for the default limits of a context (PathLimits), without asking a driver. Only --error makes a
-// context, to measure on it.
+// Explains for the default limits of a context (PathLimits), without asking a driver. Only --error and
+// --cost make a context, to measure on it.
 int explainCommand(const Options& options) {
     Loaded loaded = load(options);
     std::optional<measure::Calibration> found;
@@ -17,6 +18,8 @@ int explainCommand(const Options& options) {
         gpu::Context context(hiddenContext(options));
         found = calibrated(options, context, loaded);
     }
+    std::optional<SceneCost> cost;
+    if (options.cost) cost = sceneCost(options, loaded);
     const PathLimits limits;
     const PathChoice choice = choosePath(loaded.plan, options.path, limits);
     if (options.shader && choice.path == Path::pingPong)
@@ -25,12 +28,14 @@ int explainCommand(const Options& options) {
     if (options.json) {
         JsonValue report = explainJson(loaded.plan, choice, options.inPlace);
         if (found) report.add("calibration", asJson(*found));
+        if (cost) report.add("cost", asJson(*cost));
         std::cout << writeJson(report);
         return 0;
     }
     if (!options.shader) {
         std::cout << explain(loaded.plan, choice, options.inPlace);
         if (found) std::cout << "\n" << asText(*found);
+        if (cost) std::cout << "\n" << asText(*cost);
         return 0;
     }
     std::cout

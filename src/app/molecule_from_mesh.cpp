@@ -74,10 +74,10 @@ double round3(double value) {
 }
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double frame = 1.0 / 60;  // s
+constexpr double frameSeconds = 1.0 / 60;  // s
 
 int substeps(const Report& report) {
-    return int(std::max(1.0, std::ceil(frame / report.analysis.stableStepLeapfrog)));
+    return int(std::max(1.0, std::ceil(frameSeconds / report.analysis.stableStepLeapfrog)));
 }
 
 std::string asText(const Report& r) {

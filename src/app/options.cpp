@@ -266,6 +266,9 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
     addPath(*explain, options, texts);
     addContext(*explain, options, texts);
     explain->add_flag("--shader", options.shader, "Print the fused kernel of each group");
+    explain->add_flag("--cost", options.cost,
+                      "What each kernel moves and computes, and which of these bounds it on this device");
+    excludes(*explain, "--cost", {"--shader"});
     addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options, texts);
     addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options,
              texts.slice, texts.size);

@@ -46,6 +46,7 @@ struct Options : RunRequest {
     bool json = false;
     bool timings = false;  // time per pass
     bool shader = false;   // explain: print the kernels
+    bool cost = false;     // explain: what they cost on this device
     std::optional<int> frames;
     int width = 1280, height = 720;
     std::optional<double> scale;  // of the window's panels; nothing: as its screen asks for
@@ -77,7 +78,7 @@ struct Options : RunRequest {
     int molecules = 8;                     // of each group, whose error is measured
     bool fine = false;                     // steps by sqrt 2
     std::string csv;                       // a file
-    std::string report;                    // folder: the report scenes instead of a file
+    std::string report;                    // folder: the report scenes instead of a file; bench: a file
 
     // field (`only`, `capture`, `width` and `height` as above)
     struct Field {

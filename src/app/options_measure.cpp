@@ -39,7 +39,14 @@ void checkMeasure(const Options& options) {
 
 // Turns the word behind `bench` into a command of its own.
 void finishBench(Options& options) {
-    if (options.command != benchCommand || options.benchOf.empty()) return;
+    if (options.command != benchCommand) return;
+    if (!options.report.empty()) {
+        if (!options.benchOf.empty())
+            throw Error(
+                concat("--report is of bench without a word: leave out \"", options.benchOf, "\", or it"));
+        options.command = benchDeviceCommand;
+    }
+    if (options.benchOf.empty()) return;
     const std::string& word = options.benchOf;
     const auto found = std::find(benchWords.begin(), benchWords.end(), word);
     const std::string near = nearest(word, benchWords);
@@ -101,6 +108,12 @@ void addBench(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--only", options.only, "Only cases with this in their name, such as \"fish\"");
     addFile(command, "--plot", options.plot, "Time per molecule against their number (.svg or .png)")
         ->group(reports);
+    addFile(
+        command, "--report", options.report,
+        "Everything about this device into one JSON file, unattended: whether it computes and draws what it "
+        "should, and how fast; about five minutes")
+        ->group(reports);
+    excludes(command, "--report", {"--json", "--plot"});
 }
 
 void addMeasure(CLI::App& command, Options& options, Texts& texts) {

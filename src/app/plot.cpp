@@ -44,7 +44,7 @@ std::string contents(int file) {
 int runGnuplot(const std::string& program, const std::string& script, int output, std::string& log) {
     const int input = memoryFile("gnuplot's script"), messages = memoryFile("gnuplot's messages");
     for (size_t done = 0; done < script.size();) {
-        const ssize_t part = write(input, script.data() + done, script.size() - done);
+        const ssize_t part = ::write(input, script.data() + done, script.size() - done);
         if (part <= 0) throw Error("cannot write gnuplot's script");
         done += size_t(part);
     }

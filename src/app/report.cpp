@@ -16,6 +16,16 @@ std::string tableRow(const std::vector<std::string>& cells, std::span<const int>
     return out.substr(0, out.find_last_not_of(' ') + 1) + "\n";
 }
 
+void appendDeviceTime(JsonValue& out, const measure::Spread& device) {
+    std::optional<double> min, median;
+    if (device.samples > 0) min = device.min, median = device.median;
+    append(out, key("deviceMinSeconds", min), key("deviceMedianSeconds", median));
+}
+
+std::string deviceMilliseconds(const measure::Spread& device) {
+    return device.samples > 0 ? formatted("%.3f", device.min * 1e3) : "-";
+}
+
 std::string processorName() {
     std::ifstream file("/proc/cpuinfo");
     for (std::string line; std::getline(file, line);) {

@@ -16,6 +16,10 @@ namespace shoal::app {
 // cells that begin to the left.
 std::string tableRow(const std::vector<std::string>& cells, std::span<const int> widths);
 
+// The device's own time of a case (bench/bench.h): its two keys, null without samples; and in ms, or "-".
+void appendDeviceTime(JsonValue& out, const measure::Spread& device);
+std::string deviceMilliseconds(const measure::Spread& device);
+
 // ---- The machine
 
 std::string processorName();

@@ -28,8 +28,12 @@ namespace shoal::bench {
 
 struct BenchResult {
     BenchCase one;
-    std::string leftOut;         // why it was not measured; empty: it was
-    measure::Spread frame = {};  // s
+    std::string leftOut = {};    // why it was not measured; empty: it was
+    std::string failed = {};     // the words of an error, where BenchDevice::goesOn; empty: none
+    bool mayFail = false;        // BenchDevice::goesOn
+    measure::Spread frame = {};  // s, wall time
+    // s, the device's own time of the same frames (gpu/pass_timers.h); no samples: a processor runs it.
+    measure::Spread device = {};
     int framesPerSample = 1;
     size_t stateBytes = 0, movedBytes = 0;  // BenchRunner's
     double operations = 0;                  // BenchRunner's
@@ -59,7 +63,7 @@ std::vector<std::vector<Case>> byGroup(const std::vector<Case>& cases) {
 
 // Measures in turn what is not left out. make(result) gives a pointer to what measures it: it has warmUp(),
 // the seconds of a visit after that, visit(), and finish(), which writes the times into the result. What the
-// device has no memory for is left out.
+// device has no memory for is left out; what fails ends all, but where the result may fail alone.
 template <typename Result, typename Make>
 void measureInTurn(std::vector<Result>& results, const measure::Schedule& schedule,
                    const BenchProgress& progress, const Make& make) {
@@ -69,14 +73,21 @@ void measureInTurn(std::vector<Result>& results, const measure::Schedule& schedu
         progress(0);
         if (!result.leftOut.empty()) continue;
         try {
-            entrants.push_back(make(result));
+            auto entrant = make(result);
+            measure::pinRasteriserThreads();
+            entrant->warmUp();
+            cost.push_back(entrant->seconds);
+            entrants.push_back(std::move(entrant));
         } catch (const gpu::OutOfMemory& error) {
             result.leftOut = error.message();
-            continue;
+        } catch (const Error& error) {
+            if constexpr (requires { result.failed; })
+                if (result.mayFail) {
+                    result.failed = error.what();
+                    continue;
+                }
+            throw;
         }
-        measure::pinRasteriserThreads();
-        entrants.back()->warmUp();
-        cost.push_back(entrants.back()->seconds);
     }
     const measure::VisitPlan plan = measure::planVisits(cost, schedule);
     double done = 0;
@@ -196,7 +207,8 @@ Scene schoolScene(const SchoolCase& one, const Molecule& fry);
 
 struct SchoolTimes {
     SchoolCase one;
-    measure::Spread frame;                                    // s
+    measure::Spread frame;                                    // s, wall time
+    measure::Spread device = {};                              // s, as BenchResult's
     double perFish() const { return frame.min / one.count; }  // s
 };
 

@@ -146,6 +146,10 @@ bool needsCompute(Subject subject) {
 bool isBullet(Subject subject) {
     return subject == Subject::bulletBodies || subject == Subject::bulletMerged;
 }
+bool isOnDevice(Subject subject) {
+    return isPath(subject) || subject == Subject::bufferCopy || subject == Subject::kernelCopy ||
+           subject == Subject::multiplyAdd;
+}
 Simd simdOf(Subject subject) {
     EXPECTS(isBaseline(subject));
     return subject == Subject::avx512 ? Simd::avx512 : subject == Subject::avx2 ? Simd::avx2 : Simd::scalar;

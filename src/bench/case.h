@@ -35,6 +35,7 @@ bool isBaseline(Subject subject);   // AVX-512, AVX2 or scalar
 bool isCopy(Subject subject);       // moves the state and does nothing else
 Simd simdOf(Subject subject);       // of a baseline
 bool isBullet(Subject subject);
+bool isOnDevice(Subject subject);    // else the processor itself does the work
 bool needsCompute(Subject subject);  // OpenGL 4.3
 
 enum class Wind {

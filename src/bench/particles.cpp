@@ -193,7 +193,8 @@ class ParticleEntrant {
                     const BenchDevice& device)
         : result_(result),
           runner_(makeParticleRunner(result.one, point, quad, device)),
-          context_(*device.context) {
+          context_(*device.context),
+          ownTimes_(device.ownTimes && result.one.what != What::cpuLoop) {
         result.movedBytes = runner_->movedBytes;
         result.error = positionError(result.one, point, device);
         if (result.one.allocator) steps_ = dynamic_cast<const StepRunner*>(runner_.get());
@@ -208,6 +209,7 @@ class ParticleEntrant {
         if (samples_.back() < slowFrameSeconds) frames_ = framesTimed;
         seconds = measure::secondsOf([&] { visit(); });
         samples_.clear();
+        device_.clear();
         packing_.clear();
         timedFrames_ = 0;
         moved_ = {};
@@ -222,6 +224,7 @@ class ParticleEntrant {
         moved_ +=
             double(crossed.total(gpu::Traffic::Kind::state) + crossed.total(gpu::Traffic::Kind::births));
         timedFrames_ += frames_;
+        if (ownTimes_) device_.push_back(timer_.secondsOf([&] { runner_->frame(); }));
         if (!steps_) return;
         const LifeCounts counts = steps_->simulation().lifeCounts(0);
         result_.live = counts.live;
@@ -230,6 +233,7 @@ class ParticleEntrant {
 
     void finish() {
         result_.frame = measure::spreadOf(samples_);
+        result_.device = measure::spreadOf(device_);
         result_.busBytes = moved_ / std::max(1, timedFrames_);
         if (!steps_) return;
         const LifeCounts counts = steps_->simulation().lifeCounts(0);
@@ -249,7 +253,9 @@ class ParticleEntrant {
     LifeCounts before_;
     int frames_ = 1, timedFrames_ = 0, framesAtStart_ = 0;
     double moved_ = 0;
-    std::vector<double> samples_, packing_;
+    bool ownTimes_;
+    gpu::DeviceTimer timer_;
+    std::vector<double> samples_, device_, packing_;
 };
 
 // Returns the position t s after the start, exactly, under constant force and drag.

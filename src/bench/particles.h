@@ -52,7 +52,8 @@ Scene particleScene(const ParticleCase& one, const Molecule& point, const Molecu
 struct ParticleTimes {
     ParticleCase one;
     std::string leftOut;               // why it was not measured; empty: it was
-    measure::Spread frame = {};        // s
+    measure::Spread frame = {};        // s, wall time
+    measure::Spread device = {};       // s, as BenchResult's
     size_t movedBytes = 0;             // read and written in a frame, at the least; 0: not known
     double busBytes = 0;               // of state and places, a frame
     std::optional<double> error = {};  // m: see positionError

@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "bench/baseline_threads.h"
+#include "compile/cost.h"
 #include "compile/pack.h"
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
@@ -207,24 +208,16 @@ double lastOf(const gpu::PassTimers& timers, const char* pass) {
 }
 
 size_t fusedBytesPerFrame(const Plan& plan, bool drawn) {
-    size_t elements = 0;
-    for (const GroupPlan& group : plan.groups) {
-        const BufferLayout layout = group.layout();
-        const Needs& needs = group.needs;
-        const size_t state = 2 * size_t(layout.stateElements());
-        const size_t records = 1;  // read; written only when an anchor moves
-        const size_t normals = drawn && needs.normals ? size_t(layout.positionElements()) : 0;
-        const size_t constants = needs.scale || needs.phase ? 1 : 0;
-        elements += size_t(group.count) * (state + records + normals + constants);
-    }
-    return elements * sizeof(glm::vec4);
+    size_t out = 0;
+    for (const GroupPlan& group : plan.groups)
+        out += size_t(group.count) * bytesPerMolecule(group, drawn);
+    return out;
 }
 
-// A spring: 35 of them, its root counted as one; a vertex: drag and gravity 6, moving 6, the distance from
-// the ground 6.
 double operationsPerFrame(const BenchCase& one, const Molecule& molecule) {
     if (one.solver != SolverKind::euler || one.wind != Wind::uniform) return 0;
-    const double substep = 35.0 * double(molecule.springs.size()) + 18.0 * double(molecule.vertices.size());
+    const double substep = springOperations * double(molecule.springs.size()) +
+                           (motionOperations + planeOperations) * double(molecule.vertices.size());
     return substep * one.substeps * one.count;
 }
 

@@ -33,6 +33,8 @@ struct BenchDevice {
     DrawMaker makeDraw = {};      // null: cases with a picture are left out
     int cores = 1;                // threads of the baselines
     BulletMaker makeBullet = {};  // null: its cases are left out
+    bool goesOn = false;          // what the driver refuses is the failure of a case, not the end
+    bool ownTimes = false;        // the device's own times are asked for as well; not of a CPU rasteriser
 };
 
 // Where all cases of one molecule and count begin: some way into the fall, so that there are contacts.

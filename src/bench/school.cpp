@@ -15,7 +15,8 @@ class SchoolEntrant {
     SchoolEntrant(const SchoolCase& one, const Molecule& fry, const BenchDevice& device)
         : one_(one),
           simulation_(*device.context, device.shaderRoot, compile(schoolScene(one, fry)),
-                      {.drawn = false, .path = one.path, .cache = device.cache}) {}
+                      {.drawn = false, .path = one.path, .cache = device.cache}),
+          ownTimes_(device.ownTimes) {}
 
     // Half a second, by which they are in motion; then what a visit costs.
     void warmUp() {
@@ -23,11 +24,13 @@ class SchoolEntrant {
         visit();
         seconds = samples_.back() * frames;
         samples_.clear();
+        device_.clear();
     }
     void visit() {
         samples_.push_back(measure::secondsOf([&] { run(frames); }) / frames);
+        if (ownTimes_) device_.push_back(timer_.secondsOf([&] { simulation_.frame(); }));
     }
-    SchoolTimes finish() const { return {one_, measure::spreadOf(samples_)}; }
+    SchoolTimes finish() const { return {one_, measure::spreadOf(samples_), measure::spreadOf(device_)}; }
 
     double seconds = 0;  // of a visit
 
@@ -40,7 +43,9 @@ class SchoolEntrant {
     }
     SchoolCase one_;
     Simulation simulation_;
-    std::vector<double> samples_;
+    bool ownTimes_;
+    gpu::DeviceTimer timer_;
+    std::vector<double> samples_, device_;
 };
 
 }  // namespace

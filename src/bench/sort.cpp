@@ -19,6 +19,7 @@ class SortRunner {
     virtual ~SortRunner() = default;
     virtual void restart() = 0;
     virtual void run() = 0;
+    virtual void finish() { glFinish(); }
     virtual bool isSorted() = 0;
     int passes = 0;
 };
@@ -51,7 +52,6 @@ class DeviceSort final : public SortRunner {
             sorter_.sortRows();
         else
             sorter_.sort();
-        glFinish();
     }
     bool isSorted() override {
         const KeyPairs out = sorter_.download();
@@ -77,6 +77,7 @@ class StdSort final : public SortRunner {
                        [](const KeyIndex& pair) { return uint64_t(pair.key) << 32 | pair.index; });
     }
     void run() override { std::sort(pairs_.begin(), pairs_.end()); }
+    void finish() override {}
     bool isSorted() override { return std::is_sorted(pairs_.begin(), pairs_.end()); }
 
   private:
@@ -90,10 +91,7 @@ class PairCopy : public SortRunner {
         : from_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copied"),
           to_(*device.context, gpu::Buffer::Use::storage, std::span<const KeyIndex>(input), "copy") {}
     void restart() override {}
-    void run() override {
-        from_.copyTo(to_, to_.bytes());
-        glFinish();
-    }
+    void run() override { from_.copyTo(to_, to_.bytes()); }
     bool isSorted() override { return true; }
 
   private:
@@ -103,14 +101,14 @@ class PairCopy : public SortRunner {
 struct Running {
     SortTime time;
     std::unique_ptr<SortRunner> runner;
-    std::vector<double> seconds;
+    std::vector<double> seconds, device;
 };
 
 std::vector<Running> runnersOf(int side, const BenchDevice& device, const KeyPairs& input) {
     std::vector<Running> out;
     const auto add = [&](SortTime time, std::unique_ptr<SortRunner> runner) {
         if (runner) time.passes = runner->passes;
-        out.push_back({std::move(time), std::move(runner), {}});
+        out.push_back({std::move(time), std::move(runner), {}, {}});
     };
     const gpu::ContextInfo& info = device.context->info();
     for (const SortMethodRow& method : sortMethods()) {
@@ -147,6 +145,7 @@ std::vector<double> costs(std::vector<Running>& all) {
         out.push_back(measure::secondsOf([&] {
             one.runner->restart();
             one.runner->run();
+            one.runner->finish();
         }));
     }
     return out;
@@ -176,15 +175,23 @@ std::vector<KeyIndex> randomKeys(size_t count, uint32_t mask) {
 SortTable measureSorts(int side, const BenchDevice& device, const measure::Schedule& schedule) {
     const KeyPairs input = randomKeys(size_t(side) * size_t(side));
     std::vector<Running> all = runnersOf(side, device, input);
+    gpu::DeviceTimer timer;
     measure::takeTurns(measure::planVisits(costs(all), schedule), [&](size_t i) {
         if (!all[i].runner) return;
         all[i].runner->restart();
-        all[i].seconds.push_back(measure::secondsOf([&] { all[i].runner->run(); }));
+        all[i].seconds.push_back(measure::secondsOf([&] {
+            all[i].runner->run();
+            all[i].runner->finish();
+        }));
+        if (!device.ownTimes || all[i].time.name.starts_with("std::sort")) return;
+        all[i].runner->restart();
+        all[i].device.push_back(timer.secondsOf([&] { all[i].runner->run(); }));
     });
     SortTable out;
     out.side = side;
     for (Running& one : all) {
         one.time.seconds = measure::spreadOf(std::move(one.seconds));
+        one.time.device = measure::spreadOf(std::move(one.device));
         out.times.push_back(std::move(one.time));
     }
     return out;

@@ -24,7 +24,8 @@ struct SortTime {
     bool copy = false;             // of the pairs, once, by the device
     int passes = 0;                // over the pairs; 0: not of passes
     std::string leftOut = {};      // why it was not measured; empty: it was
-    measure::Spread seconds = {};  // of one sort
+    measure::Spread seconds = {};  // of one sort, wall time
+    measure::Spread device = {};   // s, the device's own time of one
 };
 
 struct SortTable {

@@ -99,6 +99,9 @@ std::string CallWriter::argument(const GlslCall::Argument& one, std::optional<bo
         one.append(*samples_);
         return concat(base);
     }
+    case Kind::tile:
+        if (std::find(tiles.begin(), tiles.end(), one.tile) == tiles.end()) tiles.push_back(one.tile);
+        return one.tile.sampler();
     case Kind::call:
         return text(one.inner.front(), far);
     }

@@ -65,6 +65,7 @@ class CallWriter : private NumberLayout {
     std::string number(double value) { return textOf(put({value, 0, 0, 0}, 1)); }
 
     std::vector<ClockSlot> clocks;
+    std::vector<NoiseTile> tiles;  // that calls read, each once
     std::string cell;  // text of the cell of the call that has one
 
   private:

@@ -15,12 +15,6 @@ const char* when(PassPlan::When moment) {
     return words[size_t(moment)];
 }
 
-std::string mebibytes(size_t bytes) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(2) << double(bytes) / (1 << 20) << " MiB";
-    return out.str();
-}
-
 }  // namespace
 
 static void listPasses(std::ostringstream& out, const Plan& plan, size_t g) {

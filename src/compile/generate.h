@@ -23,13 +23,16 @@ struct Generated {
 struct GeneratedFields : Generated {
     std::vector<size_t> weights;  // of each field: the parameter whose w is its weight
     std::vector<ClockSlot> clocks;
+    std::vector<NoiseTile> noiseTiles;
 };
 
 // vec3 fluidVelocity(vec3 anchor, vec3 position, float time), m/s, without the wind factor; time: since the
 // frame's start.
 GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm::vec4>& samples);
-// Describes each grid among the fields in a line for people, with the memory that its samples take.
-std::vector<std::string> describeGrids(const std::vector<Field>& fields);
+// Describes each grid among the fields, and each tile of noise, in a line for people, with the memory that it
+// takes.
+std::vector<std::string> describeGrids(const std::vector<Field>& fields,
+                                       const std::vector<NoiseTile>& noiseTiles);
 // 4-vectors of uniforms that fields, and colliders, may each take: within what OpenGL 3.3 promises a fragment
 // shader (1024 components), with room for the passes' own.
 constexpr size_t maxParameters = 200;

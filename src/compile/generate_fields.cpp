@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iomanip>
 #include <sstream>
 
 #include "compile/call_writer.h"
@@ -29,15 +28,20 @@ GeneratedFields generateFields(const std::vector<Field>& fields, std::vector<glm
     out.parameters = std::move(writer.parameters);
     out.clocks = std::move(writer.clocks);
     setClocks(out.parameters, out.clocks, 0);
+    out.noiseTiles = std::move(writer.tiles);
+    std::string tiles = out.noiseTiles.empty() ? "" : "#include \"state/noise_tile.glsl\"\n";
+    for (const NoiseTile& tile : out.noiseTiles)
+        tiles += concat("uniform sampler3D ", tile.sampler(), ";\n");
     out.source =
-        concat("#include \"physics/field.glsl\"\n#include \"state/samples.glsl\"\n",
+        concat("#include \"physics/field.glsl\"\n#include \"state/samples.glsl\"\n", tiles,
                parameterArray("fieldParameters", out.parameters.size()),
                "vec3 fluidVelocity(vec3 anchor, vec3 position, float time)\n{\n    vec3 u = vec3(0.0);\n",
                out.source, "    return u;\n}\n");
     return out;
 }
 
-std::vector<std::string> describeGrids(const std::vector<Field>& fields) {
+std::vector<std::string> describeGrids(const std::vector<Field>& fields,
+                                       const std::vector<NoiseTile>& noiseTiles) {
     std::vector<std::string> out;
     for (const Field& field : fields) {
         const GridField* grid = std::get_if<GridField>(&*field.shape);
@@ -48,10 +52,14 @@ std::vector<std::string> describeGrids(const std::vector<Field>& fields) {
         if (!grid->times.empty())
             line << ", " << grid->times.size() << " frames from " << grid->times.front() << " to "
                  << grid->times.back() << " s" << (grid->repeats ? ", again and again" : "");
-        line << ": " << std::fixed << std::setprecision(2)
-             << double(grid->values.size() * sizeof(glm::vec4)) / (1 << 20) << " MiB";
+        line << ": " << mebibytes(grid->values.size() * sizeof(glm::vec4));
         out.push_back(line.str());
     }
+    for (const NoiseTile& tile : noiseTiles)
+        out.push_back(concat("tile of ", tile.octaves > 0 ? "curl noise" : "gusts",
+                             tile.octaves > 1 ? concat(" of ", tile.octaves, " octaves") : "", ", ",
+                             tile.texels.x, " x ", tile.texels.y, " x ", tile.texels.z, ": ",
+                             mebibytes(tile.bytes())));
     return out;
 }
 

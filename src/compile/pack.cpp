@@ -73,34 +73,40 @@ double lifeOf(const glm::dvec2& life, uint32_t seed) {
     return glm::mix(life.x, life.y, double(hash(seed, bornLife) >> 8) / 16777216.0);
 }
 
+// Sets molecule m of the start state to where it is placed.
+static void packOne(const Group& source, const Instance& instance, size_t m, GroupPlan& group) {
+    GroupState& start = group.start;
+    const auto arm = [&](const Vertex& vertex) {
+        return instance.rotation * (instance.scale * vertex.position);
+    };
+    const glm::dvec3 anchor = latticePoint(instance.position + arm(source.molecule.vertices[0]));
+    size_t i = m * source.molecule.vertices.size();
+    for (const Vertex& vertex : source.molecule.vertices) {
+        const glm::dvec3 offset = arm(vertex);
+        const bool still = group.needs.pins && vertex.pinned;
+        start.positions[i] = instance.position + offset - anchor;
+        start.velocities[i++] = still ? glm::dvec3(0) : source.velocity + glm::cross(source.spin, offset);
+    }
+    start.anchors[m] = anchor;
+    group.constants.seeds[m] = instance.seed >> 8;
+    group.constants.scales[m] = float(instance.scale);
+    group.constants.phases[m] = float(source.phaseSpread * double(instance.seed & 0xffff) / 65536);
+}
+
 void packStart(const Scene& scene, GroupPlan& group) {
     const Group& source = scene.groups[group.index];
     GroupState& start = group.start;
-    const size_t molecules = size_t(group.count), vertices = molecules * size_t(group.vertexCount);
-    start.positions.reserve(vertices);
-    start.velocities.reserve(vertices);
-    start.anchors.reserve(molecules);
-    start.released.assign(molecules, 0);
-    const std::vector<Instance> instances =
-        source.count > 0 ? place(scene, group.index) : std::vector<Instance>{};
-    for (const Instance& instance : instances) {
-        const auto arm = [&](const Vertex& vertex) {
-            return instance.rotation * (instance.scale * vertex.position);
-        };
-        const glm::dvec3 anchor = latticePoint(instance.position + arm(source.molecule.vertices[0]));
-        for (const Vertex& vertex : source.molecule.vertices) {
-            const glm::dvec3 offset = arm(vertex);
-            const bool still = group.needs.pins && vertex.pinned;
-            const glm::dvec3 velocity =
-                still ? glm::dvec3(0) : source.velocity + glm::cross(source.spin, offset);
-            start.positions.emplace_back(instance.position + offset - anchor);
-            start.velocities.emplace_back(velocity);
-        }
-        start.anchors.emplace_back(anchor);
-        group.constants.seeds.push_back(instance.seed >> 8);
-        group.constants.scales.push_back(float(instance.scale));
-        group.constants.phases.push_back(float(source.phaseSpread * double(instance.seed & 0xffff) / 65536));
-    }
+    const size_t placed = size_t(source.count), vertices = placed * size_t(group.vertexCount);
+    start.positions.resize(vertices);
+    start.velocities.resize(vertices);
+    start.anchors.resize(placed);
+    start.released.assign(size_t(group.count), 0);
+    group.constants.seeds.resize(placed);
+    group.constants.scales.resize(placed);
+    group.constants.phases.resize(placed);
+    if (placed > 0)
+        forEachInstance(scene, group.index,
+                        [&](size_t m, const Instance& instance) { packOne(source, instance, m, group); });
     if (group.needs.life) packLives(source, group);
     if (group.needs.steers) start.steering = unsteered(size_t(group.count));
     const auto differs = [](const std::vector<float>& values, float from) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
@@ -10,6 +11,7 @@
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "core/random.h"
 #include "scene/field_kinds.h"
 #include "scene/force_kinds.h"
@@ -107,9 +109,10 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     return out;
 }
 
-// Placing takes memory here before any device is asked.
+// Placing takes memory here before any device is asked: of a molecule its record and constants, of a vertex
+// its position and velocity.
 void checkCount(const Scene& scene, size_t index, const Plan& plan) {
-    constexpr int64_t most = int64_t(1) << 27;  // vertices: 3 GiB of start state
+    constexpr int64_t most = std::numeric_limits<int>::max();  // vertices, which are counted in int
     int64_t before = 0;
     for (const GroupPlan& group : plan.groups)
         before += int64_t(group.count) * group.vertexCount;
@@ -117,12 +120,19 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     const int64_t count = placesOf(group);
     if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
-    if (before + count * vertices <= most) return;
-    throw Error(group.location,
-                concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
-                       before > 0 ? ", beside the groups before," : "", " are more than the ", most,
-                       " vertices that a scene may have: at most ", (most - before) / vertices,
-                       " such molecules fit"));
+    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13;
+    const int64_t fit = (most - before) / vertices, held = availableMemory() / each;
+    const auto refuse = [&](const std::string& why, int64_t fitting) {
+        throw Error(group.location,
+                    concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
+                           before > 0 ? ", beside the groups before," : "", why, ": at most ", fitting,
+                           " such molecules fit"));
+    };
+    if (count > fit) refuse(concat(" are more than the ", most, " vertices that a scene may have"), fit);
+    if (count > held)
+        refuse(concat(" take ", (count * each) >> 20, " MiB to start; ", availableMemory() >> 20,
+                      " MiB of memory are free"),
+               held);
 }
 
 // The allocators on the CPU know of no death but of age.
@@ -298,7 +308,10 @@ bool Plan::hasLife() const {
 }
 
 size_t Plan::tableBytes() const {
-    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4);
+    size_t tiles = 0;
+    for (const NoiseTile& tile : noiseTiles)
+        tiles += tile.bytes();
+    return size_t(topologyRows + sampleRows) * stateWidth * sizeof(glm::vec4) + tiles;
 }
 
 Plan compile(const Scene& scene, const CompileOptions& options) {
@@ -359,7 +372,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     });
     if (any(&Needs::fields)) {
         fields = generateFields(scene.fields, plan.samples);
-        plan.grids = describeGrids(scene.fields);
+        plan.grids = describeGrids(scene.fields, fields.noiseTiles);
     }
     if (any(&Needs::collide) || any(&Needs::avoids))
         colliders = generateColliders(scene.colliders, plan.samples);
@@ -378,6 +391,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldParameters = std::move(fields.parameters);
     plan.fieldWeights = std::move(fields.weights);
     plan.fieldClocks = std::move(fields.clocks);
+    plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)

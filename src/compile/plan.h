@@ -126,12 +126,13 @@ struct Plan {
     bool longFields = false;  // noise, grids or many waves: too much text to repeat for every vertex
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
-    std::vector<std::string> grids;  // what each field's grid takes of them, for people
+    std::vector<NoiseTile> noiseTiles;  // that fields read
+    std::vector<std::string> grids;     // what each field's grid and each tile takes, for people
 
     std::vector<Warning> warnings;
 
     bool hasLife() const;       // in some group some are born or die
-    size_t tableBytes() const;  // topology and samples
+    size_t tableBytes() const;  // topology, samples and tiles
 };
 
 struct CompileOptions {

@@ -111,4 +111,8 @@ void contractBroken(const char* file, int line, const char* condition) {
     std::abort();
 }
 
+std::string mebibytes(size_t bytes) {
+    return formatted("%.2f MiB", double(bytes) / (1 << 20));
+}
+
 }  // namespace shoal

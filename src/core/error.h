@@ -45,6 +45,7 @@ std::string joined(const std::vector<std::string>& texts, std::string_view betwe
 
 // Puts its arguments into a format of std::printf.
 [[gnu::format(printf, 1, 2)]] std::string formatted(const char* format, ...);
+std::string mebibytes(size_t bytes);  // "1.50 MiB"
 
 // what() is "file:line:column: message (at $.json.path)".
 class Error : public std::runtime_error {

@@ -251,6 +251,16 @@ void Context::checkErrors(const char* where) {
     if (!found.empty()) throw Error(concat("OpenGL reports ", found, " (", where, ")"));
 }
 
+void Context::checkAlive() const {
+    if (!info().atLeast(4, 5) || glGetGraphicsResetStatus == nullptr) return;
+    const GLenum status = glGetGraphicsResetStatus();
+    if (status == GL_NO_ERROR) return;
+    throw DeviceLost(concat("the device was lost: the driver reset it",
+                            status == GL_GUILTY_CONTEXT_RESET     ? ", for what this program did"
+                            : status == GL_INNOCENT_CONTEXT_RESET ? ", for what another program did"
+                                                                  : ""));
+}
+
 std::vector<ContextProbe> probeContexts() {
     Context::State* before = currentState;
     std::vector<ContextProbe> out;

@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "core/error.h"
+
 struct GLFWwindow;
 
 namespace shoal::gpu {
@@ -55,6 +57,11 @@ inline Traffic operator-(const Traffic& after, const Traffic& before) {
     return difference;
 }
 
+// The device is gone, and all that it held: nothing that follows means anything.
+class DeviceLost : public Error {
+    using Error::Error;
+};
+
 class Platform;
 
 enum class ContextKind { automatic, window, egl, osmesa };
@@ -72,6 +79,7 @@ struct ContextOptions {
     bool visible = true;        // window: shown at once
     bool preferWindow = false;  // automatic: a window where there is a display, else headless
     bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
+    bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
 };
 
 struct ContextInfo {
@@ -118,6 +126,9 @@ class Context {
     GLFWwindow* window() const;  // null unless this is a window
     // Error: OpenGL reports a mistake since the last call; `where` names the work that was done.
     void checkErrors(const char* where);
+    // DeviceLost: the driver has reset the device since the context was made. Below OpenGL 4.5, and where the
+    // driver does not tell, nothing.
+    void checkAlive() const;
 
     // On the heap, so that whoever borrows it need not care where the Context has moved.
     struct State {

@@ -117,12 +117,12 @@ struct Candidate {
 
 class EglPlatform final : public Platform {
   public:
-    EglPlatform(const Candidate& candidate, bool debug)
+    EglPlatform(const Candidate& candidate, const ContextOptions& options)
         : display_(initialised(candidate.display)), description_(candidate.description) {
         if (egl().bindApi(EGL_OPENGL_API) != EGL_TRUE) throw Error("has no desktop OpenGL, " + errorText());
         const EGLConfig config = chooseConfig();
         try {
-            createContext(config, debug);
+            createContext(config, options);
             if (!displayHas(display_, "EGL_KHR_surfaceless_context")) createSurface(config);
             makeCurrent();
         } catch (...) {
@@ -163,8 +163,15 @@ class EglPlatform final : public Platform {
         throw Error("has no configuration for desktop OpenGL");
     }
 
-    void createContext(EGLConfig config, bool debug) {
+    // Drivers may refuse a context because it should tell of resets.
+    void createContext(EGLConfig config, const ContextOptions& options) {
         std::string reason;
+        for (const bool tellsLoss : {true, false})
+            if (!tellsLoss || options.tellsLoss)
+                if (createContext(config, options.debug, tellsLoss, reason)) return;
+        throw Error("makes no OpenGL context, " + reason);
+    }
+    bool createContext(EGLConfig config, bool debug, bool tellsLoss, std::string& reason) {
         for (const AskedVersion version : askedVersions) {
             std::vector<EGLint> attributes;
             if (!version.any()) {
@@ -175,12 +182,15 @@ class EglPlatform final : public Platform {
                     attributes.insert(attributes.end(),
                                       {EGL_CONTEXT_FLAGS_KHR, EGL_CONTEXT_OPENGL_DEBUG_BIT_KHR});
             }
+            if (tellsLoss)
+                attributes.insert(attributes.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_KHR,
+                                                     EGL_LOSE_CONTEXT_ON_RESET_KHR});
             attributes.push_back(EGL_NONE);
             context_ = egl().createContext(display_, config, EGL_NO_CONTEXT, attributes.data());
-            if (context_ != EGL_NO_CONTEXT) return;
+            if (context_ != EGL_NO_CONTEXT) return true;
             reason = errorText();
         }
-        throw Error("makes no OpenGL context, " + reason);
+        return false;
     }
 
     void createSurface(EGLConfig config) {
@@ -241,7 +251,7 @@ std::unique_ptr<Platform> createEglPlatform(const ContextOptions& options) {
         if (candidate.gpu && softwareWanted()) continue;
         if (software != nullptr) software->release();
         try {
-            auto platform = std::make_unique<EglPlatform>(candidate, options.debug);
+            auto platform = std::make_unique<EglPlatform>(candidate, options);
             if (!isSoftwareRenderer(platform->renderer())) return platform;
             platform->release();
             if (software == nullptr) software = std::move(platform);

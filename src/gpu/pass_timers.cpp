@@ -147,6 +147,13 @@ void PassTimers::record(const std::vector<Call>& calls) {
     }
 }
 
+double DeviceTimer::elapsed() const {
+    GLuint64 begin = 0, end = 0;
+    glGetQueryObjectui64v(begin_.id(), GL_QUERY_RESULT, &begin);
+    glGetQueryObjectui64v(end_.id(), GL_QUERY_RESULT, &end);
+    return double(end - begin) * 1e-9;
+}
+
 void PassTimers::drain() {
     EXPECTS(!inFrame_);
     while (collectOldest(true)) {

@@ -100,6 +100,27 @@ class PassTimers {
     int callsLastFrame_ = 0, windowStart_ = 0;
 };
 
+// The device's own time of what some calls ask of it, from two timestamps among its commands; waits for it.
+// For benchmarks: without what the processor takes to issue them, as far as the driver hands them over
+// together. On a CPU rasteriser the queries are not right.
+class DeviceTimer {
+  public:
+    DeviceTimer() : begin_(glGenQueries), end_(glGenQueries) {}
+    // Seconds.
+    template <typename Work>
+    double secondsOf(const Work& work) {
+        glQueryCounter(begin_.id(), GL_TIMESTAMP);
+        work();
+        glQueryCounter(end_.id(), GL_TIMESTAMP);
+        return elapsed();
+    }
+
+  private:
+    double elapsed() const;
+
+    Handle<deleteQuery> begin_, end_;
+};
+
 // A frame of the timers until the end of the block: ended also where a program is refused, which is made when
 // it is needed first.
 class TimedFrame {

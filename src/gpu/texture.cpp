@@ -25,6 +25,7 @@ constexpr FormatRow formatTable[] = {
     {Format::rg32ui, "rg32ui", GL_RG32UI, GL_RG_INTEGER, GL_UNSIGNED_INT, 8},
     {Format::r32ui, "r32ui", GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, 4},
     {Format::r32f, "r32f", GL_R32F, GL_RED, GL_FLOAT, 4},
+    {Format::rgb10a2, "rgb10a2", GL_RGB10_A2, GL_RGBA, GL_UNSIGNED_INT_2_10_10_10_REV, 4},
     {Format::depth24, "depth24", GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, 4},
     {Format::depth32f, "depth32f", GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, 4},
 };
@@ -155,6 +156,38 @@ void Texture::setShadowCompare() {
 void Texture::bind(int unit) const {
     glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
     glBindTexture(target(), id());
+}
+
+VolumeTexture::VolumeTexture(Context& context, Format format, const glm::ivec3& size,
+                             std::span<const std::byte> data, const char* label) {
+    const FormatRow& storage = row(format);
+    const size_t texels = size_t(size.x) * size_t(size.y) * size_t(size.z);
+    EXPECTS(texels > 0 && data.size() == texels * storage.bytes);
+    const std::string what =
+        concat("texture \"", label, "\" of ", size.x, " x ", size.y, " x ", size.z, " texels (",
+               double(data.size()) / (1 << 20), " MiB)");
+    const int largest = context.info().max3DTextureSize;
+    if (std::max({size.x, size.y, size.z}) > largest)
+        throw Error(concat(what, " is too large: this context allows ", largest, " a side"));
+    context.checkErrors("before a texture is made");
+    handle_ = Handle<deleteTexture>(glGenTextures);
+    glBindTexture(GL_TEXTURE_3D, id());
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTexImage3D(GL_TEXTURE_3D, 0, static_cast<GLint>(storage.internal), size.x, size.y, size.z, 0,
+                 storage.layout, storage.type, data.data());
+    if (glGetError() != GL_NO_ERROR) throw OutOfMemory(what + " does not fit into memory");
+    glTexParameteri(GL_TEXTURE_3D, GL_TEXTURE_MAX_LEVEL, 0);
+    for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        glTexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
+    for (const GLenum wrap : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        glTexParameteri(GL_TEXTURE_3D, wrap, GL_REPEAT);
+    labelObject(context, GL_TEXTURE, id(), label);
+    context.traffic().countUpload(Traffic::Kind::parameters, data.size());
+}
+
+void VolumeTexture::bind(int unit) const {
+    glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+    glBindTexture(GL_TEXTURE_3D, id());
 }
 
 }  // namespace shoal::gpu

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
+
+#include <glm/glm.hpp>
 
 #include "gpu/context.h"
 #include "gpu/gl.h"
@@ -12,10 +15,23 @@ namespace shoal::gpu {
 
 // Name, and what one texel is in memory when it is uploaded or read back:
 //   rgba32f   4 floats          rgba16f   4 half floats     rgba8, srgb8a8   4 bytes
+//   r32f      1 float           rgb10a2   3 numbers from 0 to 1 in units of 1/1023, 10 bits each
 //   rgba32ui  4 uint32          rg32ui    2 uint32          r32ui            1 uint32
 //   (these three are read through usampler2D)
-//   r32f      1 float           depth24   1 uint32 (0..2^32-1 is 0..1)      depth32f   1 float
-enum class Format { rgba32f, rgba16f, rgba8, srgb8a8, rgba32ui, rg32ui, r32ui, r32f, depth24, depth32f };
+//   depth24   1 uint32 (0..2^32-1 is 0..1)                  depth32f         1 float
+enum class Format {
+    rgba32f,
+    rgba16f,
+    rgba8,
+    srgb8a8,
+    rgba32ui,
+    rg32ui,
+    r32ui,
+    r32f,
+    rgb10a2,
+    depth24,
+    depth32f
+};
 
 size_t texelBytes(Format format);  // of the data, as above
 bool isDepth(Format format);
@@ -62,6 +78,23 @@ class Texture {
     Format format_ = Format::rgba8;
     int width_ = 0, height_ = 0, layers_ = 0;
     std::string label_;
+};
+
+// A three-dimensional texture that is written once, REPEAT and LINEAR.
+class VolumeTexture {
+  public:
+    VolumeTexture() = default;
+    // `data`: texelBytes(format) for each texel, x fastest. Counted as parameters. Error: larger than the
+    // context allows. OutOfMemory: says how much it would take.
+    VolumeTexture(Context& context, Format format, const glm::ivec3& size, std::span<const std::byte> data,
+                  const char* label);
+
+    void bind(int unit) const;
+    GLuint id() const { return handle_.id(); }
+    explicit operator bool() const { return bool(handle_); }
+
+  private:
+    Handle<deleteTexture> handle_;
 };
 
 }  // namespace shoal::gpu

@@ -1,6 +1,9 @@
 #include "reference/noise.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "scene/noise_tile.h"
 
 namespace shoal::reference {
 
@@ -108,6 +111,59 @@ Potential vectorPotential(const glm::dvec3& p, double t, uint32_t seed) {
 glm::dvec3 curlNoise(const glm::dvec3& p, double t, uint32_t seed) {
     const glm::dmat3 d = vectorPotential(p, t, seed).slope;
     return {d[1][2] - d[2][1], d[2][0] - d[0][2], d[0][1] - d[1][0]};
+}
+
+namespace {
+
+constexpr double partOfTile = 1.0 / 4294967296.0;
+
+// The tile's values at a place, in tiles.
+glm::dvec3 readTile(const NoiseTile& tile, const glm::dvec3& place) {
+    const std::vector<float>& values = valuesOf(tile);
+    glm::ivec3 low;
+    glm::dvec3 share;
+    for (int d = 0; d < 3; ++d) {
+        const double at = (place[d] - std::floor(place[d])) * tile.texels[d] - 0.5;
+        low[d] = int(std::floor(at));
+        share[d] = at - low[d];
+    }
+    glm::dvec3 sum(0);
+    for (int corner = 0; corner < 8; ++corner) {
+        double weight = 1;
+        size_t index = 0;
+        for (int d = 2; d >= 0; --d) {
+            const int upper = (corner >> d) & 1, count = tile.texels[d];
+            weight *= upper ? share[d] : 1 - share[d];
+            index = index * size_t(count) + size_t((low[d] + upper + count) % count);
+        }
+        for (int k = 0; k < tile.channels(); ++k)
+            sum[k] += weight * double(values[index * size_t(tile.channels()) + size_t(k)]);
+    }
+    return sum;
+}
+
+}  // namespace
+
+double gustFromTile(const glm::dvec3& p, uint32_t seed) {
+    const NoiseTile tile = noiseTile(0);
+    glm::dvec3 place = p / glm::dvec3(tile.cells);
+    place.y += gustShift[0] * partOfTile * place.x;
+    place.z += gustShift[1] * partOfTile * place.x;
+    return readTile(tile, place + glm::dvec3(tilePlace(0x9e3779b9u * seed)) * partOfTile).x;
+}
+
+glm::dvec3 curlFromTile(const glm::dvec3& p, double t, int octaves, uint32_t seed) {
+    const NoiseTile tile = noiseTile(octaves);
+    const double first = std::floor(t), w = quintic(t - first);
+    const auto moment = [&](double k) {
+        const uint32_t number = uint32_t(int64_t(k)) + 0x9e3779b9u * seed;
+        glm::dvec3 direction(number & 2 ? -1 : 1, number & 1 ? -1 : 1, 0);
+        direction.z = direction.x * direction.y;
+        const glm::dvec3 drifted = glm::normalize(direction) * (momentDrift(octaves) * (t - k));
+        return readTile(tile,
+                        (p - drifted) / glm::dvec3(tile.cells) + glm::dvec3(tilePlace(number)) * partOfTile);
+    };
+    return ((1 - w) * moment(first) + w * moment(first + 1)) / std::hypot(1 - w, w);
 }
 
 }  // namespace shoal::reference

@@ -30,4 +30,15 @@ Potential vectorPotential(const glm::dvec3& p, double t, uint32_t seed);
 // The potential's curl over p, free of divergence [Bridson 2007].
 glm::dvec3 curlNoise(const glm::dvec3& p, double t, uint32_t seed);
 
+// Noise by table (scene/noise_tile.h). The reference reads the same values as the shaders, each kind's tile in
+// double precision, joined linearly along each axis.
+//
+// A gust's n at p, in lengths along and widths across. The tile's pattern is moved across by `gustShift` for
+// each tile along.
+double gustFromTile(const glm::dvec3& p, uint32_t seed);
+// The velocity at p, in lengths, at t, in periods, where `speed` is 1. Moment k, at t = k, sees the tile from
+// tilePlace(k) on, and drifts. Between two moments their velocities have the parts 1 - w and w of Perlin's
+// quintic, divided by the root of the sum of their squares.
+glm::dvec3 curlFromTile(const glm::dvec3& p, double t, int octaves, uint32_t seed);
+
 }  // namespace shoal::reference

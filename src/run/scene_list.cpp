@@ -93,6 +93,13 @@ std::string needScene(const std::string& word) {
                        near.empty() ? "" : " (did you mean \"" + near + "\"?)", "; shoal scenes lists them"));
 }
 
+std::vector<std::pair<std::string, std::string>> shippedScenes() {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const std::string& file : filesBelow(modelFolder()))
+        out.emplace_back(nameBelow(modelFolder(), file), file);
+    return out;
+}
+
 std::string listOfScenes(const std::string& folder) {
     std::vector<std::pair<std::string, std::string>> rows;
     size_t width = 0;

@@ -20,6 +20,8 @@ std::vector<ListedScene> scenesBelow(const std::string& folder);
 std::optional<std::string> sceneFile(const std::string& word);
 // Returns the file as sceneFile() does. Error: there is none, with the nearest name.
 std::string needScene(const std::string& word);
+// The name on the command line and the file of each scene that ships.
+std::vector<std::pair<std::string, std::string>> shippedScenes();
 // A line for each scene below the folder: what to call it, and what it says of itself.
 std::string listOfScenes(const std::string& folder);
 

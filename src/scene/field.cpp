@@ -5,6 +5,7 @@
 
 #include "core/describe.h"
 #include "scene/field_files/field_file.h"
+#include "scene/noise_tile.h"
 
 namespace shoal {
 
@@ -45,6 +46,10 @@ GlslCalls OscillatingField::calls() const {
                 .clock({.rate = turn * frequency, .start = phase})};
 }
 
+static const std::vector<std::string> noiseForms = {"table", "computed"};
+static const Says saysNoise = {
+    "", "Whether the noise is read from a table that repeats, which is fast, or computed at every place."};
+
 const Description& describe(const GustField*) {
     using F = GustField;
     static const Description it =
@@ -59,7 +64,8 @@ const Description& describe(const GustField*) {
             .key("length", &F::length, {"m", "The size of a front along the direction.", aboveZero()})
             .key("width", &F::width, {"m", "The size of a front across the direction.", aboveZero()})
             .key("frontSpeed", &F::frontSpeed, {"m/s", "The speed of the fronts along the direction."})
-            .key("seed", &F::seed, {"", "The seed of the noise."});
+            .key("seed", &F::seed, {"", "The seed of the noise."})
+            .word("noise", &F::noise, noiseForms, saysNoise);
     return it;
 }
 
@@ -67,16 +73,32 @@ GlslCalls GustField::calls() const {
     const glm::dvec3 along = glm::normalize(direction);
     // an axis across: horizontal unless the wind blows vertically
     const glm::dvec3 up = std::abs(along.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    return {GlslCall("gustVelocity")
+    const glm::dvec3 across = glm::normalize(glm::cross(up, along));
+    if (noise == NoiseForm::computed)
+        return {GlslCall("gustVelocity")
+                    .place()
+                    .time()
+                    .vector(along)
+                    .vector(across)
+                    .number(speed)
+                    .number(strength)
+                    .number(frontSpeed)
+                    .pair({length, width})
+                    .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
+                    .text(concat(seed, "u"))};
+    const NoiseTile tile = noiseTile(0);
+    const double tileLength = length * tile.cells.x, tileWidth = width * tile.cells.y;
+    return {GlslCall("gustFromTile")
+                .tile(tile)
                 .place()
                 .time()
-                .vector(along)
-                .vector(glm::normalize(glm::cross(up, along)))
-                .number(speed)
-                .number(strength)
-                .number(frontSpeed)
-                .pair({length, width})
-                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / length})
+                .vector(along * speed)
+                .vector(along * speed * strength)
+                .vector(along / tileLength)
+                .vector(across / tileWidth)
+                .vector(glm::cross(along, across) / tileWidth)
+                .number(frontSpeed / tileLength)
+                .clock({.kind = FieldClock::Kind::cells, .rate = frontSpeed / tileLength})
                 .text(concat(seed, "u"))};
 }
 
@@ -193,20 +215,35 @@ const Description& describe(const CurlNoiseField*) {
                 "octaves", &F::octaves,
                 {"", "How many octaves it has, each of half the length and period and 2^(−1/3) of the speed.",
                  Range::between(1, 4)})
-            .key("seed", &F::seed, {"", "The seed of the noise."});
+            .key("seed", &F::seed, {"", "The seed of the noise."})
+            .word("noise", &F::noise, noiseForms, saysNoise);
     return it;
 }
 
 GlslCalls CurlNoiseField::calls() const {
-    return {GlslCall("curlNoiseVelocity")
+    const FieldClock clock{.kind = FieldClock::Kind::cells, .rate = 1 / period};
+    const std::string seedText = concat(seed, "u");
+    if (noise == NoiseForm::computed)
+        return {GlslCall("curlNoiseVelocity")
+                    .place()
+                    .time()
+                    .number(speed)
+                    .number(length)
+                    .number(period)
+                    .text(concat(octaves))
+                    .clock(clock)
+                    .text(seedText)};
+    const NoiseTile tile = noiseTile(octaves);
+    return {GlslCall("curlNoiseFromTile")
+                .tile(tile)
                 .place()
                 .time()
-                .number(speed)
-                .number(length)
-                .number(period)
-                .text(concat(octaves))
-                .clock({.kind = FieldClock::Kind::cells, .rate = 1 / period})
-                .text(concat(seed, "u"))};
+                .number(speed * tile.range / 511)
+                .number(1 / (length * tile.cells.x))
+                .number(1 / period)
+                .number(momentDrift(octaves) / std::numbers::sqrt3 / tile.cells.x)
+                .clock(clock)
+                .text(seedText)};
 }
 
 GlslCalls GridField::calls() const {

@@ -29,9 +29,15 @@ struct OscillatingField {
     GlslCalls calls() const;
 };
 
+// How a field has its noise.
+enum class NoiseForm {
+    table,     // read from a tile (scene/noise_tile.h)
+    computed,  // from its lattice, wherever it is asked for
+};
+
 // Direction constant, strength varied in space and time: fronts of size length x width travel along the
 // direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
-// octave, of mean 0 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
+// octave, of mean 0, standard deviation 0.257 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
 // width) with s along the direction and p, q across it: p along y x direction (x x direction where
 // |direction.y| >= 0.9), q along direction x p.
 struct GustField {
@@ -42,6 +48,7 @@ struct GustField {
     double width = 6;               // m, of a front across it
     double frontSpeed = 5;          // m/s
     uint32_t seed = 0;
+    NoiseForm noise = NoiseForm::table;
     GlslCalls calls() const;
 };
 
@@ -88,6 +95,7 @@ struct CurlNoiseField {
     double period = 2;  // s, in which they change
     int octaves = 1;    // 1 to 4, each half the length, period and 2^(-1/3) of the speed
     uint32_t seed = 0;
+    NoiseForm noise = NoiseForm::table;
     GlslCalls calls() const;
 };
 

@@ -13,6 +13,8 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include "scene/noise_tile.h"
+
 namespace shoal {
 
 // One 4-vector of parameters that is renewed at the start of a frame at time t:
@@ -32,13 +34,14 @@ class GlslCall {
   public:
     using Append = std::function<void(std::vector<glm::vec4>& table)>;
     struct Argument {
-        enum class Kind { from, apart, numbers, axis, cell, text, clock, samples, call };
+        enum class Kind { from, apart, numbers, axis, cell, text, clock, samples, tile, call };
         Kind kind;
         glm::dvec4 value{0};
         int count = 0;  // of the components that are a parameter's
         std::string text = {};
         FieldClock clock = {};
         Append append = {};
+        NoiseTile tile = {};
         std::vector<GlslCall> inner = {};
     };
     using Kind = Argument::Kind;
@@ -82,6 +85,8 @@ class GlslCall {
                 table.emplace_back(float(number), 0.0f, 0.0f, 0.0f);
         });
     }
+    // The texture of a tile of noise (sampler3D).
+    GlslCall& tile(const NoiseTile& tile) { return add({.kind = Kind::tile, .tile = tile}); }
     GlslCall& call(GlslCall inner) { return add({.kind = Kind::call, .inner = {std::move(inner)}}); }
 
     // The called function works along axes that are turned so; its surface is turned back.

@@ -10,6 +10,7 @@
 #include <numbers>
 
 #include "core/describe.h"
+#include "core/parallel.h"
 #include "core/random.h"
 #include "scene/json/reader.h"
 #include "scene/scene.h"
@@ -281,21 +282,31 @@ Instance orient(const Placement& place, const Host& host, Random& random) {
 
 }  // namespace
 
-std::vector<Instance> place(const Scene& scene, size_t group) {
+void forEachInstance(const Scene& scene, size_t group,
+                     const std::function<void(size_t, const Instance&)>& visit) {
     const Group& g = scene.groups.at(group);
     if (g.place.kind == Placement::Kind::list && g.place.items.empty())
         throw Error(g.location, "the list of places is empty, expected at least one item");
     const Hosts hosts(scene, group);
-    std::vector<Instance> instances;
-    instances.reserve(size_t(std::max(g.count, 0)));
-    for (size_t i = 0; i < size_t(std::max(g.count, 0)); ++i) {
-        const uint64_t stream = streamOf(scene.seed, group, i);
-        Random random(stream);
-        const Host host = hosts.at(i, random);
-        instances.push_back(orient(g.place, host, random));
-        instances.back().seed = static_cast<uint32_t>(mix(stream) >> 32);
-    }
-    return instances;
+    const size_t count = size_t(std::max(g.count, 0));
+    constexpr size_t piece = 1 << 14;
+    parallel(int((count + piece - 1) / piece), allThreads(), [&](int number) {
+        const size_t first = size_t(number) * piece;
+        for (size_t i = first; i < std::min(first + piece, count); ++i) {
+            const uint64_t stream = streamOf(scene.seed, group, i);
+            Random random(stream);
+            const Host host = hosts.at(i, random);
+            Instance instance = orient(g.place, host, random);
+            instance.seed = static_cast<uint32_t>(mix(stream) >> 32);
+            visit(i, instance);
+        }
+    });
+}
+
+std::vector<Instance> place(const Scene& scene, size_t group) {
+    std::vector<Instance> out(size_t(std::max(scene.groups.at(group).count, 0)));
+    forEachInstance(scene, group, [&](size_t i, const Instance& instance) { out[i] = instance; });
+    return out;
 }
 
 }  // namespace shoal

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -68,8 +69,10 @@ struct GroupContact {
     Location location;
 };
 
-// A group holds at most this many molecules: single precision counts them one by one no further.
-constexpr int maxGroupCount = 1 << 24;
+// A group holds at most this many molecules, if memory does.
+constexpr int maxGroupCount = 1 << 30;
+// Where molecules are born or die: single precision counts them one by one no further.
+constexpr int maxPlaces = 1 << 24;
 
 struct Group {
     std::string name;
@@ -198,8 +201,12 @@ struct Instance {
     uint32_t seed = 0;
 };
 
-// Deterministic in (scene.seed, the group's index): group.count instances.
-// Error (located at the group): nothing matches the selection.
+// Calls visit(i, instance) for each of the group.count instances, from several threads at once and in any
+// order. Instance i is deterministic in (scene.seed, the group's index, i). Error (located at the group):
+// nothing matches the selection.
+void forEachInstance(const Scene& scene, size_t group,
+                     const std::function<void(size_t, const Instance&)>& visit);
+// All of them in their order.
 std::vector<Instance> place(const Scene& scene, size_t group);
 
 }  // namespace shoal

@@ -101,6 +101,7 @@ void Births::bindBirths(const Living& living, std::vector<GroupBuffers>& state) 
     program.storage("Control", 6, lists_.control());
     if (program.uses("samples") && tables_->sampleTexels)
         program.texture("samples", 3, tables_->sampleTexels);
+    tables_->bindNoiseTiles(program, *plan_);
     int unit = 4;
     for (const DeathRun& run : living.deathRuns) {
         const GroupBuffers& source = state[run.source];

@@ -2,6 +2,7 @@
 
 #include "core/contract.h"
 #include "core/error.h"
+#include "core/memory.h"
 #include "gpu/program.h"
 
 #include <algorithm>
@@ -25,6 +26,18 @@ Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements
     }
 }
 
+// A CPU rasteriser takes its memory from the machine's, which grants more than there is and ends who uses it.
+void checkMemory(const gpu::Context& context, const GroupPlan& group, size_t elements) {
+    if (!context.info().software) return;
+    const auto each = int64_t(elements * sizeof(glm::vec4));
+    const int64_t free = availableMemory();
+    if (group.count <= free / each) return;
+    throw gpu::OutOfMemory(
+        group.location, concat(many(group.count, "molecule", "molecules"), " of \"", group.name, "\" take ",
+                               (group.count * each) >> 20, " MiB; ", free >> 20,
+                               " MiB of memory are free: at most ", free / each, " such molecules fit"));
+}
+
 }  // namespace
 
 GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool normals, bool inPlace,
@@ -33,11 +46,16 @@ GroupBuffers::GroupBuffers(gpu::Context& context, const GroupPlan& group, bool n
     const auto make = [&](Values values, const char* what) {
         return makeBuffer(context, group, molecules() * size_t(elements(values)), what);
     };
+    const bool constants = group.needs.scale || group.needs.phase;
+    size_t all = size_t(elements(Values::state)) * (inPlace ? 1 : 2) + 1 + (constants ? 1 : 0);
+    if (normals && group.needs.normals) all += size_t(elements(Values::normals));
+    if (group.needs.steers) all += size_t(steeringElements);
+    checkMemory(context, group, all);
     state_[0] = make(Values::state, "state");
     if (!inPlace) state_[1] = make(Values::state, "state");
     records_ = make(Values::records, "records");
     if (normals && group.needs.normals) normals_ = make(Values::normals, "normals");
-    if (group.needs.scale || group.needs.phase) {
+    if (constants) {
         constants_ = make(Values::constants, "constants");
         writeConstants(group);
     }
@@ -107,9 +125,10 @@ auto& GroupBuffers::bufferOf(Self& self, Values values) {
     return self.normals_;
 }
 
-void GroupBuffers::upload(Values values, const std::vector<glm::vec4>& packed) {
+void GroupBuffers::upload(Values values, size_t first, const std::vector<glm::vec4>& packed) {
     const auto kind = values == Values::constants ? Traffic::Kind::parameters : Traffic::Kind::state;
-    bufferOf(*this, values).update(kind, 0, packed.data(), packed.size() * sizeof(glm::vec4));
+    const size_t offset = first * size_t(elements(values)) * sizeof(glm::vec4);
+    bufferOf(*this, values).update(kind, offset, packed.data(), packed.size() * sizeof(glm::vec4));
 }
 
 std::vector<glm::vec4> GroupBuffers::download(Values values) const {

@@ -62,7 +62,7 @@ class GroupBuffers : public PackedState {
     bool hasSteering() const override { return bool(steering_); }
     template <typename Self>
     static auto& bufferOf(Self& self, Values values);
-    void upload(Values values, const std::vector<glm::vec4>& packed) override;
+    void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) override;
     std::vector<glm::vec4> download(Values values) const override;
     std::vector<glm::vec4> download(Values values, size_t molecule) const override;
     // A part of a buffer with so many 4-vectors a molecule.

@@ -5,9 +5,10 @@ namespace shoal {
 
 using gpu::Program;
 
-void MoleculeContact::dispatchActive(const Program& program) const {
-    program.storage("Active", 3, active_);
-    program.dispatchIndirect(active_, 0);
+void MoleculeContact::dispatchTouching(const Program& program) const {
+    useTouching(program);
+    ++dispatches_;
+    program.dispatchIndirect(touchingGroups_, 0);
 }
 
 // Binds what all stages of the response read.
@@ -29,7 +30,7 @@ void MoleculeContact::runNearest(Buffers&, const Times& times, const Totals& tot
     bindResponse(nearest_, times);
     nearest_.storage("NewImpulses", 0, impulses_[totals.next].buffer);
     nearest_.storage("Shifts", 2, shifts_.buffer);
-    dispatchActive(nearest_);
+    dispatchTouching(nearest_);
     settled();
 }
 
@@ -40,7 +41,7 @@ void MoleculeContact::runEffective(Buffers& state, const Times& times) {
         effective_.storage("Normals", 0, normals_.buffer);
     else
         effective_.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
-    dispatchActive(effective_);
+    dispatchTouching(effective_);
     settled();
     if (!triangles_) return;
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
@@ -73,7 +74,7 @@ void MoleculeContact::runStage(Buffers&, const Program& program, const Times& ti
     program.storage("Pushed", 1, pushed_.buffer);
     if (&program == &correction_) textures.add("kept", shifts_.texture);
     if (&program == &friction_) program.storage("Shifts", 2, shifts_.buffer);
-    dispatchActive(program);
+    dispatchTouching(program);
     settled();
 }
 
@@ -113,7 +114,7 @@ void MoleculeContact::apply(Buffers& state, size_t impulses) {
             dispatch(program,
                      size_t(part.count) * size_t(plan_->groups[contact_->groups[g].group].vertexCount));
         else
-            dispatchActive(program);
+            dispatchTouching(program);
     });
     settled();
 }

@@ -30,6 +30,8 @@ struct SimulationOptions {
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     gpu::ProgramCache* cache = nullptr;
     bool watchdog = true;  // simulate/watchdog.h
+    // Contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context is; both give the same bits.
+    std::optional<bool> asOnGpu = std::nullopt;
 };
 
 // Gives tests, benchmarks and reports the results of contact between molecules.
@@ -43,6 +45,8 @@ class ContactResult {
     virtual std::vector<std::pair<int, int>> found() const = 0;
     virtual int listLength() const = 0;  // contacts that one sphere may have
     virtual size_t bytes() const = 0;    // on the device
+    // Dispatches of the last step, those without a workgroup among them; 0 in fragments.
+    virtual int dispatches() const { return 0; }
 };
 
 struct LifeCounts {

@@ -55,7 +55,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
                                : nullptr);
     }
     if (plan.contact.any())
-        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options.cache);
+        contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
         school_ = std::make_unique<Schooling>(context, shaderRoot, plan, tables, options.cache);
 }

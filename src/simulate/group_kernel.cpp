@@ -122,6 +122,7 @@ void GroupKernel::bindTables(const Program& program) const {
         if (tables.sampleTexels) program.texture("samples", kernel_unit::samples, tables.sampleTexels);
         if (tables.samples) program.texture("samples", kernel_unit::samples, tables.samples);
     }
+    tables.bindNoiseTiles(program, *source_.plan);
     if (springs_) program.texture("liveSprings", kernel_unit::springs, springs_);
     if (options_.lanes != Lanes::vertex) return;
     program.texture("topology", kernel_unit::topology, tables.topology);

@@ -105,12 +105,13 @@ auto& GroupLayers::textureOf(Self& self, Values values) {
     return self.normals_;
 }
 
-void GroupLayers::upload(Values values, const std::vector<glm::vec4>& packed) {
+void GroupLayers::upload(Values values, size_t first, const std::vector<glm::vec4>& packed) {
     const auto kind = values == Values::constants ? Traffic::Kind::parameters : Traffic::Kind::state;
     Texture& texture = textureOf(*this, values);
+    const size_t here = packed.size() / size_t(texture.layers());
     for (int layer = 0; layer < texture.layers(); ++layer)
-        texture.upload(kind, 0, 0, texture.width(), texture.height(), &packed[size_t(layer) * molecules()],
-                       molecules() * sizeof(glm::vec4), layer);
+        texture.upload(kind, 0, int(first / stateWidth), texture.width(), int(here / stateWidth),
+                       &packed[size_t(layer) * here], here * sizeof(glm::vec4), layer);
 }
 
 std::vector<glm::vec4> GroupLayers::download(Values values) const {

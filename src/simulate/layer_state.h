@@ -52,7 +52,7 @@ class GroupLayers : public PackedState {
     template <typename Self>
     static auto& textureOf(Self& self, Values values);
     bool hasSteering() const override { return bool(steering_[0]); }
-    void upload(Values values, const std::vector<glm::vec4>& packed) override;
+    void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) override;
     std::vector<glm::vec4> download(Values values) const override;
     std::vector<glm::vec4> download(Values values, size_t molecule) const override;
 

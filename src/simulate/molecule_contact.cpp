@@ -1,6 +1,7 @@
 #include "simulate/molecule_contact.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 #include "gpu/buffer.h"
@@ -15,7 +16,12 @@ using gpu::Texel;
 namespace {
 
 constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
-constexpr size_t activeHead = 5, droppedWord = 4;
+constexpr size_t cellTile = 4096;    // cells that one workgroup adds up (shaders/contact/starts.comp)
+
+// Words of the counts of so many cells and of their tiles.
+size_t countWords(size_t cells) {
+    return cells + (cells + cellTile - 1) / cellTile;
+}
 
 size_t wordsOf(Texel texel) {
     static constexpr size_t words[] = {4, 4, 2, 1};
@@ -44,10 +50,20 @@ static size_t mostEntries(const gpu::ContextInfo& info, const ContactPlan& conta
                     size_t(info.maxBufferTexels));
 }
 
+// Spheres for whose table of cells there is room.
+static size_t mostOfTable(const gpu::ContextInfo& info) {
+    const size_t words =
+        std::min(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t), size_t(info.maxBufferTexels));
+    size_t cells = std::bit_floor(words);
+    while (countWords(cells) > words)
+        cells /= 2;
+    return cells / 2;
+}
+
 size_t MoleculeContact::most(const gpu::ContextInfo& info, const ContactPlan& contact) {
     return std::min({mostEntries(info, contact) / shortestList,
                      size_t(info.maxStorageBlockBytes) / sizeof(glm::vec4),
-                     size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info)});
+                     size_t(info.maxWorkGroupsX) * contactLanes, RadixSort::most(info), mostOfTable(info)});
 }
 
 MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel, const char* label,
@@ -56,11 +72,11 @@ MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel,
       texture(context, buffer, texel, label) {}
 
 MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                                 const Tables& tables, gpu::ProgramCache* cache)
+                                 const Tables& tables, const SimulationOptions& options)
     : ContactPasses(plan, tables),
-      context_(&context),
+      context_((checkLimits(context.info(), plan.contact), &context)),
+      counted_(options.asOnGpu.value_or(!context.info().software)),
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
-      sort_((checkLimits(context.info(), plan.contact), context), shaderRoot, padded_, cache),
       listLength_(int(
           std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
     for (const ContactGroup& group : contact_->groups) {
@@ -76,11 +92,16 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     motions_ = array(padded_, Texel::uint4, "contact motions");
     sphereCells_ = array(padded_, Texel::uint4, "contact cells");
     cells_ = array(padded_, Texel::uint4, "contact cells in order");
+    const size_t cells = size_t(1) << contact_->tableBits;
     pairs_ = array(padded_, Texel::uint2, "contact keys");
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_ = array(padded_, Texel::uint2, "staggered keys");
-    starts_ = array((size_t(1) << contact_->tableBits) + 1, Texel::uint1, "cells");
-    slots_ = array(padded_, Texel::uint1, "slots");
+    cellStarts_ = array(cells + 1, Texel::uint1, "cells");
+    if (counted_) {
+        arrivals_ = array(padded_, Texel::uint2, "spheres on their way to cells");
+        members_ = array(padded_, Texel::uint1, "spheres of cells");
+    }
+    if (staggered_.buffer || triangles_) slots_ = array(padded_, Texel::uint1, "slots");
     counts_ = array(padded_, Texel::uint1, "contacts");
     lists_ = array(padded_ * size_t(listLength_), Texel::uint1, "contact lists");
     shifts_ = array(padded_, Texel::float4, "contact shifts");
@@ -100,13 +121,19 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
         normals_ = array(2 * padded_, Texel::float4, "contact normals");
         velocities_ = array(padded_, Texel::float4, "contact velocities");
     }
-    const std::vector<uint32_t> none(activeHead + padded_);
-    active_ = gpu::Buffer(context, gpu::Buffer::Use::storage, std::span<const uint32_t>(none), "in contact");
+    const auto zeros = [&](size_t words, const char* label) {
+        const std::vector<uint32_t> none(words);
+        return gpu::Buffer(context, gpu::Buffer::Use::storage, std::span<const uint32_t>(none), label);
+    };
+    if (counted_) cellCounts_ = zeros(countWords(cells), "spheres in cells");
+    touching_ = zeros(1 + padded_, "in contact");
+    touchingGroups_ = zeros(3, "workgroups in contact");
+    dropped_ = zeros(1, "contacts left out");
     makeExclusions();
     makeMaterials();
-    makePrograms(shaderRoot, cache);
+    makePrograms(shaderRoot, options.cache);
     for (const ContactGroup& group : contact_->groups)
-        makeGroup(group, shaderRoot, cache);
+        makeGroup(group, shaderRoot, options.cache);
 }
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
@@ -124,7 +151,14 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         if (define) options.defines.emplace_back(define);
         return Program(*context_, shaderRoot, options);
     };
-    order_ = make("order");
+    if (counted_) {
+        common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile), "LANES 256"});
+        starts_ = make("starts");
+        collect_ = make("members");
+    } else {
+        sort_.emplace(*context_, shaderRoot, padded_, cache);
+    }
+    order_ = make("order", slots_.buffer ? "SLOTS" : nullptr);
     if (staggered_.buffer) findStaggered_ = make("neighbors", "STAGGERED");
     makeStages(options, make);
 }
@@ -136,6 +170,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf)});
     if (group.triangles) common.push_back("TRIANGLES");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
+    if (counted_) common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile)});
     const auto make = [&](const char* file, const char* define = nullptr) {
         gpu::ProgramOptions options;
         options.compute = concat("contact/", file, ".comp");
@@ -181,6 +216,7 @@ void MoleculeContact::settled() {
 }
 
 void MoleculeContact::dispatch(const Program& program, size_t count) const {
+    ++dispatches_;
     program.dispatch(int((count + contactLanes - 1) / contactLanes));
 }
 
@@ -202,6 +238,11 @@ void MoleculeContact::setWalls(const Program& program, const ContactGroup& group
     program.storage("Walls", 4, nearWalls_.buffer);
 }
 
+void MoleculeContact::useTouching(const Program& program) const {
+    program.storage("Touching", 5, touching_);
+    program.storage("Groups", 6, touchingGroups_);
+}
+
 void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& state) {
     forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
         const ContactGroup& group = contact_->groups[g];
@@ -215,12 +256,14 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
             setWalls(program, group, frame);
         }
         program.set("label", int(uint32_t(g) << 26) + part.first);
-        program.set("keyMask", keyMask());
+        program.set("keys", keyMask() + 1);
         program.set("cell", float(contact_->cell));
         program.set("givenRadius", float(group.radius));
         program.set("cellShift", glm::vec3(staggered ? float(contact_->cell / 2) : 0.0f));
         program.set("onlyKeys", int(staggered));
-        program.storage("Pairs", 0, staggered ? staggered_.buffer : pairs_.buffer);
+        if (counted_) program.storage("CellCounts", 5, cellCounts_);
+        const Array& pairs = counted_ ? arrivals_ : staggered ? staggered_ : pairs_;
+        program.storage("Pairs", 0, pairs.buffer);
         program.storage("Places", 1, spherePlaces_.buffer);
         program.storage("Motions", 2, motions_.buffer);
         program.storage("Cells", 3, sphereCells_.buffer);
@@ -229,32 +272,60 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
     settled();
 }
 
-void MoleculeContact::order() {
+void MoleculeContact::sortKeys(bool staggered) {
+    if (!counted_) {
+        dispatches_ += 3 * sort_->passes(size_t(contact_->spheres), contact_->tableBits);
+        sort_->sort((staggered ? staggered_ : pairs_).buffer, size_t(contact_->spheres), contact_->tableBits);
+        return;
+    }
+    starts_.use();
+    starts_.set("keys", keyMask() + 1);
+    starts_.storage("CellCounts", 5, cellCounts_);
+    starts_.storage("Starts", 1, cellStarts_.buffer);
+    ++dispatches_;
+    starts_.dispatch(int((size_t(keyMask()) + cellTile) / cellTile));
+    settled();
+    Textures(collect_).add("arrivals", arrivals_.texture).add("starts", cellStarts_.texture);
+    collect_.set("keys", keyMask() + 1);
+    collect_.set("count", contact_->spheres);
+    collect_.storage("CellCounts", 5, cellCounts_);
+    collect_.storage("Members", 1, members_.buffer);
+    dispatch(collect_, size_t(contact_->spheres));
+    settled();
+}
+
+void MoleculeContact::order(bool staggered) {
+    if (staggered && !counted_) return;
     Textures textures(order_);
-    textures.add("sorted", pairs_.texture)
-        .add("spherePlaces", spherePlaces_.texture)
-        .add("sphereCells", sphereCells_.texture);
+    textures.add("spherePlaces", spherePlaces_.texture).add("sphereCells", sphereCells_.texture);
+    if (counted_) {
+        textures.add("arrivals", arrivals_.texture)
+            .add("starts", cellStarts_.texture)
+            .add("members", members_.texture);
+        order_.set("onlyOrder", int(staggered));
+        order_.storage("Sorted", 0, staggered ? staggered_.buffer : pairs_.buffer);
+    } else {
+        textures.add("sorted", pairs_.texture);
+        order_.set("keyMask", keyMask());
+        order_.storage("Starts", 0, cellStarts_.buffer);
+    }
     order_.set("count", contact_->spheres);
-    order_.set("keyMask", keyMask());
-    order_.storage("Starts", 0, starts_.buffer);
     order_.storage("Places", 1, places_.buffer);
-    order_.storage("Slots", 2, slots_.buffer);
-    order_.storage("Active", 3, active_);
     order_.storage("Cells", 4, cells_.buffer);
+    if (slots_.buffer) order_.storage("Slots", 2, slots_.buffer);
+    useTouching(order_);
     dispatch(order_, size_t(contact_->spheres));
     settled();
 }
 
 void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
-    const size_t count = size_t(contact_->spheres);
-    makeKeys(false, frame, state);
-    sort_.sort(pairs_.buffer, count, contact_->tableBits);
-    if (staggered_.buffer) {
-        makeKeys(true, frame, state);
-        sort_.sort(staggered_.buffer, count, contact_->tableBits);
+    dispatches_ = 0;
+    for (const bool staggered : {true, false}) {
+        if (staggered && !staggered_.buffer) continue;
+        makeKeys(staggered, frame, state);
+        sortKeys(staggered);
+        order(staggered);
     }
-    settled();
-    order();
 }
 
 void MoleculeContact::find(const Program& program) {
@@ -263,7 +334,7 @@ void MoleculeContact::find(const Program& program) {
     if (&program == &findStaggered_)
         textures.add("staggered", staggered_.texture).add("slots", slots_.texture);
     if (contact_->settings.search == ContactSearch::exact) {
-        textures.add("starts", starts_.texture);
+        textures.add("starts", cellStarts_.texture);
         program.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
         program.set("keyMask", keyMask());
     }
@@ -274,7 +345,8 @@ void MoleculeContact::find(const Program& program) {
     program.set("last", int(!findStaggered_ || &program == &findStaggered_));
     program.storage("Lists", 0, lists_.buffer);
     program.storage("Counts", 1, counts_.buffer);
-    program.storage("Active", 2, active_);
+    program.storage("Dropped", 2, dropped_);
+    useTouching(program);
     dispatch(program, size_t(contact_->spheres));
     settled();
 }
@@ -286,7 +358,7 @@ void MoleculeContact::search(Buffers&) {
 
 uint32_t MoleculeContact::dropped() const {
     uint32_t out = 0;
-    active_.download(gpu::Traffic::Kind::control, droppedWord * sizeof out, &out, sizeof out);
+    dropped_.download(gpu::Traffic::Kind::control, 0, &out, sizeof out);
     return out;
 }
 
@@ -311,12 +383,13 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 size_t MoleculeContact::bytes() const {
     size_t out = 0;
     for (const Array* array :
-         {&pairs_,           &staggered_,    &starts_,   &slots_,       &lists_,       &counts_,
-          &effectiveCounts_, &pushed_,       &shifts_,   &velocities_,  &normals_,     &nearWalls_,
-          &wallPushed_,      &apart_,        &groupsOf_, &materials_,   &impulses_[0], &impulses_[1],
-          &impulses_[2],     &spherePlaces_, &motions_,  &sphereCells_, &cells_,       &places_})
+         {&arrivals_,    &cellStarts_,      &members_,     &pairs_,        &staggered_,   &slots_,
+          &lists_,       &counts_,          &pushed_,      &shifts_,       &velocities_,  &normals_,
+          &nearWalls_,   &effectiveCounts_, &wallPushed_,  &apart_,        &groupsOf_,    &materials_,
+          &impulses_[0], &impulses_[1],     &impulses_[2], &spherePlaces_, &sphereCells_, &motions_,
+          &cells_,       &places_})
         out += array->buffer ? array->buffer.bytes() : 0;
-    return out;
+    return out + touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
 }
 
 }  // namespace shoal

@@ -2,8 +2,10 @@
 // the fused step. Method and equations: docs/contact.md; what there is: compile/contact_plan.h.
 //
 //   contact grid       spheres   records of every sphere from the state, and the key of its cell
-//                      sort      keys ascending (sort/radix_sort.h)
-//                      order     records in that order; where each cell of the table begins
+//                      sort      keys ascending: on a CPU rasteriser by sort/radix_sort.h; on a GPU, in fewer
+//                                dispatches, by counting: starts, where each cell begins, and members, the
+//                                spheres of each cell
+//                      order     places in that order
 //   contact search     find      the spheres that each touches (or `neighbors`, UberFlow's)
 //   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`,
 //   UberFlow's)
@@ -15,6 +17,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,7 +33,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Borrows the plan and the tables. Error: more spheres than the context can hold, with how many it can;
     // out of memory.
     MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
-                    const Tables& tables, gpu::ProgramCache* cache);
+                    const Tables& tables, const SimulationOptions& options);
 
     // Lists are as long as the plan's, or as the context has room for, but no shorter than this: as many as
     // touch a sphere of their size at once without overlap.
@@ -42,6 +45,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
     size_t bytes() const override;
+    int dispatches() const override { return dispatches_; }
 
   private:
     using Buffers = const std::vector<GroupBuffers>;
@@ -79,8 +83,10 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
 
     void buildGrid(const Frame& frame, Buffers& state) override;
     void makeKeys(bool staggered, const Frame& frame, Buffers& state);
+    void useTouching(const gpu::Program& program) const;
     void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
-    void order();
+    void sortKeys(bool staggered);
+    void order(bool staggered);
     void search(Buffers& state) override;
     void find(const gpu::Program& program);
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
@@ -103,22 +109,27 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     }
     static void settled();  // before what reads what dispatches have written
     void dispatch(const gpu::Program& program, size_t lanes) const;
-    void dispatchActive(const gpu::Program& program) const;
+    void dispatchTouching(const gpu::Program& program) const;
 
     gpu::Context* context_;
+    mutable int dispatches_ = 0;
+    bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
     bool triangles_ = false, self_ = false, walls_ = false;
     std::vector<GroupPrograms> groups_;
-    gpu::Program order_, findStaggered_;
-    RadixSort sort_;
+    gpu::Program starts_, collect_, order_, findStaggered_;
     int listLength_;
-    Array pairs_, staggered_, starts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_, normals_,
-        velocities_;
+    std::optional<RadixSort> sort_;  // where they are not counted
+    Array arrivals_, members_;       // where they are counted
+    gpu::Buffer cellCounts_;         // shaders/contact/cell_counts.glsl
+    Array pairs_, staggered_, cellStarts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_,
+        normals_, velocities_;
     Array apart_, groupsOf_, materials_;
     std::array<Array, 3> impulses_;
     Array spherePlaces_, motions_, sphereCells_, cells_, places_;
     Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
-    gpu::Buffer active_;                           // shaders/contact/active.glsl
+    gpu::Buffer touching_, touchingGroups_;        // shaders/contact/touching.glsl
+    gpu::Buffer dropped_;                          // contacts that no list had room for, so far
 };
 
 }  // namespace shoal

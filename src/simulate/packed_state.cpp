@@ -15,18 +15,21 @@ struct Packer {
     const BufferLayout& layout;
     int elements;  // 4-vectors a molecule
     size_t together;
+    // Writing: how many molecules there are from `offset` on, with which the packed ones start.
+    size_t offset = 0, count = 0;
 
     size_t at(size_t molecule, int element) const {
         return BufferLayout::index(molecule, element, elements, together);
     }
 
-    // The vertices' floats, from 4-vector `first` on.
-    void pack(const std::vector<glm::vec3>& values, int first, std::vector<glm::vec4>& out) const {
+    // The vertices' floats, from 4-vector `firstElement` on.
+    void pack(const std::vector<glm::vec3>& values, int firstElement, std::vector<glm::vec4>& out) const {
         const size_t vertices = size_t(layout.vertexCount);
-        for (size_t i = 0; i < values.size(); ++i) {
+        for (size_t i = 0; i < count * vertices; ++i) {
             for (int c = 0; c < 3; ++c) {
                 const int number = int(i % vertices) * 3 + c;
-                out[at(i / vertices, first + number / 4)][number % 4] = values[i][c];
+                out[at(i / vertices, firstElement + number / 4)][number % 4] =
+                    values[offset * vertices + i][c];
             }
         }
     }
@@ -51,12 +54,12 @@ struct Packer {
             pack(state.velocityChanges, 3 * part, out);
             return;
         }
-        for (size_t m = 0; m < state.anchors.size(); ++m)
+        for (size_t m = 0; m < count; ++m)
             out[at(m, 2 * part)].x = noHistory;
     }
 
     // Lanes past the last molecule do what it does, so that they never do anything worse.
-    void repeatLast(size_t count, std::vector<glm::vec4>& packed) const {
+    void repeatLast(std::vector<glm::vec4>& packed) const {
         for (size_t m = count; m < packed.size() / size_t(elements); ++m)
             for (int e = 0; e < elements; ++e)
                 packed[at(m, e)] = packed[at(count - 1, e)];
@@ -94,52 +97,76 @@ int PackedState::elements(Values values) const {
     return 1;
 }
 
+// Calls fill(packer, packed) for one piece of the molecules after the other, and uploads what it has packed:
+// a start of many takes little memory beside itself.
+template <typename Fill>
+void PackedState::uploadPieces(Values values, size_t count, Fill fill) {
+    constexpr size_t piece = size_t(1) << 18;  // whole rows and blocks, so that the last one holds a molecule
+    for (size_t first = 0; first < molecules_; first += piece) {
+        const size_t here = std::min(piece, molecules_ - first);
+        const Packer packer{layout_, elements(values), std::min(together_, here), first,
+                            std::min(here, count - first)};
+        std::vector<glm::vec4> packed(here * size_t(packer.elements));
+        fill(packer, packed);
+        upload(values, first, packed);
+    }
+}
+
 void PackedState::writeConstants(const GroupPlan& group) {
-    std::vector<glm::vec4> constants(molecules_);
-    for (size_t m = 0; m < group.constants.scales.size(); ++m)
-        constants[m] = glm::vec4(group.constants.scales[m], group.constants.phases[m], 0, 0);
-    Packer{layout_, 1, together_}.repeatLast(size_t(group.count), constants);
-    upload(Values::constants, constants);
+    uploadPieces(Values::constants, size_t(group.count), [&](const Packer& packer, auto& packed) {
+        for (size_t m = 0; m < packer.count; ++m)
+            packed[m] = glm::vec4(group.constants.scales[packer.offset + m],
+                                  group.constants.phases[packer.offset + m], 0, 0);
+        packer.repeatLast(packed);
+    });
+}
+
+void PackedState::writeMotion(size_t count, const GroupState& state) {
+    uploadPieces(Values::state, count, [&](const Packer& packer, auto& packed) {
+        packer.pack(state.positions, 0, packed);
+        packer.pack(state.velocities, layout_.positionElements(), packed);
+        if (layout_.history) packer.packHistory(state, packed);
+        // lanes past the last place are free places for ever
+        for (size_t m = 0; layout_.life && m < packer.count; ++m) {
+            packer.age(m, packed) = state.lives[packer.offset + m].x;
+            packer.span(m, packed) = state.lives[packer.offset + m].y;
+        }
+        if (!layout_.life) packer.repeatLast(packed);
+    });
+}
+
+void PackedState::writeRecords(size_t count, const GroupState& state) {
+    const std::vector<uint32_t>& seeds = state.seeds.empty() ? seeds_ : state.seeds;
+    uploadPieces(Values::records, count, [&](const Packer& packer, auto& packed) {
+        for (size_t m = 0; m < packer.count; ++m) {
+            const size_t own = packer.offset + m;
+            const float label = float(seeds[own] + 1);
+            packed[m] = glm::vec4(state.anchors[own], state.released[own] ? -label : label);
+        }
+        packer.repeatLast(packed);
+    });
 }
 
 void PackedState::write(const GroupPlan& group, const GroupState& state) {
     const size_t count = size_t(group.count);
-    const Packer packer{layout_, layout_.stateElements(), together_};
-    std::vector<glm::vec4> packed(molecules_ * size_t(packer.elements));
-    packer.pack(state.positions, 0, packed);
-    packer.pack(state.velocities, layout_.positionElements(), packed);
-    if (layout_.history) packer.packHistory(state, packed);
-    // lanes past the last place are free places for ever
-    for (size_t m = 0; layout_.life && m < state.lives.size(); ++m) {
-        packer.age(m, packed) = state.lives[m].x;
-        packer.span(m, packed) = state.lives[m].y;
-    }
-    if (!layout_.life) packer.repeatLast(count, packed);
-    upload(Values::state, packed);
-    std::vector<glm::vec4> records(molecules_);
-    const std::vector<uint32_t>& seeds = state.seeds.empty() ? seeds_ : state.seeds;
-    for (size_t m = 0; m < count; ++m) {
-        const float label = float(seeds[m] + 1);
-        records[m] = glm::vec4(state.anchors[m], state.released[m] ? -label : label);
-    }
-    Packer{layout_, 1, together_}.repeatLast(count, records);
-    upload(Values::records, records);
-    if (hasSteering()) {
-        // what another plan's state does not have
-        std::vector<glm::vec4> steering = unsteered(molecules_);
-        std::copy(state.steering.begin(), state.steering.end(), steering.begin());
-        const Packer steeringPacker{layout_, steeringElements, together_};
-        std::vector<glm::vec4> packedSteering(steering.size());
-        for (size_t i = 0; i < steering.size(); ++i)
-            packedSteering[steeringPacker.at(i / steeringElements, int(i % steeringElements))] = steering[i];
-        upload(Values::steering, packedSteering);
-    }
-    if (hasConstants() && !state.looks.empty()) {
-        std::vector<glm::vec4> looks(molecules_);
-        for (size_t m = 0; m < state.looks.size(); ++m)
-            looks[m] = glm::vec4(state.looks[m], 0, 0);
-        upload(Values::constants, looks);
-    }
+    writeMotion(count, state);
+    writeRecords(count, state);
+    if (hasSteering())
+        uploadPieces(Values::steering, count, [&](const Packer& packer, auto& packed) {
+            // what another plan's state does not have
+            const std::vector<glm::vec4> none = unsteered(1);
+            for (size_t m = 0; m < packed.size() / steeringElements; ++m)
+                for (size_t e = 0; e < steeringElements; ++e) {
+                    const size_t own = (packer.offset + m) * steeringElements + e;
+                    packed[packer.at(m, int(e))] =
+                        own < state.steering.size() ? state.steering[own] : none[e];
+                }
+        });
+    if (hasConstants() && !state.looks.empty())
+        uploadPieces(Values::constants, count, [&](const Packer& packer, auto& packed) {
+            for (size_t m = 0; m < packer.count; ++m)
+                packed[m] = glm::vec4(state.looks[packer.offset + m], 0, 0);
+        });
 }
 
 GroupState PackedState::readSide(const GroupPlan& group, bool before) const {

@@ -37,13 +37,18 @@ class PackedState {
     // Scales and phases at the start.
     void writeConstants(const GroupPlan& group);
 
-    virtual void upload(Values values, const std::vector<glm::vec4>& packed) = 0;
+    // The 4-vectors of so many molecules, which are whole blocks and rows, from `first` on.
+    virtual void upload(Values values, size_t first, const std::vector<glm::vec4>& packed) = 0;
     virtual std::vector<glm::vec4> download(Values values) const = 0;
     // The 4-vectors of one molecule.
     virtual std::vector<glm::vec4> download(Values values, size_t molecule) const = 0;
     virtual bool hasSteering() const = 0;
 
   private:
+    template <typename Fill>
+    void uploadPieces(Values values, size_t count, Fill fill);
+    void writeMotion(size_t count, const GroupState& state);
+    void writeRecords(size_t count, const GroupState& state);
     GroupState readSide(const GroupPlan& group, bool before) const;
 
     BufferLayout layout_;

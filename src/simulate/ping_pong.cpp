@@ -238,6 +238,7 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     if (((kind == PassKind::advect || kind == PassKind::stage) && group.needs.fields) ||
         kind == PassKind::collide)
         program.texture("samples", 6, tables_->samples);
+    tables_->bindNoiseTiles(program, *plan_);
     if ((kind == PassKind::advect || kind == PassKind::stage) && state.normal)
         program.texture("vertexNormals", 7, state.normal);
     return program;

@@ -25,8 +25,21 @@ static gpu::Texture makeSamples(gpu::Context& context, const Plan& plan) {
     return makeTable(context, plan.samples, plan.sampleRows, "samples");
 }
 
+// A component of 10 bits is 512 + its number of units.
+static gpu::VolumeTexture makeTile(gpu::Context& context, const NoiseTile& tile) {
+    const std::vector<float>& values = valuesOf(tile);
+    if (tile.channels() == 1)
+        return {context, gpu::Format::r32f, tile.texels, std::as_bytes(std::span(values)), tile.sampler()};
+    std::vector<uint32_t> words(tile.count());
+    for (size_t i = 0; i < values.size(); ++i)
+        words[i / 3] |= uint32_t(512 + std::lround(values[i] * 511 / tile.range)) << (10 * (i % 3));
+    return {context, gpu::Format::rgb10a2, tile.texels, std::as_bytes(std::span(words)), tile.sampler()};
+}
+
 Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
     : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
+    for (const NoiseTile& tile : plan.noiseTiles)
+        noiseTiles.push_back(makeTile(context, tile));
     if (sampleForm == Form::texture) {
         samples = makeSamples(context, plan);
         return;
@@ -36,6 +49,13 @@ Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
     const std::span<const glm::vec4> table(plan.samples);
     sampleBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, table, "samples");
     sampleTexels = gpu::BufferTexture(context, sampleBuffer, "samples");
+}
+
+void Tables::bindNoiseTiles(const gpu::Program& program, const Plan& plan) const {
+    constexpr int firstUnit = 24;  // beyond all others; OpenGL 3.3 has 48
+    for (size_t i = 0; i < noiseTiles.size(); ++i)
+        if (program.uses(plan.noiseTiles[i].sampler()))
+            program.texture(plan.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
 }
 
 }  // namespace shoal

@@ -1,9 +1,12 @@
-// Holds what every group of a plan shares and no frame changes: the topology of the molecules, and the
-// samples of grids, height fields and distance fields. Layout: compile/plan.h.
+// Holds what every group of a plan shares and no frame changes: the topology of the molecules, the samples of
+// grids, height fields and distance fields, and the tiles of noise. Layout: compile/plan.h.
 #pragma once
+
+#include <vector>
 
 #include "compile/plan.h"
 #include "gpu/buffer.h"
+#include "gpu/program.h"
 #include "gpu/texture.h"
 
 namespace shoal {
@@ -17,9 +20,13 @@ struct Tables {
     gpu::Texture samples;  // as a texture
     gpu::Buffer sampleBuffer;
     gpu::BufferTexture sampleTexels;  // as a buffer; null: there are none
+    std::vector<gpu::VolumeTexture> noiseTiles;  // of the plan's
 
     // Error: more samples than the context holds.
     Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
+
+    // Binds the tiles that a program reads, which is in use.
+    void bindNoiseTiles(const gpu::Program& program, const Plan& plan) const;
 };
 
 }  // namespace shoal

@@ -80,7 +80,7 @@ TEST_CASE("mistakes in a scene are located", "[cli]") {
         {"\"type\": \"gust\"", "\"type\": \"gusts\"", "\"gusts\"", "did you mean \"gust\"?"},
         {"\"count\": 3", "\"count\": 0", "0,\n     \"place\"", "1"},
         {"\"count\": 3", "\"count\": -1", "-1,\n     \"place\"", "1"},
-        {"\"count\": 3", "\"count\": 1000000000", "1000000000", "from 1 to 16777216"},
+        {"\"count\": 3", "\"count\": 2000000000", "2000000000", "from 1 to 1073741824"},
         {"\"model\": \"hill\", \"select\"", "\"model\": \"hil\", \"select\"", "\"hil\"",
          "did you mean \"hill\"?"},
         {"\"object\": \"post\"", "\"object\": \"pots\"", "", "pots"},
@@ -183,13 +183,13 @@ TEST_CASE("a step that is too long names the substeps that would do", "[cli]") {
 }
 
 TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
-    refusal({"run", helloScene(), "--headless", "--count", "1000000000"}, "expected at most 16777216");
-    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 16777216");
+    refusal({"run", helloScene(), "--headless", "--count", "1073741825"}, "expected at most 1073741824");
+    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 1073741824");
     const Scratch scratch;  // 9 vertices each are too many before that
     const std::string scene = scratch.write(
-        "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 16777216, "molecule": ")" +
+        "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 900000000, "molecule": ")" +
                                sourceFile("molecules/leaf.json") + R"(",
         "place": {"on": "volume", "box": {"low": [0, 0, 0], "high": [1, 1, 1]}}}]})");
-    CHECK_THAT(refusal({"explain", scene}, "at most 14913080 such molecules fit"),
+    CHECK_THAT(refusal({"explain", scene}, "at most 238609294 such molecules fit"),
                Catch::Contains("many.scene.json:1:"));
 }

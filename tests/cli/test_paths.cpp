@@ -114,7 +114,7 @@ TEST_CASE("explain prints the kernels, in which no slider's value occurs", "[cli
     };
     const std::string text = kernels({});
     for (const char* part :
-         {"#version 430 core", "void springForces(float time)", "void main()", "gustVelocity("})
+         {"#version 430 core", "void springForces(float time)", "void main()", "gustFromTile("})
         CHECK_THAT(text, Catch::Contains(part));
     CHECK(text.find("9.81") == std::string::npos);
     CHECK(kernels({"--substeps", "9", "--dt", "0.011", "--count", "77", "--seed", "3"}) == text);

@@ -73,3 +73,52 @@ TEST_CASE("compute shaders and fragments have the same contact", "[molecule cont
         }
     }
 }
+
+TEST_CASE("contact has the same bits whether keys are sorted or counted in their cells",
+          "[molecule contact][agreement]") {
+    if (!canFuse()) return;
+    for (const ContactSearch search :
+         {ContactSearch::exact, ContactSearch::single, ContactSearch::staggered}) {
+        for (const double size : {0.8, 0.02}) {  // the small one: all in a few cells, and lists overflow
+            CAPTURE(int(search), size);
+            Scene scene = heap(true, true);
+            scene.contact.search = search;
+            scene.groups[0].place.box = {{-size, 0.3, -size}, {size, 0.3 + size, size}};
+            scene.groups[1].place.box = scene.groups[0].place.box;
+            const Plan plan = compile(scene);
+            uint64_t hashes[2];
+            for (const bool asOnGpu : {false, true}) {
+                Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                                      {.drawn = false, .path = Path::fused, .asOnGpu = asOnGpu});
+                for (int i = 0; i < 6; ++i)
+                    simulation.frame();
+                CHECK_FALSE(simulation.contact()->found().empty());
+                hashes[asOnGpu] = simulation.hash();
+            }
+            CHECK(hashes[0] == hashes[1]);
+        }
+    }
+}
+
+TEST_CASE("a contact step takes as many dispatches when nothing touches as when all do",
+          "[molecule contact]") {
+    if (!canFuse()) return;
+    for (const bool asOnGpu : {false, true}) {
+        int dispatches[2];
+        for (const bool touch : {false, true}) {
+            Scene scene = swarm(point(0.1), 200, SolverKind::leapfrog, {0, 1, 0});
+            scene.groups[0].held = false;
+            const double half = touch ? 0.02 : 100;
+            scene.groups[0].place.box = {glm::dvec3(-half), glm::dvec3(half)};
+            scene.groups[0].contact.emplace().radius = 0.02;
+            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                                  {.drawn = false, .path = Path::fused, .asOnGpu = asOnGpu});
+            simulation.frame();
+            CHECK(simulation.contact()->found().empty() != touch);
+            if (touch) CHECK(simulation.contact()->dropped() > 0);
+            dispatches[touch] = simulation.contact()->dispatches();
+        }
+        CHECK(dispatches[0] == dispatches[1]);
+        if (asOnGpu) CHECK(dispatches[1] == 17);
+    }
+}

@@ -38,6 +38,11 @@ std::vector<Field> movingFields() {
     sea.depth = 3;
     sea.trains = {{{1, 0, 0.4}, 0.4, 7, 0.3}, {{-0.2, 0, 1}, 0.2, 3, 1}};
     std::vector<Field> out;
+    GustField gust{{1, 0.2, 0.3}, 3, 0.6, 8, 6, 5.3, 7};
+    CurlNoiseField eddies{1, 2, 1.7, 3, 5};
+    gust.noise = eddies.noise = NoiseForm::computed;
+    out.push_back(test::field(gust));
+    out.push_back(test::field(eddies));
     for (const FieldShape& shape : std::vector<FieldShape>{
              OscillatingField{{1, -2, 0.5}, 1.1, 0.4}, GustField{{1, 0.2, 0.3}, 3, 0.6, 8, 6, 5.3, 7},
              CurlNoiseField{1, 2, 1.7, 3, 5}, film({0.1, 0.2, 0.3}), film({-0.1, 0, 0.17, 0.25}), sea})

@@ -64,6 +64,9 @@ inline std::vector<KindOfField> kindsOfField() {
     CurlNoiseField eddies;
     eddies.octaves = 2;
     eddies.seed = 8;
+    GustField computedGust = gust;
+    CurlNoiseField computedEddies = eddies;
+    computedGust.noise = computedEddies.noise = NoiseForm::computed;
     GridField grid;
     grid.resolution = {3, 4, 5};
     grid.low = {-2, -1, -2};
@@ -95,7 +98,9 @@ inline std::vector<KindOfField> kindsOfField() {
             {film},
             {loop},
             {waves},
-            {storm}};
+            {storm},
+            {computedGust},
+            {computedEddies}};
 }
 
 inline std::vector<Field> everyField() {

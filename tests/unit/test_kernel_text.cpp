@@ -297,7 +297,7 @@ TEST_CASE("a kernel holds the branches that the group needs, and no other", "[ke
         {"COLLIDE",
          {"respond(", "findContacts(int done)\n{", "colliderParameters"},
          [](Scene& s) { s.colliders.clear(); }},
-        {"FIELDS", {"gustVelocity(", "fieldParameters"}, [](Scene& s) { s.fields.clear(); }},
+        {"FIELDS", {"gustFromTile(", "fieldParameters"}, [](Scene& s) { s.fields.clear(); }},
         {"PINS", {"pullOnPins()\n{", "bool[](true"}, [](Scene& s) { s.groups[0].held = false; }},
         {"RELEASE", {"pullOnPins()\n{"}, [](Scene& s) { s.groups[0].release.reset(); }},
         {"SPRINGS", {"= sprung("}, [](Scene& s) { s.groups[0].molecule.springs.clear(); }},

@@ -182,7 +182,7 @@ const Mistake mistakes[] = {
      [](Scene& s) { s.surfacePairs[0].b = "iron"; }},
     // groups
     {"'count': 3", "'count': 0", [](Scene& s) { s.groups[0].count = 0; }},
-    {"'count': 3", "'count': 99999999", [](Scene& s) { s.groups[0].count = 99999999; }},
+    {"'count': 3", "'count': 2000000000", [](Scene& s) { s.groups[0].count = 2000000000; }},
     {"{'on': 'volume', 'box': {'low': [0, 0, 0]", "{'on': 'volume', 'box': {'low': [0, 2, 0]",
      [](Scene& s) { s.groups[0].place.box.low.y = 2; }},
     {"'tilt': 0.1", "'tilt': 4", [](Scene& s) { s.groups[0].place.tilt = 4; }},

@@ -92,13 +92,14 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
     GustField gust;
     gust.direction = glm::normalize(dvec3(2, 0.3, -1));
     gust.seed = 3;
+    gust.noise = NoiseForm::computed;
     const vec3 along(gust.direction), across(reference::gustAcross(gust.direction));
     // 5 m/s of noise whose argument, up to 20 at the second octave, has lost 2e-6
     CHECK(worst(gust, [&](vec3 x, float time) {
               return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 0, 0u, 3u);
           }) < 3e-5);
 
-    CurlNoiseField curl{.speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77};
+    CurlNoiseField curl{.speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77, .noise = NoiseForm::computed};
     CHECK(worst(curl, [&](vec3 x, float time) {
               return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 0, 0u, 77u);
           }) < 3e-5);

@@ -150,6 +150,7 @@ TEST_CASE("a gust keeps its direction, its mean and travels with its fronts", "[
     GustField gust;
     gust.direction = {3, 0.4, -1};
     gust.seed = 5;
+    gust.noise = GENERATE(NoiseForm::computed, NoiseForm::table);
     const glm::dvec3 along = glm::normalize(gust.direction);
     glm::dvec3 sum(0);
     const int count = 100000;
@@ -171,6 +172,7 @@ TEST_CASE("curl noise is free of divergence, unbiased and about as fast as it sa
         noise.length = 1.5;
         noise.octaves = octaves;
         noise.seed = 9;
+        noise.noise = NoiseForm::computed;
         glm::dvec3 sum(0);
         double square = 0;
         const int count = 60000;

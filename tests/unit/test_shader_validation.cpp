@@ -33,6 +33,7 @@ constexpr const char* header300es =
     "precision highp float;\n"
     "precision highp int;\n"
     "precision highp sampler2D;\n"
+    "precision highp sampler3D;\n"
     "precision highp sampler2DShadow;\n"
     "precision highp sampler2DArray;\n"
     "precision highp usampler2D;\n"

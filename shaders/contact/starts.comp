@@ -1,0 +1,33 @@
+// A workgroup a tile of CELL_TILE cells: where each cell begins in the order of the keys, starts[key] to starts[key + 1] - 1,
+// by adding up how many spheres the cells before it have. Leaves the cells' counts at zero.
+#include "contact/cell_counts.glsl"
+#include "sort/group_scan.glsl"
+
+layout(local_size_x = LANES) in;
+
+layout(std430, binding = 1) writeonly buffer Starts { uint starts[]; };
+
+const int PER_LANE = CELL_TILE / LANES;
+
+void main()
+{
+    int lane = int(gl_LocalInvocationID.x);
+    int tile = int(gl_WorkGroupID.x);
+    uint own = 0u;
+    for (int t = lane; t < tile; t += LANES) own += cellCounts[keys + t];
+    uint before;
+    sumBefore(own, before);
+    int first = tile * CELL_TILE + lane * PER_LANE;
+    int end = min(first + PER_LANE, keys);
+    uint sum = 0u;
+    for (int key = first; key < end; ++key) sum += cellCounts[key];
+    uint total;
+    uint start = before + sumBefore(sum, total);
+    for (int key = first; key < end; ++key) {
+        uint here = cellCounts[key];
+        cellCounts[key] = 0u;
+        starts[key] = start;
+        start += here;
+    }
+    if (end == keys) starts[keys] = start;
+}

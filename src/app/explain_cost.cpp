@@ -1,0 +1,114 @@
+// `shoal explain --cost`: what each kernel moves and computes, and which of the two bounds it on this device.
+#include <algorithm>
+#include <cmath>
+
+#include "app/explain_cost.h"
+#include "core/cache_folder.h"
+#include "core/printable.h"
+#include "run/data_paths.h"
+#include "simulate/fused.h"
+
+namespace shoal::app {
+
+using namespace bench;
+
+namespace {
+
+// s of a frame, at the least.
+double memorySeconds(const KernelCost& cost, const DeviceRates& rates) {
+    return cost.bytes * cost.molecules / rates.bytesPerSecond;
+}
+double arithmeticSeconds(const KernelCost& cost, const DeviceRates& rates) {
+    return cost.operations * cost.molecules / rates.operationsPerSecond;
+}
+
+// What bounds a kernel from below. A GPU's registers go first where a lane wants more than there are.
+const char* boundOf(const KernelCost& cost, const SceneCost& all) {
+    if (!all.rates) return "not known";
+    if (!all.software && cost.spills()) return "registers";
+    return memorySeconds(cost, *all.rates) > arithmeticSeconds(cost, *all.rates) ? "memory" : "arithmetic";
+}
+
+JsonValue asJson(const KernelCost& cost, const SceneCost& all) {
+    std::optional<double> memory, arithmetic, occupancy;
+    if (all.rates) memory = memorySeconds(cost, *all.rates), arithmetic = arithmeticSeconds(cost, *all.rates);
+    if (!all.software) occupancy = cost.occupancy;
+    return object(
+        key("group", cost.group), key("molecules", cost.molecules), key("lanes", name(cost.lanes)),
+        key("draws", cost.draws), key("bytesPerMolecule", cost.bytes),
+        key("operationsPerMolecule", cost.operations), key("stateFetchesPerMolecule", cost.stateFetches),
+        key("tableFetchesPerMolecule", cost.tableFetches), key("sharedBytes", cost.sharedBytes),
+        key("estimatedRegisters", cost.registers), key("estimatedOccupancy", occupancy),
+        key("memorySeconds", memory), key("arithmeticSeconds", arithmetic), key("bound", boundOf(cost, all)));
+}
+
+}  // namespace
+
+SceneCost sceneCost(const Options& options, const Loaded& loaded) {
+    gpu::Context context(hiddenContext(options));
+    const PathLimits limits = limitsOf(context.info());
+    const PathChoice choice = choosePath(loaded.plan, options.path, limits);
+    if (choice.path == Path::pingPong)
+        throw WrongUse("--cost is of the fused path's kernels; this scene runs on the other path: " +
+                       choice.why);
+    gpu::ProgramCache cache(context, cacheFolder());
+    BenchDevice device;
+    device.context = &context;
+    device.shaderRoot = shaderRoot();
+    device.cache = &cache;
+    device.ownTimes = !context.info().software;
+    SceneCost out{measuredOn(context), context.info().software,
+                  deviceRates(device, processorName(), cacheFolder()),
+                  kernelCosts(loaded.scene, loaded.plan, choice, options.lanes, limits)};
+    context.checkErrors("--cost");
+    return out;
+}
+
+std::string asText(const SceneCost& all) {
+    std::string out = asText(all.machine) + "\n";
+    if (all.rates)
+        out += formatted("a kernel that copies: %.3g GB/s; one that multiplies and adds: %.3g Gop/s (%s)\n",
+                         all.rates->bytesPerSecond * 1e-9, all.rates->operationsPerSecond * 1e-9,
+                         all.rates->kept ? "kept from before" : "measured now");
+    else
+        out += "no rates: copies and multiply-adds are measured with compute shaders (OpenGL 4.3)\n";
+    out +=
+        "\nof a molecule and frame; ms: what all of them take at the least, at those rates\n"
+        "                          bytes operations  fetches: state  tables  shared  registers occupancy "
+        "memory ms arithmetic ms  bound\n";
+    for (const KernelCost& cost : all.kernels) {
+        out += formatted("  %-20s%11.0f%11.0f%16.0f%8.0f%8d%11d", printable(cost.group).c_str(), cost.bytes,
+                         cost.operations, cost.stateFetches, cost.tableFetches, cost.sharedBytes,
+                         cost.registers);
+        out += all.software ? formatted("%10s", "-") : formatted("%9.0f%%", cost.occupancy * 100);
+        if (all.rates)
+            out += formatted("%10.3g%14.3g", memorySeconds(cost, *all.rates) * 1e3,
+                             arithmeticSeconds(cost, *all.rates) * 1e3);
+        else
+            out += formatted("%10s%14s", "-", "-");
+        out += formatted("  %s\n", boundOf(cost, all));
+    }
+    return out +
+           "\nBytes, fetches and shared memory (of a workgroup, bytes) follow from the layout. Operations "
+           "are counted "
+           "from\nmolecule, solver, fields and colliders, about right within a factor of two; contacts that "
+           "are "
+           "found,\nforces, births, steering and contact between molecules are not counted. Registers are an "
+           "estimate, of the\nvectors that a lane keeps; occupancy follows from them for 65,536 registers, "
+           "2,048 "
+           "lanes and 100 KiB of\nshared memory a multiprocessor.\n";
+}
+
+JsonValue asJson(const SceneCost& all) {
+    JsonValue kernels = JsonValue::makeArray(), rates;
+    for (const KernelCost& cost : all.kernels)
+        kernels.items.push_back(asJson(cost, all));
+    if (all.rates)
+        rates =
+            object(key("bytesPerSecond", all.rates->bytesPerSecond),
+                   key("operationsPerSecond", all.rates->operationsPerSecond), key("kept", all.rates->kept));
+    return object(key("renderer", all.machine.context.renderer), key("rates", rates),
+                  key("kernels", kernels));
+}
+
+}  // namespace shoal::app
