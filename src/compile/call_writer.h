@@ -66,7 +66,7 @@ class CallWriter : private NumberLayout {
 
     std::vector<ClockSlot> clocks;
     std::vector<NoiseTile> tiles;  // that calls read, each once
-    std::string cell;  // text of the cell of the call that has one
+    std::string cell;              // text of the cell of the call that has one
 
   private:
     std::string parameter(size_t slot) const;

@@ -163,9 +163,8 @@ VolumeTexture::VolumeTexture(Context& context, Format format, const glm::ivec3& 
     const FormatRow& storage = row(format);
     const size_t texels = size_t(size.x) * size_t(size.y) * size_t(size.z);
     EXPECTS(texels > 0 && data.size() == texels * storage.bytes);
-    const std::string what =
-        concat("texture \"", label, "\" of ", size.x, " x ", size.y, " x ", size.z, " texels (",
-               double(data.size()) / (1 << 20), " MiB)");
+    const std::string what = concat("texture \"", label, "\" of ", size.x, " x ", size.y, " x ", size.z,
+                                    " texels (", double(data.size()) / (1 << 20), " MiB)");
     const int largest = context.info().max3DTextureSize;
     if (std::max({size.x, size.y, size.z}) > largest)
         throw Error(concat(what, " is too large: this context allows ", largest, " a side"));

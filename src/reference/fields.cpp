@@ -26,10 +26,10 @@ glm::dvec3 velocity(const GustField& field, const glm::dvec3& x, double time) {
     const glm::dvec3 p{(glm::dot(x, along) - field.frontSpeed * time) / field.length,
                        glm::dot(x, across) / field.width,
                        glm::dot(x, glm::cross(along, across)) / field.width};
-    const double noise = field.noise == NoiseForm::table
-                             ? gustFromTile(p, field.seed)
-                             : 1.2 * (gradientNoise(p, field.seed) +
-                                      gradientNoise(p * 2.0 + 17.31, field.seed + 1) / 2);
+    const double noise =
+        field.noise == NoiseForm::table
+            ? gustFromTile(p, field.seed)
+            : 1.2 * (gradientNoise(p, field.seed) + gradientNoise(p * 2.0 + 17.31, field.seed + 1) / 2);
     return along * field.speed * (1 + field.strength * noise);
 }
 
@@ -66,8 +66,7 @@ glm::dvec3 velocity(const TaylorGreenField& field, const glm::dvec3& x, double) 
 
 glm::dvec3 velocity(const CurlNoiseField& field, const glm::dvec3& x, double time) {
     if (field.noise == NoiseForm::table)
-        return field.speed *
-               curlFromTile(x / field.length, time / field.period, field.octaves, field.seed);
+        return field.speed * curlFromTile(x / field.length, time / field.period, field.octaves, field.seed);
     glm::dvec3 sum(0);
     for (int octave = 0; octave < field.octaves; ++octave) {
         const double fine = std::exp2(octave);

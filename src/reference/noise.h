@@ -30,8 +30,8 @@ Potential vectorPotential(const glm::dvec3& p, double t, uint32_t seed);
 // The potential's curl over p, free of divergence [Bridson 2007].
 glm::dvec3 curlNoise(const glm::dvec3& p, double t, uint32_t seed);
 
-// Noise by table (scene/noise_tile.h). The reference reads the same values as the shaders, each kind's tile in
-// double precision, joined linearly along each axis.
+// Noise by table (scene/noise_tile.h). The reference reads the same values as the shaders, each kind's tile
+// in double precision, joined linearly along each axis.
 //
 // A gust's n at p, in lengths along and widths across. The tile's pattern is moved across by `gustShift` for
 // each tile along.

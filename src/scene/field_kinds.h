@@ -37,9 +37,9 @@ enum class NoiseForm {
 
 // Direction constant, strength varied in space and time: fronts of size length x width travel along the
 // direction with frontSpeed. u = direction * speed * (1 + strength n), n = gradient noise with one extra
-// octave, of mean 0, standard deviation 0.257 and about within [-1, 1], at the point ((s - frontSpeed t) / length, p / width, q /
-// width) with s along the direction and p, q across it: p along y x direction (x x direction where
-// |direction.y| >= 0.9), q along direction x p.
+// octave, of mean 0, standard deviation 0.257 and about within [-1, 1], at the point ((s - frontSpeed t) /
+// length, p / width, q / width) with s along the direction and p, q across it: p along y x direction (x x
+// direction where |direction.y| >= 0.9), q along direction x p.
 struct GustField {
     glm::dvec3 direction{1, 0, 0};  // any length above 0; normalised
     double speed = 5;               // m/s, mean

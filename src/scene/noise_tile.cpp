@@ -171,9 +171,8 @@ std::vector<float> gustTile(const NoiseTile& tile) {
         n -= mean;
     // The standard deviation of the computed noise, from the integrals of the quintic.
     constexpr double deviation = 0.25718;
-    const double scale =
-        deviation /
-        std::sqrt(meanSquare<double>(grid, [](const double& a, const double& b) { return a * b; }));
+    const double scale = deviation / std::sqrt(meanSquare<double>(
+                                         grid, [](const double& a, const double& b) { return a * b; }));
     std::vector<float> out;
     for (const double n : grid.values)
         out.push_back(glm::unpackHalf1x16(glm::packHalf1x16(float(n * scale))));

@@ -1,7 +1,7 @@
-// Tiles of noise: what gusts and curl noise read instead of computing it. A tile is a box of values that repeats
-// in space and holds all octaves; it depends on nothing but its kind, so that fields share it, and a seed only
-// says where in it they read. shaders/physics/field.glsl says how it is read, docs/accuracy.md what that is off
-// by.
+// Tiles of noise: what gusts and curl noise read instead of computing it. A tile is a box of values that
+// repeats in space and holds all octaves; it depends on nothing but its kind, so that fields share it, and a
+// seed only says where in it they read. shaders/physics/field.glsl says how it is read, docs/accuracy.md what
+// that is off by.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace shoal {
 struct NoiseTile {
     int octaves = 0;       // of curl noise; 0: the tile of gusts
     glm::ivec3 texels{0};  // values along x, y, z, in the middles of as many parts of the tile
-    glm::ivec3 cells{0};   // of the largest octave's lattice: the tile's sides in lengths and widths of a field
+    glm::ivec3 cells{0};   // the tile's sides in the field's lengths and widths
     double range = 0;      // of curl noise: the largest component, 511 units
 
     const char* sampler() const;                          // its name in shaders

@@ -19,7 +19,7 @@ struct Tables {
     gpu::Texture topology;
     gpu::Texture samples;  // as a texture
     gpu::Buffer sampleBuffer;
-    gpu::BufferTexture sampleTexels;  // as a buffer; null: there are none
+    gpu::BufferTexture sampleTexels;             // as a buffer; null: there are none
     std::vector<gpu::VolumeTexture> noiseTiles;  // of the plan's
 
     // Error: more samples than the context holds.

@@ -30,7 +30,9 @@ Statistics statisticsOf(const FieldShape& field) {
     const auto uniform = [&](double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(random);
     };
-    const auto velocity = [&](const glm::dvec3& x, double t) { return reference::fieldVelocity(field, x, t); };
+    const auto velocity = [&](const glm::dvec3& x, double t) {
+        return reference::fieldVelocity(field, x, t);
+    };
     Statistics out;
     double square = 0, gradient = 0, divergence = 0;
     for (int i = 0; i < count; ++i) {
@@ -115,8 +117,8 @@ TEST_CASE("as much flows into each box of a tile as out of it, but for the units
         const double unit = tile.range / 511;
         const auto at = [&](const glm::ivec3& i) {
             const glm::ivec3 w = i % tile.texels;
-            const size_t index = (size_t(w.z) * size_t(tile.texels.y) + size_t(w.y)) * size_t(tile.texels.x) +
-                                 size_t(w.x);
+            const size_t index =
+                (size_t(w.z) * size_t(tile.texels.y) + size_t(w.y)) * size_t(tile.texels.x) + size_t(w.x);
             return glm::dvec3(values[3 * index], values[3 * index + 1], values[3 * index + 2]);
         };
         double most = 0;
@@ -159,7 +161,9 @@ TEST_CASE("seeds read a tile elsewhere", "[noise][reference]") {
 
 TEST_CASE("curl noise by table does not come back, in space after a tile and in time", "[noise][reference]") {
     const CurlNoiseField field = eddies(1, NoiseForm::table);
-    const auto velocity = [&](double x, double t) { return reference::fieldVelocity(field, {x, 0.2, 0.4}, t); };
+    const auto velocity = [&](double x, double t) {
+        return reference::fieldVelocity(field, {x, 0.2, 0.4}, t);
+    };
     // in space it does: after the 8 lengths that the documents name
     CHECK(glm::length(velocity(0.3, 0.7) - velocity(8.3, 0.7)) < 1e-9);
     CHECK(glm::length(velocity(0.3, 0.7) - velocity(4.3, 0.7)) > 0.01);

@@ -99,7 +99,8 @@ TEST_CASE("shader fields agree with the reference", "[physics]") {
               return shader::gustVelocity(x, time, along, across, 5, 0.6f, 5, {8, 6}, 0, 0u, 3u);
           }) < 3e-5);
 
-    CurlNoiseField curl{.speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77, .noise = NoiseForm::computed};
+    CurlNoiseField curl{
+        .speed = 1, .length = 2, .period = 2, .octaves = 4, .seed = 77, .noise = NoiseForm::computed};
     CHECK(worst(curl, [&](vec3 x, float time) {
               return shader::curlNoiseVelocity(x, time, 1, 2, 2, 4, 0, 0u, 77u);
           }) < 3e-5);

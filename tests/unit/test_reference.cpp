@@ -233,7 +233,7 @@ TEST_CASE("orders where time acts: a gust that travels and a muscle", "[referenc
     GustField gust;
     gust.frontSpeed = 20;
     gust.length = 4;
-    gust.noise = NoiseForm::computed;  // a tile is joined linearly, which has corners
+    gust.noise = NoiseForm::computed;  // a table's slopes jump from value to value, which costs order
     problem.fields.push_back(test::field(gust));
     const State start = restState(problem, {.rotation = test::turned()});
     CHECK(slope(problem, start, SolverKind::euler, 1, 2000) == Approx(1).margin(0.1));
