@@ -155,6 +155,10 @@ Molecule tetrahedron(double stiffness, double damping) {
     return out;
 }
 
+double divided(const Solver& solver, int steps) {
+    return solver.kind == SolverKind::verlet || solver.kind == SolverKind::xpbd ? 6e-8 * steps : 0;
+}
+
 double strainOf(const Molecule& molecule, const reference::State& state) {
     double sum = 0;
     for (const Spring& spring : molecule.springs) {
