@@ -23,26 +23,9 @@ uniform VALUES oldState;
 uniform VALUES oldRecords;
 uniform VALUES constants;
 
-uniform int givenFrame;
-uniform int givenSubsteps;
-uniform float givenSubstep;
-uniform float givenFrameDuration;
-uniform vec3 givenGravity;
-uniform float givenWind;
-uniform vec2 givenDecay;
-uniform vec2 givenPhi;
-uniform float givenStiffnessFactor;
-uniform float givenDampingFactor;
-uniform float givenReleaseForce;
-uniform float givenReleaseChance;
-uniform vec3 givenDriftOfStep;
-uniform vec2 givenDragRate;
-uniform float givenStageEta;
-uniform vec2 givenStageDecay;
-uniform vec2 givenStagePhi;
-uniform int givenRestarts;
-uniform int givenSlips;
-uniform vec2 givenFlightBend;
+// The numbers of a frame, as setStepUniforms in src/simulate/fused_kernel.cpp packs them.
+uniform ivec4 givenCounts;
+uniform vec4 givenNumbers[7];
 
 // Copies of the uniforms, for the step to read. With SOFTWARE, for Mesa's rasteriser, each copy
 // goes through an operation that changes nothing: a plain copy counts as a uniform, which is fetched lane by
@@ -84,26 +67,26 @@ vec4 inRegister(vec4 value) { return value; }
 
 void loadUniforms()
 {
-    frame = inRegister(givenFrame);
-    substeps = inRegister(givenSubsteps);
-    substep = inRegister(givenSubstep);
-    frameDuration = inRegister(givenFrameDuration);
-    gravity = inRegister(givenGravity);
-    wind = inRegister(givenWind);
-    decay = inRegister(givenDecay);
-    phi = inRegister(givenPhi);
-    stiffnessFactor = inRegister(givenStiffnessFactor);
-    dampingFactor = inRegister(givenDampingFactor);
-    releaseForce = inRegister(givenReleaseForce);
-    releaseChance = inRegister(givenReleaseChance);
-    driftOfStep = inRegister(givenDriftOfStep);
-    dragRate = inRegister(givenDragRate);
-    stageEta = inRegister(givenStageEta);
-    stageDecay = inRegister(givenStageDecay);
-    stagePhi = inRegister(givenStagePhi);
-    restarts = inRegister(givenRestarts);
-    slips = inRegister(givenSlips);
-    flightBend = inRegister(givenFlightBend);
+    frame = inRegister(givenCounts.x);
+    substeps = inRegister(givenCounts.y);
+    slips = inRegister(givenCounts.z);
+    restarts = inRegister(givenCounts.w);
+    gravity = inRegister(givenNumbers[0].xyz);
+    wind = inRegister(givenNumbers[0].w);
+    substep = inRegister(givenNumbers[1].x);
+    frameDuration = inRegister(givenNumbers[1].y);
+    stiffnessFactor = inRegister(givenNumbers[1].z);
+    dampingFactor = inRegister(givenNumbers[1].w);
+    decay = inRegister(givenNumbers[2].xy);
+    phi = inRegister(givenNumbers[2].zw);
+    flightBend = inRegister(givenNumbers[3].xy);
+    dragRate = inRegister(givenNumbers[3].zw);
+    driftOfStep = inRegister(givenNumbers[4].xyz);
+    stageEta = inRegister(givenNumbers[4].w);
+    stageDecay = inRegister(givenNumbers[5].xy);
+    stagePhi = inRegister(givenNumbers[5].zw);
+    releaseForce = inRegister(givenNumbers[6].x);
+    releaseChance = inRegister(givenNumbers[6].y);
 }
 
 #ifdef SHARED_MOLECULE

@@ -34,7 +34,7 @@ std::string contactText(const std::vector<ContactTimes>& all) {
                              density.c_str(), t.one.room, ContactCase::radius);
             out +=
                 "    quads  contacts            grid          search        response         contact"
-                "       baseline  ratio  ns/quad  ns/contact     fused\n";
+                "       baseline  ratio  ns/quad  ns/contact     fused    device\n";
         }
         if (!t.leftOut.empty()) {
             out += formatted("%9s  left out: %s\n", grouped(t.one.quads).c_str(), t.leftOut.c_str());
@@ -43,8 +43,9 @@ std::string contactText(const std::vector<ContactTimes>& all) {
         out += formatted("%9s%10s", grouped(t.one.quads).c_str(), grouped(int(t.contacts)).c_str());
         for (const measure::Spread* spread : {&t.grid, &t.search, &t.response, &t.contact, &t.baseline})
             out += formatted("%8.2f (%5.4g)", spread->min * 1e3, spread->median * 1e3);
-        out += formatted("%7.2f%9.0f%12.0f%10.2f\n", t.ratio(), t.perQuad() * 1e9,
-                         t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3);
+        out += formatted("%7.2f%9.0f%12.0f%10.2f%10s\n", t.ratio(), t.perQuad() * 1e9,
+                         t.contacts > 0 ? t.contact.min * 1e9 / double(t.contacts) : 0, t.fused.min * 1e3,
+                         deviceMilliseconds(t.device).c_str());
         if (t.dropped > 0) out += formatted("%9s  contacts dropped: %u\n", "", t.dropped);
     }
     return out;
@@ -126,6 +127,7 @@ JsonValue asJson(const ContactTimes& t) {
     JsonValue out = object(key("density", t.one.density), key("quads", t.one.quads),
                            key("cubicMetresPerQuad", t.one.room));
     if (!t.leftOut.empty()) return append(out, key("leftOut", t.leftOut));
+    appendDeviceTime(out, t.device);
     return append(out, key("spheres", t.spheres), key("contacts", t.contacts),
                   key("baselineContacts", t.baselineContacts), key("dropped", t.dropped),
                   key("bytes", t.bytes), key("grid", asJson(t.grid)), key("search", asJson(t.search)),

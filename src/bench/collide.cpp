@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <random>
 #include <tuple>
 
@@ -70,6 +71,9 @@ class ContactEntrant {
         step_.iterations = plan.contact.settings.iterations;
         plain_.frame();
         start_ = plain_.save().groups[0];
+        if (device.ownTimes)
+            own_.emplace(*device.context, device.shaderRoot, planOf(result.one, quad, true),
+                         options(device, gpu::PassTimers::Mode::query));
     }
 
     // Not counted: compiles, touches memory, and compares what both find; then what a visit costs.
@@ -88,6 +92,7 @@ class ContactEntrant {
         seconds = measure::secondsOf([&] { visit(); });
         for (std::vector<double>& samples : samples_)
             samples.clear();
+        device_.clear();
     }
 
     void visit() {
@@ -96,6 +101,7 @@ class ContactEntrant {
         contact_.restart();
         contact_.frame();
         const gpu::PassTimers& timers = contact_.timers();
+        if (own_) device_.push_back(ownTime());
         const double grid = lastOf(timers, "contact grid"), search = lastOf(timers, "contact search"),
                      response = lastOf(timers, "contact response");
         baseline_.set(start_);
@@ -109,6 +115,7 @@ class ContactEntrant {
     void finish() {
         for (size_t i = 0; i < std::size(times); ++i)
             result_.*times[i] = measure::spreadOf(samples_[i]);
+        result_.device = measure::spreadOf(device_);
     }
 
     double seconds = 0;  // of a visit
@@ -118,12 +125,20 @@ class ContactEntrant {
         &ContactTimes::fused,    &ContactTimes::grid,    &ContactTimes::search,
         &ContactTimes::response, &ContactTimes::contact, &ContactTimes::baseline};
 
-    static SimulationOptions options(const BenchDevice& device) {
-        // one frame at a time is waited for anyway
-        return {.drawn = false,
-                .timing = gpu::PassTimers::Mode::finish,
-                .path = Path::fused,
-                .cache = device.cache};
+    // The device's own, of the passes of contact together.
+    double ownTime() {
+        own_->restart();
+        own_->frame();
+        own_->timers().drain();
+        double out = 0;
+        for (const char* pass : {"contact grid", "contact search", "contact response"})
+            out += lastOf(own_->timers(), pass);
+        return out;
+    }
+    // One frame at a time is waited for anyway.
+    static SimulationOptions options(const BenchDevice& device,
+                                     gpu::PassTimers::Mode timing = gpu::PassTimers::Mode::finish) {
+        return {.drawn = false, .timing = timing, .path = Path::fused, .cache = device.cache};
     }
     static std::vector<float> weightsOf(const Molecule& quad) {
         std::vector<float> out;
@@ -134,10 +149,11 @@ class ContactEntrant {
 
     ContactTimes& result_;
     Simulation contact_, plain_;
+    std::optional<Simulation> own_;  // contact again, timed by queries
     ContactBaseline baseline_;
     ContactBaselineStep step_;
     GroupState start_;
-    std::vector<double> samples_[std::size(times)];  // s
+    std::vector<double> samples_[std::size(times)], device_;  // s
 };
 
 }  // namespace

@@ -36,7 +36,8 @@ struct ContactTimes {
     measure::Spread fused = {};   // s, of the step before: two substeps, without contact
     measure::Spread grid = {}, search = {}, response = {}, contact = {};  // s; contact: all three
     measure::Spread baseline = {};                                        // s
-    double perQuad() const { return contact.min / one.quads; }            // s, by the shortest
+    measure::Spread device = {};  // s, the device's own time of contact; no samples: a processor runs it
+    double perQuad() const { return contact.min / one.quads; }  // s, by the shortest
     double ratio() const { return contact.min / baseline.min; }
 };
 

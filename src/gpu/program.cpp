@@ -174,6 +174,14 @@ GLint Program::location(const char* name) const {
     return -1;  // which OpenGL ignores
 }
 
+void Program::bindSampler(const char* name, int unit) const {
+    const GLint where = location(name);
+    const auto [bound, first] = units_.try_emplace(where, unit);
+    if (!first && bound->second == unit) return;
+    bound->second = unit;
+    glUniform1i(where, unit);
+}
+
 void Program::set(const char* name, const glm::mat3& value) const {
     glUniformMatrix3fv(location(name), 1, GL_FALSE, glm::value_ptr(value));
 }

@@ -54,11 +54,11 @@ class Program {
     void set(const char* name, std::span<const glm::vec4> values) const;
     void set(const char* name, std::span<const glm::ivec4> values) const;
 
-    // Binds the texture to the unit and the sampler to it.
+    // Binds the texture to the unit and, where it is not yet, the sampler to it.
     template <typename AnyTexture>
     void texture(const char* sampler, int unit, const AnyTexture& texture) const {
         texture.bind(unit);
-        set(sampler, unit);
+        bindSampler(sampler, unit);
     }
     void uniformBlock(const char* block, int binding, const Buffer& buffer) const;
     // Binds a part of a storage buffer where the block is: `binding` repeats the shader's own
@@ -81,9 +81,11 @@ class Program {
   private:
     bool inUse() const;
     GLint location(const char* name) const;
+    void bindSampler(const char* name, int unit) const;
 
     Handle<deleteProgram> handle_;
     std::map<std::string, GLint, std::less<>> locations_;
+    mutable std::map<GLint, int> units_;                       // by the location of a sampler
     std::set<std::string, std::less<>> declared_;              // uniforms
     std::map<std::string, int, std::less<>> storageBindings_;  // of each storage block
     std::string label_;

@@ -1,6 +1,7 @@
 #include "simulate/fused_kernel.h"
 
 #include <algorithm>
+#include <array>
 
 #include "compile/corotated.h"
 #include "compile/generate.h"
@@ -292,28 +293,22 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
                      const Frame& frame) {
     const Parameters& parameters = frame.parameters;
     const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
-    program.set("givenFrame", frame.number);
-    program.set("givenSubsteps", parameters.substeps);
-    program.set("givenSubstep", float(frame.h));
-    program.set("givenFrameDuration", float(parameters.frameTime));
-    program.set("givenGravity", glm::vec3(parameters.gravity));
-    program.set("givenWind", float(parameters.wind));
-    program.set("givenDecay", drag.decay);
-    program.set("givenPhi", drag.phi);
-    program.set("givenSlips", int(drag.slips));
-    program.set("givenFlightBend", drag.bend);
-    program.set("givenStiffnessFactor", float(group.stiffness * parameters.stiffness));
-    program.set("givenDampingFactor", float(group.damping * parameters.damping));
-    const ReleaseLimits release = releaseLimits(group, frame);
-    program.set("givenReleaseForce", release.force);
-    program.set("givenReleaseChance", release.chance);
-    program.set("givenDriftOfStep", driftOf(group.solver, frame.h, drag.slips));
-    program.set("givenDragRate", glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag));
     const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
-    program.set("givenStageEta", stage.eta);
-    program.set("givenStageDecay", stage.drag.decay);
-    program.set("givenStagePhi", stage.drag.phi);
-    program.set("givenRestarts", int(frame.restarts));
+    const ReleaseLimits release = releaseLimits(group, frame);
+    const glm::vec2 dragRate = glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag);
+    program.set("givenCounts",
+                glm::ivec4(frame.number, parameters.substeps, int(drag.slips), int(frame.restarts)));
+    const std::array numbers{
+        glm::vec4(parameters.gravity, parameters.wind),
+        glm::vec4(frame.h, parameters.frameTime, group.stiffness * parameters.stiffness,
+                  group.damping * parameters.damping),
+        glm::vec4(drag.decay, drag.phi),
+        glm::vec4(drag.bend, dragRate),
+        glm::vec4(driftOf(group.solver, frame.h, drag.slips), stage.eta),
+        glm::vec4(stage.drag.decay, stage.drag.phi),
+        glm::vec4(release.force, release.chance, 0, 0),
+    };
+    program.set("givenNumbers", std::span<const glm::vec4>(numbers));
     if (group.needs.fields)
         program.set("givenFieldParameters", std::span<const glm::vec4>(fieldParameters(plan, frame)));
     if (countsMuscles(group.needs))
