@@ -24,7 +24,8 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
     float since = along < 0.0f ? inside / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
     vec3 touch = (d - u * since) / reach;
     float touchSpeed = dot(touch, u);
-    bool impact = since <= step && touchSpeed < -restSpeed;
+    // One that the last step missed by a rounding of the positions is this step's.
+    bool impact = (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
 
     float apart = sqrt(squared);
     vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
