@@ -160,6 +160,12 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             listPasses(out, plan, g);
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
+        if (choice.path == Path::fused) {
+            const PathLimits limits;
+            out << "  lanes    on a GPU a lane a " << name(chooseLanes(group, Lanes::automatic, limits))
+                << "; a lane a vertex holds " << FusedLimits::vertices(limits.maxSharedBytes)
+                << " vertices with " << limits.maxSharedBytes << " bytes of shared memory\n";
+        }
         tellSchool(out, plan, g);
         listBirths(out, group);
         const std::string absent = leftOut(group, choice.path != Path::pingPong);

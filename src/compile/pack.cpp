@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "compile/muscle_waves.h"
 #include "compile/school_plan.h"
 #include "core/random.h"
 
@@ -118,24 +119,37 @@ void packStart(const Scene& scene, GroupPlan& group) {
     group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 
+// What tells a spring's muscle: see compile/plan.h.
+static glm::vec4 muscleOf(const Molecule& molecule, const GroupPlan& group, const MuscleWaves& waves,
+                          const Spring& spring) {
+    const Actuation actuation = spring.actuation.value_or(Actuation{});
+    const auto number =
+        group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring));
+    if (const std::optional<MuscleWaves::Share> share = waves.shareOf(spring))
+        return {share->amplitude, share->wave, 0, number};
+    return {actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase, number};
+}
+
 int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology) {
     const size_t base = topology.size(), count = molecule.vertices.size();
+    double mass = 0;
+    for (const Vertex& vertex : molecule.vertices)
+        mass += vertex.mass;
+    const MuscleWaves waves(molecule, group.needs);
     topology.resize(base + 2 * count);
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
         const bool pinned = group.needs.pins && vertex.pinned;
-        topology[base + count + v] = glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, 0);
+        topology[base + count + v] =
+            glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, vertex.mass / mass);
 
         const size_t firstSpring = topology.size();
         int springs = 0;
         for (const Spring& spring : molecule.springs) {
             if (spring.a != int(v) && spring.b != int(v)) continue;
-            const Actuation actuation = spring.actuation.value_or(Actuation{});
             topology.emplace_back(spring.a == int(v) ? spring.b : spring.a, spring.stiffness, spring.damping,
                                   molecule.restLength(spring));
-            topology.emplace_back(
-                actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase,
-                group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring)));
+            topology.push_back(muscleOf(molecule, group, waves, spring));
             ++springs;
         }
         const size_t firstTriangle = topology.size();
@@ -144,13 +158,20 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
             const int corners[3] = {t.a, t.b, t.c};
             for (int k = 0; k < 3; ++k) {
                 if (corners[k] != int(v)) continue;
-                topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], 0, 0);
+                topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], k, 0);
                 ++triangles;
             }
         }
         topology[base + v] = glm::vec4(firstSpring, springs, firstTriangle, triangles);
     }
     return int(base);
+}
+
+void repackTopology(const Molecule& molecule, size_t group, Plan& plan) {
+    const auto base = plan.topology.begin() + plan.groups[group].topologyBase;
+    std::vector<glm::vec4> table(plan.topology.begin(), base);
+    packTopology(molecule, plan.groups[group], table);
+    std::copy(table.begin() + plan.groups[group].topologyBase, table.end(), base);
 }
 
 }  // namespace shoal

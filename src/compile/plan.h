@@ -8,11 +8,12 @@
 // Topology, for the paths that read it from a table: one texture of 4-vectors, read by index i at
 // (i mod 1024, i / 1024); per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
-//   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), unused
+//   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), its share of the molecule's
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
-//                                  amplitude, 2 pi frequency, phase; of what steers the bend
-//                                  (compile/school_plan.h), else the number of its frequency
-//   triangle entries, one texel    the other two corners, anticlockwise after v
+//                                  amplitude, 2 pi frequency, phase, the number of its frequency; of what
+//                                  steers the bend in its place (compile/school_plan.h), and where waves are
+//                                  shared (compile/muscle_waves.h) amplitude, number of the wave, 0
+//   triangle entries, one texel    the other two corners, anticlockwise after v; which of the three v is
 #pragma once
 
 #include <algorithm>
