@@ -51,7 +51,7 @@ int explainCommand(const Options& options) {
             const int stored = int(storedInFragments(loaded.plan.groups[g]).size());
             kernel.fragments = {0, std::min(stored, limits.targets)};
         } else {
-            kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
+            kernel.lanes = chooseLanes(loaded.plan, loaded.plan.groups[g], options.lanes, limits);
             kernel.normals = true;
         }
         std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";

@@ -175,7 +175,7 @@ std::vector<KernelCost> kernelCosts(const Scene& scene, const Plan& plan, const 
             cost.draws = (stored + limits.targets - 1) / limits.targets;
             cost.bytes += double(cost.draws - 1) * cost.stateFetches * sizeof(glm::vec4);
         } else {
-            cost.lanes = chooseLanes(group, lanes, limits);
+            cost.lanes = chooseLanes(plan, group, lanes, limits);
         }
         cost.operations = cost.draws * step.operations;
         cost.tableFetches = cost.draws * step.fetches;

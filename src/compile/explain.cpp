@@ -162,7 +162,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         if (choice.path == Path::fused) {
             const PathLimits limits;
-            out << "  lanes    on a GPU a lane a " << name(chooseLanes(group, Lanes::automatic, limits))
+            out << "  lanes    on a GPU a lane a " << name(chooseLanes(plan, group, Lanes::automatic, limits))
                 << "; a lane a vertex holds " << FusedLimits::vertices(limits.maxSharedBytes)
                 << " vertices with " << limits.maxSharedBytes << " bytes of shared memory\n";
         }

@@ -1,6 +1,7 @@
 #include "compile/lanes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "compile/path.h"
 #include "core/contract.h"
@@ -31,15 +32,53 @@ namespace {
 // A lane a molecule is best up to 12 vertices, and without colliders up to 20 from 131,072 molecules on.
 constexpr int gpuLane = 12, gpuLaneFree = 20, many = 131072;
 
-// A CPU rasteriser runs a lane a molecule 12 to 35 times faster (docs/performance.md), but takes long to
-// compile what is written out. Seconds to the first frame on 2 busy cores of an Intel Xeon, llvmpipe,
-// Mesa 22.3.6, no cache, chains in a gust over a plane: a lane a molecule 6.1 with 32 vertices, 29 with 60,
-// and 9.6 with 60 without the plane; a lane a vertex 3.2 with 32 and with 60.
-constexpr int softwareLane = 32, softwareLaneTouching = 24;
+// A CPU rasteriser, nanoseconds of a processor a molecule and frame, minimum: 4,096 molecules, `leapfrog`, 5
+// substeps, uniform wind, drag by direction where there are triangles; without and with a plane
+// (shoal-gl "[.lanes-cost]"; 2 cores of an Intel Xeon, llvmpipe, Mesa 22.3.6).
+//
+// TABLE
+// A lane a molecule is always best, but what is written out takes long to compile: then a lane a vertex.
+constexpr double mostSeconds = 5;  // to the first frame, where there is a choice
+constexpr double longestSeconds = 10;  // where there is none: more is refused
 
-int mostOfLane(const GroupPlan& group, const PathLimits& limits) {
-    if (limits.software) return group.needs.collide ? softwareLaneTouching : softwareLane;
-    return !group.needs.collide && group.count >= many ? gpuLaneFree : gpuLane;
+// Of secondsToCompile(), in s; fitted to 80 molecules of 16 to 64 vertices on the same machine, of which it is
+// off by 9 % (root mean square) and by a quarter at most, 4 vertices and the largest matrices apart. A loop
+// that is kept would cost several times as much: llvmpipe has no registers that are looked up by index.
+constexpr double start = 0.7;  // of everything else
+constexpr double ofVertex = 0.0048, ofTriangle = 0.0103;
+constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
+constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
+constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
+constexpr double ofDraw = 0.6;   // in fragments each holds the whole step
+
+// Of a spring.
+double secondsOf(SolverKind solver) {
+    switch (solver) {
+    case SolverKind::euler:
+    case SolverKind::verlet: return 0.0013;
+    case SolverKind::leapfrog: return 0.0042;
+    case SolverKind::rk4: return 0.0048;
+    case SolverKind::xpbd: return 0.0021;
+    case SolverKind::bdf2Xpbd: return 0.0246;
+    case SolverKind::bdf2Corotated: return 0.0653;
+    }
+    EXPECTS(false);
+    return 0;
+}
+
+bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {
+    if (limits.software) return secondsToCompile(plan, group) <= mostSeconds;
+    return group.vertexCount <= (!group.needs.collide && group.count >= many ? gpuLaneFree : gpuLane);
+}
+
+// Error: its code would take a CPU rasteriser too long.
+void checkSeconds(const GroupPlan& group, double seconds, const PathLimits& limits, const char* instead) {
+    if (!limits.software || seconds <= longestSeconds) return;
+    throw Error(group.location,
+                concat("a CPU rasteriser would take about ", std::lround(seconds), " s to compile \"", group.name,
+                       "\", ", group.vertexCount, " vertices and ", group.springCount, " springs, with ",
+                       name(group.solver), " in one lane; more than ", longestSeconds, " s are refused: ",
+                       instead));
 }
 
 }  // namespace
@@ -69,7 +108,18 @@ WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
     return out;
 }
 
-Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
+double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws) {
+    const double vertices = group.vertexCount;
+    double ofEach = ofVertex;
+    if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;
+    if (group.needs.fields)
+        ofEach += double(plan.fieldCount) * (plan.longFields ? ofLongField : ofField);
+    const double text = vertices * ofEach + group.springCount * secondsOf(group.solver) +
+                        (group.needs.directionalDrag ? group.triangleCount : 0) * ofTriangle;
+    return start + text * (1 + vertices / crowding) * (draws > 0 ? ofDraw * draws : 1);
+}
+
+Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
     const bool implicit = solver(group.solver).implicit;
     const bool laneFits =
         group.vertexCount <= FusedLimits::laneVertices && group.springCount <= FusedLimits::laneSprings;
@@ -92,7 +142,10 @@ Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits
         throw Error(group.location, concat("molecules of more than ", FusedLimits::laneVertices,
                                            " vertices cannot be born or die; one of \"", group.name,
                                            "\" has ", group.vertexCount));
-    if (implicit) return Lanes::molecule;
+    if (implicit) {
+        checkSeconds(group, secondsToCompile(plan, group), limits, "use an explicit solver");
+        return Lanes::molecule;
+    }
     if (wanted != Lanes::molecule && group.vertexCount > FusedLimits::vertices(limits.maxSharedBytes)) {
         if (wanted == Lanes::automatic && laneFits) return Lanes::molecule;
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
@@ -100,11 +153,22 @@ Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits
                                            FusedLimits::vertices(limits.maxSharedBytes), " on this device"));
     }
     if (wanted == Lanes::automatic)
-        return laneFits && group.vertexCount <= mostOfLane(group, limits) ? Lanes::molecule : Lanes::vertex;
+        return laneFits && prefersLane(plan, group, limits) ? Lanes::molecule : Lanes::vertex;
     if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::laneVertices)
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a lane holds at most ", FusedLimits::laneVertices));
+    if (wanted == Lanes::molecule)
+        checkSeconds(group, secondsToCompile(plan, group), limits, "leave out --lanes molecule");
     return wanted;
+}
+
+void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {
+    PathLimits any = limits;
+    any.software = false;
+    chooseLanes(plan, group, Lanes::molecule, any);
+    const int stored = group.layout().stateElements() + (group.needs.records ? 1 : 0);
+    const int draws = (stored + limits.targets - 1) / limits.targets;
+    checkSeconds(group, secondsToCompile(plan, group, draws), limits, "use --path ping-pong");
 }
 
 }  // namespace shoal

@@ -4,8 +4,7 @@
 //
 //   molecule   a lane a molecule, whose topology is written out as text: all of it in registers
 //   vertex     a lane a vertex: a workgroup takes several molecules side by side, and neighbouring lanes do
-//   the
-//              same vertex of neighbouring molecules, with the positions and velocities of the others in
+//              the same vertex of neighbouring molecules, with the positions and velocities of the others in
 //              shared memory (shaders/fused/gather.glsl). Its text is the same for every topology.
 #pragma once
 
@@ -15,6 +14,7 @@ namespace shoal {
 
 struct GroupPlan;
 struct PathLimits;
+struct Plan;
 
 enum class Lanes { automatic, molecule, vertex };
 const char* name(Lanes lanes);  // "auto", "molecule", "vertex"
@@ -40,7 +40,14 @@ struct WorkgroupShape {
 // As many molecules as fit shared memory, up to 32; they must fit one at least (FusedLimits::vertices).
 WorkgroupShape workgroupShape(int vertices, int sharedBytes);
 
-// Returns the form for a group. Error: what is wanted cannot hold it.
-Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits);
+// Returns about how long a CPU rasteriser takes to a group's first frame with a lane a molecule and no cache,
+// in seconds of a processor; `draws` as many as a frame in fragments takes, 0 with compute.
+double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws = 0);
+
+// Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
+// to compile.
+Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits);
+// The same in fragments, which have a lane a molecule alone.
+void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits);
 
 }  // namespace shoal

@@ -111,7 +111,7 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     for (const GroupPlan& group : plan.groups) {
         const int most = std::max(FusedLimits::vertices(limits.maxSharedBytes), FusedLimits::laneVertices);
         checkMatrix(group, limits);
-        if (solver(group.solver).implicit || group.needs.life) chooseLanes(group, Lanes::automatic, limits);
+        if (solver(group.solver).implicit || group.needs.life) chooseLanes(plan, group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
@@ -141,7 +141,7 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
         checkMatrix(group, limits);
-        if (!group.isStill()) chooseLanes(group, Lanes::molecule, limits);
+        if (!group.isStill()) checkLane(plan, group, limits);
         checkLayers(group, limits);
     }
 }

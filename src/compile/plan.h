@@ -48,7 +48,7 @@ struct GroupPlan {
     Location location;  // of the group in the scene file, for messages
     size_t index = 0;   // in scene.groups
     int count = 0;      // places, where some are born or die
-    int vertexCount = 0, springCount = 0;
+    int vertexCount = 0, springCount = 0, triangleCount = 0;
     TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
@@ -124,7 +124,8 @@ struct Plan {
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses
     size_t fieldCount = 0, colliderCount = 0;
-    bool longFields = false;  // noise, grids or many waves: too much text to repeat for every vertex
+    bool jointContact = false;  // colliders answer together (compile/generate.h)
+    bool longFields = false;    // computed noise, grids or many waves: too much text to repeat
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
     std::vector<NoiseTile> noiseTiles;  // that fields read

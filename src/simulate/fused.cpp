@@ -38,7 +38,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
-        kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
+        kernel.lanes = chooseLanes(plan, group, options.lanes, limitsOf(info));
         kernel.sharedBytes = info.maxSharedBytes;
         // contact still moves what a dispatch leaves, and newborns come after it
         kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;

@@ -210,8 +210,9 @@ std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
 }
 
 // Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
-// registers. Noise is too long for more than a few vertices, and on a CPU rasteriser, which compiles slowly,
-// for more than one.
+// registers. Noise is too long for more than a few vertices. A CPU rasteriser has no registers that are looked
+// up by index: keeping a loop of more than 32 turns, fewer of which it writes out itself, costs it several times
+// as long to compile as writing it out.
 VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
@@ -220,11 +221,12 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
                            ? group.vertexCount
                            : workgroupShape(group.vertexCount, options.sharedBytes).vertices;
     const auto vertices = size_t(ofLane);
-    const size_t noiseAt = options.software ? 1 : 8;
+    const bool software = options.software;
+    const bool isLong = plan.longFields || (!software && !plan.noiseTiles.empty());
     return {ofLane, Form::writeOut,
-            form((plan.longFields && vertices > noiseAt) ||
-                 vertices * (plan.fieldCount + group.forces.pulls.size()) > longest),
-            form(vertices * plan.colliderCount > longest), Form::keep};
+            form((isLong && vertices > (software ? 1 : 8)) ||
+                 (!software && vertices * (plan.fieldCount + group.forces.pulls.size()) > longest)),
+            form(!software && vertices * plan.colliderCount > longest), form(!software || vertices <= 32)};
 }
 
 const char* rootFile(const KernelOptions& options) {

@@ -1,5 +1,9 @@
 // A lane a vertex leaves the bits of a lane a molecule, whatever a group needs.
+#include <GL/glew.h>
+
 #include <algorithm>
+#include <ctime>
+#include <memory>
 
 #include "gl/agreement.h"
 #include "gl/births.h"
@@ -191,4 +195,55 @@ TEST_CASE("by name a form refuses what it cannot hold, in one line", "[fused][la
     const Scene large = swarm(chain(70, true), 3, SolverKind::leapfrog);
     CHECK_THAT(message(large, Lanes::molecule), Catch::Contains("a lane holds at most"));
     CHECK(on(compile(large), Lanes::automatic).lanes(0) == Lanes::vertex);
+}
+
+// Reports, and fails on nothing: shoal-gl "[.lanes-cost]". Seconds to the first frame without a cache, and
+// processor time of a frame, because others may use the machine.
+TEST_CASE("what the forms cost", "[.lanes-cost]") {
+    if (!canFuse()) return;
+    const auto seconds = [] { return double(std::clock()) / CLOCKS_PER_SEC; };
+    for (const int vertices : {20, 24, 33, 48, 64}) {
+        const int rows = vertices == 20 || vertices == 24 ? 4 : vertices == 33 ? 3 : vertices == 48 ? 6 : 8;
+        for (const Molecule& shape :
+             {chain(vertices, false), chain(vertices, true), sheet(vertices / rows, rows, false)}) {
+            for (const bool plane : {false, true}) {
+                Scene scene = swarm(shape, 4096, SolverKind::leapfrog);
+                scene.gravity = {0, -9.81, 0};
+                scene.fields = {test::field(UniformField{{2, 0, 0.5}})};
+                scene.groups[0].drag = {6, 1};
+                if (plane) scene.colliders.resize(1);
+                scene.solver.substeps = 5;
+                for (Spring& spring : scene.groups[0].molecule.springs)
+                    spring.stiffness *= 0.01, spring.damping *= 0.01;
+                const Plan plan = compile(scene);
+                std::vector<std::unique_ptr<Simulation>> both;
+                std::vector<double> starts, times[2];
+                for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
+                    const double start = seconds();
+                    both.push_back(std::make_unique<Simulation>(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, SimulationOptions{.path = Path::fused, .lanes = lanes}));
+                    test::run(*both.back(), 1);
+                    glFinish();
+                    starts.push_back(seconds() - start);
+                }
+                for (int round = 0; round < 14; ++round) {
+                    const size_t one = size_t(round + round / 2) % 2;
+                    if (round % 4 == 0) both[0]->restart(), both[1]->restart();
+                    glFinish();
+                    const double start = seconds();
+                    test::run(*both[one], 6);
+                    glFinish();
+                    times[one].push_back((seconds() - start) / 6 / 4096 * 1e9);
+                }
+                const auto text = [&](size_t i) {
+                    std::sort(times[i].begin(), times[i].end());
+                    return concat(starts[i], " s, ", times[i].front(), " / ", times[i][times[i].size() / 2]);
+                };
+                WARN(shape.name << ", " << shape.vertices.size() << " vertices, " << shape.springs.size()
+                                << " springs" << (plane ? ", a plane" : "")
+                                << ": to the first frame; ns a molecule and frame, minimum / median: lane a "
+                                   "molecule "
+                                << text(0) << "; lane a vertex " << text(1));
+            }
+        }
+    }
 }

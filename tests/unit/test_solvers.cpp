@@ -139,7 +139,7 @@ TEST_CASE("implicit solvers are refused where a molecule does not fit a lane, an
     CHECK(choosePath(plan, Path::automatic, {}).path == Path::fused);
     CHECK_THAT(messageOf([&] { choosePath(plan, Path::pingPong, {}); }),
                Catch::Contains("bdf2-xpbd") && Catch::Contains("needs the fused path"));
-    CHECK_THAT(messageOf([&] { chooseLanes(plan.groups[0], Lanes::vertex, {}); }),
+    CHECK_THAT(messageOf([&] { chooseLanes(plan, plan.groups[0], Lanes::vertex, {}); }),
                Catch::Contains("in one lane: leave out --lanes vertex"));
     Molecule chain;
     for (int i = 0; i < 65; ++i)
