@@ -323,12 +323,13 @@ std::vector<size_t> sweepOrder(const Molecule& molecule) {
     return out;
 }
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver, bool ofLane) {
     KernelText text;
-    text.molecule = moleculeText(molecule, needs);
     if (countsMuscles(needs))
         text.muscles = parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
     text.waves = MuscleWaves(molecule, needs).arrayText();
+    if (!ofLane) return text;
+    text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)
         text.forces += "uniform sampler2D liveSprings;  // two a spring: src/compile/kernel.h\n\n";

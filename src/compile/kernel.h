@@ -55,7 +55,8 @@ struct KernelText {
     bool operator==(const KernelText&) const = default;
 };
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
+// `ofLane`: with the text of a lane a molecule, which grows with the molecule.
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver, bool ofLane = true);
 
 // Returns the numbers that the kernel reads where springs are live, two 4-vectors a spring:
 //   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's

@@ -38,8 +38,8 @@ constexpr int gpuLane = 12, gpuLaneFree = 20, many = 131072;
 //
 // TABLE
 // A lane a molecule is always best, but what is written out takes long to compile: then a lane a vertex.
-constexpr double mostSeconds = 5;  // to the first frame, where there is a choice
-constexpr double longestSeconds = 10;  // where there is none: more is refused
+constexpr double mostSeconds = 5;      // to the first frame, where there is a choice
+constexpr double longestSeconds = 12;  // where there is none: more is refused
 
 // Of secondsToCompile(), in s; fitted to 80 molecules of 16 to 64 vertices on the same machine, of which it is
 // off by 9 % (root mean square) and by a quarter at most, 4 vertices and the largest matrices apart. A loop
@@ -94,6 +94,10 @@ Lanes lanes(const std::string& word) {
     throw Error(concat("unknown lanes \"", word, "\"", suggestion(word, {"auto", "molecule", "vertex"})));
 }
 
+bool fitsLane(const GroupPlan& group) {
+    return group.vertexCount <= FusedLimits::laneVertices && group.springCount <= FusedLimits::laneSprings;
+}
+
 WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
     constexpr int mostMolecules = 32, mostLanes = 512, mostOfLane = 4, fewestRows = 8;
     WorkgroupShape out;
@@ -121,8 +125,6 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws) {
 
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
     const bool implicit = solver(group.solver).implicit;
-    const bool laneFits =
-        group.vertexCount <= FusedLimits::laneVertices && group.springCount <= FusedLimits::laneSprings;
     if (implicit && (wanted == Lanes::vertex || group.vertexCount > FusedLimits::laneVertices))
         throw Error(
             group.location,
@@ -147,13 +149,13 @@ Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const 
         return Lanes::molecule;
     }
     if (wanted != Lanes::molecule && group.vertexCount > FusedLimits::vertices(limits.maxSharedBytes)) {
-        if (wanted == Lanes::automatic && laneFits) return Lanes::molecule;
+        if (wanted == Lanes::automatic && fitsLane(group)) return Lanes::molecule;
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a workgroup holds at most ",
                                            FusedLimits::vertices(limits.maxSharedBytes), " on this device"));
     }
     if (wanted == Lanes::automatic)
-        return laneFits && prefersLane(plan, group, limits) ? Lanes::molecule : Lanes::vertex;
+        return fitsLane(group) && prefersLane(plan, group, limits) ? Lanes::molecule : Lanes::vertex;
     if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::laneVertices)
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a lane holds at most ", FusedLimits::laneVertices));

@@ -31,6 +31,9 @@ struct FusedLimits {
     static int vertices(int sharedBytes) { return sharedBytes / 32 * 4 / 3; }
 };
 
+// Whether a lane holds a molecule of the group.
+bool fitsLane(const GroupPlan& group);
+
 // A workgroup of the form with a lane a vertex.
 struct WorkgroupShape {
     int molecules = 0;  // side by side; a power of 2

@@ -7,6 +7,7 @@
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
 #include "compile/generate_emitters.h"
+#include "compile/lanes.h"
 #include "compile/muscle_limits.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
@@ -341,7 +342,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
         packStart(scene, group);
-        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
+        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver),
+                                  fitsLane(group) || group.isStill());  // which is drawn in fragments
         if (group.needs.liveSprings) {
             group.springNumbers = springNumbers(scene.groups[i].molecule);
             group.springFrequencies = springFrequencies(scene.groups[i].molecule);

@@ -109,7 +109,6 @@ TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, a
             CHECK(chooseLanes(plan, group, Lanes::automatic, limits) == Lanes::molecule);
             CHECK_NOTHROW(checkLane(plan, group, limits));
             ++groups;
-            { const int dr=(group.layout().stateElements()+1+7)/8; printf("%s %s %d v %s: %.2f fragments %.2f\n", entry.path().filename().c_str(), group.name.c_str(), group.vertexCount, name(group.solver), secondsToCompile(plan, group), secondsToCompile(plan, group, dr)); }
         }
     }
     CHECK(groups > 20);
