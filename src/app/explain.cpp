@@ -38,8 +38,9 @@ int explainCommand(const Options& options) {
         if (cost) std::cout << "\n" << asText(*cost);
         return 0;
     }
-    std::cout << "// As a GPU gets it. A CPU rasteriser keeps more molecules in a lane (--lanes molecule), and "
-                 "stores and\n// reads uniforms in its own way.\n";
+    std::cout
+        << "// As a GPU gets it. A CPU rasteriser keeps more molecules in a lane (--lanes molecule), and "
+           "stores and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
         kernel.watch = true;

@@ -36,14 +36,26 @@ constexpr int gpuLane = 12, gpuLaneFree = 20, many = 131072;
 // substeps, uniform wind, drag by direction where there are triangles; without and with a plane
 // (shoal-gl "[.lanes-cost]"; 2 cores of an Intel Xeon, llvmpipe, Mesa 22.3.6).
 //
-// TABLE
+//   vertices, springs, triangles   a lane a molecule   a lane a vertex
+//   24, 0, 0                         492     805        1,655    2,220
+//   24, 45, 0                      1,009   1,266       20,746   21,241
+//   24, 96, 30                     1,880   2,208       46,865   48,914
+//   33, 63, 0                      1,464   1,838       31,656   31,469
+//   33, 130, 40                    2,590   3,017       65,716   71,599
+//   48, 0, 0                       1,065   1,783        3,354    4,373
+//   48, 220, 70                    4,344   4,493      105,512  100,848
+//   64, 0, 0                       1,341   2,411        4,250    5,507
+//   64, 125, 0                     2,850   3,638       54,612   54,772
+//   64, 306, 98                    5,566   6,683      138,159  149,755
+//
 // A lane a molecule is always best, but what is written out takes long to compile: then a lane a vertex.
 constexpr double mostSeconds = 5;      // to the first frame, where there is a choice
 constexpr double longestSeconds = 12;  // where there is none: more is refused
 
-// Of secondsToCompile(), in s; fitted to 80 molecules of 16 to 64 vertices on the same machine, of which it is
-// off by 9 % (root mean square) and by a quarter at most, 4 vertices and the largest matrices apart. A loop
-// that is kept would cost several times as much: llvmpipe has no registers that are looked up by index.
+// Of secondsToCompile(), in s; fitted to 62 kernels of 4 to 64 vertices on the same machine, of which it is
+// off by 9 % (root mean square) and by 30 % at most. Fields, fragments and loops that are kept were fitted to
+// a few apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times as
+// long.
 constexpr double start = 0.7;  // of everything else
 constexpr double ofVertex = 0.0048, ofTriangle = 0.0103;
 constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
@@ -55,12 +67,18 @@ constexpr double ofDraw = 0.6;   // in fragments each holds the whole step
 double secondsOf(SolverKind solver) {
     switch (solver) {
     case SolverKind::euler:
-    case SolverKind::verlet: return 0.0013;
-    case SolverKind::leapfrog: return 0.0042;
-    case SolverKind::rk4: return 0.0048;
-    case SolverKind::xpbd: return 0.0021;
-    case SolverKind::bdf2Xpbd: return 0.0246;
-    case SolverKind::bdf2Corotated: return 0.0653;
+    case SolverKind::verlet:
+        return 0.0013;
+    case SolverKind::leapfrog:
+        return 0.0042;
+    case SolverKind::rk4:
+        return 0.0048;
+    case SolverKind::xpbd:
+        return 0.0021;
+    case SolverKind::bdf2Xpbd:
+        return 0.0246;
+    case SolverKind::bdf2Corotated:
+        return 0.0653;
     }
     EXPECTS(false);
     return 0;
@@ -74,11 +92,11 @@ bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& lim
 // Error: its code would take a CPU rasteriser too long.
 void checkSeconds(const GroupPlan& group, double seconds, const PathLimits& limits, const char* instead) {
     if (!limits.software || seconds <= longestSeconds) return;
-    throw Error(group.location,
-                concat("a CPU rasteriser would take about ", std::lround(seconds), " s to compile \"", group.name,
-                       "\", ", group.vertexCount, " vertices and ", group.springCount, " springs, with ",
-                       name(group.solver), " in one lane; more than ", longestSeconds, " s are refused: ",
-                       instead));
+    throw Error(
+        group.location,
+        concat("a CPU rasteriser would take about ", std::lround(seconds), " s to compile \"", group.name,
+               "\", ", group.vertexCount, " vertices and ", group.springCount, " springs, with ",
+               name(group.solver), " in one lane; more than ", longestSeconds, " s are refused: ", instead));
 }
 
 }  // namespace
@@ -116,8 +134,7 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws) {
     const double vertices = group.vertexCount;
     double ofEach = ofVertex;
     if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;
-    if (group.needs.fields)
-        ofEach += double(plan.fieldCount) * (plan.longFields ? ofLongField : ofField);
+    if (group.needs.fields) ofEach += double(plan.fieldCount) * (plan.longFields ? ofLongField : ofField);
     const double text = vertices * ofEach + group.springCount * secondsOf(group.solver) +
                         (group.needs.directionalDrag ? group.triangleCount : 0) * ofTriangle;
     return start + text * (1 + vertices / crowding) * (draws > 0 ? ofDraw * draws : 1);

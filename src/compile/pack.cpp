@@ -149,8 +149,9 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
         mass += vertex.mass;
     const MuscleWaves waves(molecule, group.needs);
     const auto cornersOf = [](const Triangle& t) { return std::array{t.a, t.b, t.c}; };
-    const auto springs =
-        around(count, molecule.springs, [](const Spring& spring) { return std::array{spring.a, spring.b}; });
+    const auto springs = around(count, molecule.springs, [](const Spring& spring) {
+        return std::array{spring.a, spring.b};
+    });
     const auto triangles = around(count, molecule.triangles, cornersOf);
     topology.resize(base + 2 * count);
     for (size_t v = 0; v < count; ++v) {

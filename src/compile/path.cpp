@@ -111,7 +111,8 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
     for (const GroupPlan& group : plan.groups) {
         const int most = std::max(FusedLimits::vertices(limits.maxSharedBytes), FusedLimits::laneVertices);
         checkMatrix(group, limits);
-        if (solver(group.solver).implicit || group.needs.life) chooseLanes(plan, group, Lanes::automatic, limits);
+        if (solver(group.solver).implicit || group.needs.life)
+            chooseLanes(plan, group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,

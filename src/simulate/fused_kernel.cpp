@@ -210,9 +210,9 @@ std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
 }
 
 // Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
-// registers. Noise is too long for more than a few vertices. A CPU rasteriser has no registers that are looked
-// up by index: keeping a loop of more than 32 turns, fewer of which it writes out itself, costs it several times
-// as long to compile as writing it out.
+// registers. Noise is too long for more than a few vertices. A CPU rasteriser has no registers that are
+// looked up by index: keeping a loop of more than 32 turns, fewer of which it writes out itself, costs it
+// several times as long to compile as writing it out.
 VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };

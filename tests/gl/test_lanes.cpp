@@ -220,7 +220,9 @@ TEST_CASE("what the forms cost", "[.lanes-cost]") {
                 std::vector<double> starts, times[2];
                 for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {
                     const double start = seconds();
-                    both.push_back(std::make_unique<Simulation>(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, SimulationOptions{.path = Path::fused, .lanes = lanes}));
+                    both.push_back(
+                        std::make_unique<Simulation>(testContext(), SHOAL_SOURCE_DIR "/shaders", plan,
+                                                     SimulationOptions{.path = Path::fused, .lanes = lanes}));
                     test::run(*both.back(), 1);
                     glFinish();
                     starts.push_back(seconds() - start);

@@ -113,9 +113,11 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
                                                         number + ", " + number +
                                                         R"(\), muscleAngles\[0\]\.x, time, phase\), 0\.0\))";
     const auto springs = matches(
-        text.forces, std::regex(R"(f = sprung\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" +
-                                number + ", " + number + ", (?:" + number + R"( \* scale|)" + muscle +
-                                R"(), inverseMass\[(\d)\] \+ inverseMass\[(\d)\]\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
+        text.forces,
+        std::regex(
+            R"(f = sprung\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" + number + ", " +
+            number + ", (?:" + number + R"( \* scale|)" + muscle +
+            R"(), inverseMass\[(\d)\] \+ inverseMass\[(\d)\]\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
     REQUIRE(springs.size() == 6);
     CHECK(matches(text.forces, std::regex("sprung\\(")).size() == 6);
     for (size_t i = 0; i < 6; ++i) {
