@@ -213,8 +213,9 @@ TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fus
     const Plan plan = compile(scene);
     const size_t one = stateBytes(plan, Path::fused, true, true), two = stateBytes(plan, Path::fused, true);
     const auto make = [&](size_t bytes, const SimulationOptions& options) {
-        // and the samples, and the watchdog's word
-        const LittleMemory memory(bytes + plan.samples.size() * sizeof(glm::vec4) + sizeof(uint32_t));
+        // and the tables, and the watchdog's word
+        const size_t tables = (plan.samples.size() + plan.topology.size()) * sizeof(glm::vec4);
+        const LittleMemory memory(bytes + tables + sizeof(uint32_t));
         return Simulation(testContext(), shaders, plan, options);
     };
     Simulation roomy = make(two, {});
