@@ -10,8 +10,7 @@
 // The anchor follows the molecule by steps of its lattice, exactly.
 bool followAnchor()
 {
-    waitForGroup();
-    vec3 shift = anchorShift(x[0]);
+    vec3 shift = anchorShift(firstPlace());
     for (int i = 0; i < VERTICES; ++i) {
         x[i] -= shift;
     }
@@ -39,10 +38,9 @@ void main()
     finishSolver();
 #ifdef LIFE
     bool wasTaken = taken();
-    if (wasTaken) {
-        growOlder(molecule);
-    } else {
-        loadState(molecule);  // what has died stays as it was
+    growOlder(molecule);
+    if (!wasTaken) {
+        keepState(molecule);  // what has died stays as it was
         moved = false;
     }
 #endif
@@ -54,7 +52,7 @@ void main()
     watch();
 #endif
 #if defined(RECORDS) && !defined(LAYERED)
-    if (writesRecord() && (moved || released != wasReleased)) newRecords[molecule] = recordNow();
+    if (isFirstLane() && (moved || released != wasReleased)) newRecords[molecule] = recordNow();
 #endif
 #ifdef NORMALS
     writeNormals(molecule);

@@ -1,50 +1,118 @@
-// One workgroup a molecule and a lane a vertex, for molecules that do not fit one lane's registers: the vertices lie in
-// shared memory. For fused/frame.glsl.
-layout(std430, binding = 0) writeonly buffer NewState { float newState[]; };
-#ifdef RECORDS
-layout(std430, binding = 1) writeonly buffer NewRecords { vec4 newRecords[]; };
-#endif
+// A workgroup for several molecules, its lanes spread over their vertices (fused/gather.glsl), for molecules that do not fit
+// one lane's registers. For fused/frame.glsl.
+#include "fused/store.glsl"
 #ifdef NORMALS
-layout(std430, binding = 2) writeonly buffer NewNormals { float newNormals[]; };
+layout(std430, binding = 2) writeonly buffer NewNormals { ELEMENT newNormals[]; };
 #endif
 
 int ownMolecule()
 {
-    return int(gl_WorkGroupID.x);
+    return int(gl_GlobalInvocationID.x);
 }
 
-bool writesRecord()
+// One of the molecule's lanes does what is to be done once.
+bool isFirstLane()
 {
-    return gl_LocalInvocationID.x == 0u;
+    return row() == 0;
 }
 
+// Through shared memory, so that every 4-vector is read once.
 void loadState(int molecule)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
-    for (int i = 0; i < VERTICES; ++i) {
-        x[i] = packedVertex(oldState, first, 0, i);
-        v[i] = packedVertex(oldState, first, POSITION_ELEMENTS, i);
+    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
+        vec4 place = element(oldState, first, e);
+        vec4 velocity = element(oldState, first, POSITION_ELEMENTS + e);
+        for (int c = 0; c < 4; ++c) {
+            places[(4 * e + c) * LANES + column()] = place[c];
+            velocities[(4 * e + c) * LANES + column()] = velocity[c];
+        }
     }
+    waitForGroup();
+    for (int i = 0; i < VERTICES; ++i) {
+        x[i] = placeOf(vertexOf(i));
+        v[i] = velocityOf(vertexOf(i));
+    }
+    loadInertia();
+#ifdef LIFE
+    vec2 life = packedLife(oldState, first);
+    age = life.x;
+    span = life.y;
+#endif
+}
+
+#ifdef LIFE
+bool kept = false;
+
+void keepState(int molecule)
+{
+    kept = true;
+}
+#endif
+
+// 4-vector e of what is shared, with zeros behind the vertices.
+vec4 sharedPlaces(int e)
+{
+    vec4 values;
+    for (int c = 0; c < 4; ++c) {
+        values[c] = 4 * e + c < 3 * MOLECULE_VERTICES ? places[(4 * e + c) * LANES + column()] : 0.0;
+    }
+    return values;
+}
+
+vec4 sharedVelocities(int e)
+{
+    vec4 values;
+    for (int c = 0; c < 4; ++c) {
+        values[c] = 4 * e + c < 3 * MOLECULE_VERTICES ? velocities[(4 * e + c) * LANES + column()] : 0.0;
+    }
+    return values;
+}
+
+void storeElement(int first, int e, vec4 value)
+{
+#ifdef LIFE
+    if (kept) value = element(oldState, first, e);
+#endif
+    newState[first + e * BLOCK] = stored(value);
 }
 
 void storeState(int molecule)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
+    waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        for (int c = 0; c < 3; ++c) {
-            newState[floatIndex(first, 3 * i + c)] = x[i][c];
-            newState[floatIndex(first + POSITION_ELEMENTS * BLOCK, 3 * i + c)] = v[i][c];
-        }
+        sharePlace(i, x[i]);
+        shareVelocity(i, v[i]);
     }
+    waitForGroup();
+    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
+        vec4 place = sharedPlaces(e);
+        vec4 velocity = sharedVelocities(e);
+#ifdef LIFE
+        if (STATE_ELEMENTS % 2 == 0 && e == POSITION_ELEMENTS - 1) {
+            place.w = age;
+            velocity.w = span;
+        }
+#endif
+        storeElement(first, e, place);
+        storeElement(first, POSITION_ELEMENTS + e, velocity);
+    }
+#ifdef LIFE
+    if (STATE_ELEMENTS % 2 == 1 && isFirstLane()) storeElement(first, STATE_ELEMENTS - 1, vec4(age, span, 0.0, 0.0));
+#endif
 }
 
 #ifdef NORMALS
 void storeNormals(int molecule)
 {
     int first = firstElement(molecule, POSITION_ELEMENTS);
+    waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        for (int c = 0; c < 3; ++c) newNormals[floatIndex(first, 3 * i + c)] = normal[i][c];
+        sharePlace(i, normal[i]);
     }
+    waitForGroup();
+    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) newNormals[first + e * BLOCK] = stored(sharedPlaces(e));
 }
 #endif
 
@@ -53,7 +121,7 @@ void run()
     for (int done = 0; done < substeps; ++done) {
         advance(done);
 #ifdef COLLIDE
-        resolveContacts(done + 1);
+        if (findContacts(done + 1)) resolveContacts(done + 1);
 #endif
     }
 }

@@ -19,10 +19,29 @@ int ownMolecule()
 #endif
 }
 
-bool writesRecord()
+bool isFirstLane()
 {
     return true;
 }
+
+bool anyLane(bool value)
+{
+    return value;
+}
+
+// Of vertex 0, m.
+vec3 firstPlace()
+{
+    return x[0];
+}
+
+#ifdef LIFE
+// The molecule is stored as it was.
+void keepState(int molecule)
+{
+    loadState(molecule);
+}
+#endif
 
 void run()
 {

@@ -1,5 +1,5 @@
-// One molecule in the registers of one lane (or, with SHARED_MOLECULE, in the shared memory of one workgroup,
-// a vertex a lane): what the fused step works on between reading the state and writing it.
+// One molecule in the registers of one lane or, with ROWS, some of its vertices (fused/gather.glsl): what the fused step
+// works on between reading the state and writing it.
 //
 // The state in memory is packed: the 3 VERTICES floats of the positions follow one another in
 // POSITION_ELEMENTS 4-vectors, then the velocities in as many more. Molecules lie in blocks of BLOCK:
@@ -12,11 +12,16 @@
 // of the last 4-vector of the positions and of the velocities, or where those are full the x and y of one
 // more. The constants, where instances differ: x scale, y phase of the muscles (rad).
 //
-// Set by C++ (src/simulate/fused_kernel.cpp): LANES, BLOCK, VERTICES, POSITION_ELEMENTS, STATE_ELEMENTS.
+// Set by C++ (src/simulate/fused_kernel.cpp): LANES, molecules of a workgroup; VERTICES that a lane holds; BLOCK,
+// POSITION_ELEMENTS, STATE_ELEMENTS.
 #include "state/packed.glsl"
 
 #ifndef LAYERED
+#ifdef ROWS
+layout(local_size_x = LANES, local_size_y = ROWS) in;
+#else
 layout(local_size_x = LANES) in;
+#endif
 #endif
 
 uniform VALUES oldState;
@@ -89,23 +94,15 @@ void loadUniforms()
     releaseChance = inRegister(givenNumbers[6].y);
 }
 
-#ifdef SHARED_MOLECULE
-#include "sort/wait.glsl"
-#define PER_VERTEX shared vec3
-#else
-#define PER_VERTEX vec3
-void waitForGroup() {}
-#endif
-
-PER_VERTEX x[VERTICES];       // m, relative to the anchor
-PER_VERTEX v[VERTICES];       // m/s
-PER_VERTEX w[VERTICES];       // m/s, as the springs' damping sees it
-PER_VERTEX force[VERTICES];   // N, of the springs
-PER_VERTEX probe[VERTICES];   // m, where drag is taken
-PER_VERTEX fluid[VERTICES];   // m/s, the fields' velocity there
-PER_VERTEX normal[VERTICES];  // unit, of the surface there
+vec3 x[VERTICES];       // m, relative to the anchor
+vec3 v[VERTICES];       // m/s
+vec3 w[VERTICES];       // m/s, as the springs' damping sees it
+vec3 force[VERTICES];   // N, of the springs
+vec3 probe[VERTICES];   // m, where drag is taken
+vec3 fluid[VERTICES];   // m/s, the fields' velocity there
+vec3 normal[VERTICES];  // unit, of the surface there
 #if defined(FORCES) || defined(STEERED)
-PER_VERTEX pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
+vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
 #endif
 
 vec3 anchor;            // m
@@ -125,10 +122,9 @@ bool taken()
 #endif
 
 // Loops of the form `for (int i = 0; i < VERTICES; ++i) {` are written out before the driver sees them, so
-// that every index is a constant and every vertex stays in registers; in a workgroup each lane takes its own
-// vertices, after waitForGroup(), which also goes before a vertex is read by a lane that did not write it. Loops
-// over j (fields) and k (contacts) are the same for bodies that may be too long to write out
-// (src/simulate/vertex_loops.h).
+// that every index is a constant and every vertex stays in registers. Loops over j (fields) and k (contacts) are the same
+// for bodies that may be too long to write out (src/simulate/vertex_loops.h). What needs more than the own vertex, sums
+// and the place of vertex 0, is a function of the form: it may hold barriers, so that all lanes have to call it.
 
 void loadRecord(int molecule)
 {

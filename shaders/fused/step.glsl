@@ -25,9 +25,9 @@ bool isHeld(bool pinned)
 void letGo(int step)
 {
 #ifdef RELEASE
-    if (step > 0 || released) return;
-    waitForGroup();
-    released = isReleased(pullOnPins(), releaseForce, seed, frame, releaseChance);
+    if (step > 0) return;
+    float pulled = pullOnPins();
+    released = released || isReleased(pulled, releaseForce, seed, frame, releaseChance);
 #endif
 }
 
@@ -43,7 +43,6 @@ void sampleFrame()
         probe[i] = x[i] + v[i] * middle;
     }
 #ifdef SAMPLE_MOLECULE
-    waitForGroup();
     vec3 u = fieldAt(anchor, meanProbe(), middle);
     for (int i = 0; i < VERTICES; ++i) {
         fluid[i] = u;
@@ -66,7 +65,6 @@ void sampleSubstep(float time)
     }
 #endif
 #ifdef STEERED
-    waitForGroup();
     vec3 middle = steeredMiddle();
     for (int i = 0; i < VERTICES; ++i) {
 #ifdef FORCES
@@ -143,7 +141,6 @@ void gain(vec3 gained)
 // Adds to v what a thrust changes the mean of the velocities w by over a substep, or over half of one.
 void thrustBy(bool whole)
 {
-    waitForGroup();
     vec3 mean = meanVelocity();
     gain(thrustedVelocity(mean, whole) - mean);
 }

@@ -1,7 +1,7 @@
 // Ages a molecule by a frame. It dies of age, outside a box (CONFINED), or some time after it has touched a
 // collider (TOUCH_COUNTS): its place becomes free, and with DEATHS its death is recorded: one bit a
 // place, so that neighbours that die together leave the same bits in whatever order. In fragments the state itself tells
-// (particles/bits.frag). Needs fused/state.glsl.
+// (particles/bits.frag). A place that is free stays so. Needs fused/state.glsl.
 #ifndef LAYERED
 layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 #ifdef DEATHS
@@ -17,25 +17,34 @@ uniform float afterContact;  // s
 
 void growOlder(int molecule)
 {
+#ifdef TOUCH_COUNTS
+    bool anyTouched = anyLane(touched);
+#endif
+#ifdef CONFINED
+    vec3 place = firstPlace();
+#endif
+    if (!taken()) return;
     age += frameDuration;
 #ifdef TOUCH_COUNTS
-    if (touched) span = min(span, age + afterContact);
+    if (anyTouched) span = min(span, age + afterContact);
 #endif
     bool dies = age >= span;
 #ifdef CONFINED
-    vec3 above = ((anchor - livesAbove[0].xyz) - livesAbove[1].xyz) + x[0];
-    vec3 below = ((anchor - livesBelow[0].xyz) - livesBelow[1].xyz) + x[0];
+    vec3 above = ((anchor - livesAbove[0].xyz) - livesAbove[1].xyz) + place;
+    vec3 below = ((anchor - livesBelow[0].xyz) - livesBelow[1].xyz) + place;
     dies = dies || min(above.x, min(above.y, above.z)) < 0.0 || max(below.x, max(below.y, below.z)) > 0.0;
 #endif
     if (dies) {
         age = clamp(age - span, 0.0, frameDuration);  // how long ago
         span = 0.0;
 #ifndef LAYERED
-        uint bit = 1u << (uint(molecule) & 31u);
-        atomicOr(freeBits[molecule >> 5], bit);
+        if (isFirstLane()) {
+            uint bit = 1u << (uint(molecule) & 31u);
+            atomicOr(freeBits[molecule >> 5], bit);
 #ifdef DEATHS
-        atomicOr(diedBits[molecule >> 5], bit);
+            atomicOr(diedBits[molecule >> 5], bit);
 #endif
+        }
 #endif
     }
 }

@@ -1,6 +1,6 @@
 // How far the next step goes: one past the last place that is taken, or was one step before, on the other side of the
 // state. Needs particles/control.glsl, the buffer Control and controlBase.
-uniform int stepLanes;  // of a workgroup of the step
+uniform int stepLanes;  // molecules that a workgroup of the step takes
 
 void reachTo(uint mark)
 {

@@ -6,7 +6,7 @@
 // one, and finishSolver() gives the last. The first opens with a = F(x, v, t) / m and no kick.
 
 #ifdef SPRINGS
-PER_VERTEX acceleration[VERTICES];  // m/s^2, of the springs
+vec3 acceleration[VERTICES];  // m/s^2, of the springs
 #endif
 
 void beginSolver()

@@ -1,9 +1,9 @@
 // rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
 
-PER_VERTEX startPosition[VERTICES];
-PER_VERTEX startVelocity[VERTICES];
-PER_VERTEX sumVelocity[VERTICES];      // of b v
-PER_VERTEX sumAcceleration[VERTICES];  // of b a
+vec3 startPosition[VERTICES];
+vec3 startVelocity[VERTICES];
+vec3 sumVelocity[VERTICES];      // of b v
+vec3 sumAcceleration[VERTICES];  // of b a
 
 void beginSolver()
 {

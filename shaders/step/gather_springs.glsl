@@ -1,5 +1,5 @@
 // The springs around a vertex from the topology table, where they are not compiled in. Needs `scale`, `phase`, a vertex's
-// springPlace (m) and springVelocity (m/s) and springInverseMass (1/kg).
+// springPlace (m), springVelocity (m/s) and springInverseMass (1/kg); where they steer, the shares of muscles in `waves`.
 #include "state/topology.glsl"
 #include "step/springs.glsl"
 
@@ -20,7 +20,11 @@ vec3 springForceOn(int vertex, float time)
 #ifdef MUSCLES
         vec4 muscle = table(first + 2 * s + 1);
 #ifdef STEERED
+#ifdef WAVES
+        restLength = bentLength(restLength, muscle.x * waves[int(muscle.y)], muscle.w * curvature);
+#else
         restLength = bentLength(restLength, musclePull(muscle.xyz, 0.0, swimClock(time), phase), muscle.w * curvature);
+#endif
 #else
         float angle = muscleAngles[int(muscle.w) / 4][int(muscle.w) % 4];
         restLength = bentLength(restLength, musclePull(muscle.xyz, angle, time, phase), 0.0);

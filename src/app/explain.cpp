@@ -39,8 +39,8 @@ int explainCommand(const Options& options) {
         return 0;
     }
     std::cout
-        << "// As a GPU gets it. A CPU rasteriser runs up to " << FusedLimits::softwareLane
-        << " vertices in a lane (--lanes molecule), and stores and\n// reads uniforms in its own way.\n";
+        << "// As a GPU gets it. A CPU rasteriser keeps more molecules in a lane (--lanes molecule), and "
+           "stores and\n// reads uniforms in its own way.\n";
     for (size_t g = 0; g < loaded.plan.groups.size(); ++g) {
         KernelOptions kernel;
         kernel.watch = true;
@@ -48,7 +48,7 @@ int explainCommand(const Options& options) {
             const int stored = int(storedInFragments(loaded.plan.groups[g]).size());
             kernel.fragments = {0, std::min(stored, limits.targets)};
         } else {
-            kernel.lanes = chooseLanes(loaded.plan.groups[g], options.lanes, limits);
+            kernel.lanes = chooseLanes(loaded.plan, loaded.plan.groups[g], options.lanes, limits);
             kernel.normals = true;
         }
         std::cout << kernelShader(shaderRoot(), loaded.plan, g, kernel) << "\n";

@@ -22,6 +22,7 @@ JsonValue asJson(const gpu::ContextProbe& probe) {
         key("maxSamples", info.maxSamples), key("maxVertexTextureUnits", info.maxVertexTextureUnits),
         key("max3DTextureSize", info.max3DTextureSize), key("maxBufferTexels", info.maxBufferTexels),
         key("maxStorageBlockBytes", info.maxStorageBlockBytes), key("maxSharedBytes", info.maxSharedBytes),
+        key("maxMoleculeVertices", FusedLimits::vertices(info.maxSharedBytes)),
         key("maxWorkGroupsX", info.maxWorkGroupsX), key("computeShaders", info.computeShaders),
         key("subgroups", info.subgroups), key("paths", paths));
 }
@@ -41,7 +42,8 @@ void printProbe(const gpu::ContextProbe& probe) {
               << info.maxBufferTexels << " buffer texels";
     if (info.computeShaders)
         std::cout << ", storage blocks of " << info.maxStorageBlockBytes << " bytes, " << info.maxSharedBytes
-                  << " bytes shared by a work group" << (info.subgroups ? ", subgroups" : "");
+                  << " bytes shared by a work group (" << FusedLimits::vertices(info.maxSharedBytes)
+                  << " vertices of a molecule)" << (info.subgroups ? ", subgroups" : "");
     std::cout << "\n  paths        " << (info.computeShaders ? "fused, " : "")
               << "fragments, ping-pong (up to " << int64_t(info.maxTextureSize) * stateWidth << " vertices)"
               << (info.computeShaders ? "" : "; compute shaders need OpenGL 4.3") << "\n";

@@ -115,8 +115,7 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::v
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";
-    } else if (safe || !mends || out.vertexCount > FusedLimits::softwareLane ||
-               out.springCount > FusedLimits::laneSprings) {
+    } else if (safe || !mends || !fitsLane(out)) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = concat(safe     ? "the substep resolves the springs"
                                : !mends ? "no solver resolves the forces with this substep"

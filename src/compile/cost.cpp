@@ -124,10 +124,10 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
 }
 
 // 32-bit registers a lane (cost.h says what is counted).
-int registersOf(const GroupPlan& group, Lanes lanes) {
+int registersOf(const GroupPlan& group, int vertices) {
     constexpr int beside = 24;
     const int vectors = 2 + costOf(group.solver).vectors + (group.needs.directionalDrag ? 1 : 0);
-    return beside + 3 * vectors * (lanes == Lanes::vertex ? 1 : group.vertexCount);
+    return beside + 3 * vectors * vertices;
 }
 
 double occupancyOf(const KernelCost& cost, int workgroup) {
@@ -175,15 +175,20 @@ std::vector<KernelCost> kernelCosts(const Scene& scene, const Plan& plan, const 
             cost.draws = (stored + limits.targets - 1) / limits.targets;
             cost.bytes += double(cost.draws - 1) * cost.stateFetches * sizeof(glm::vec4);
         } else {
-            cost.lanes = chooseLanes(group, lanes, limits);
+            cost.lanes = chooseLanes(plan, group, lanes, limits);
         }
         cost.operations = cost.draws * step.operations;
         cost.tableFetches = cost.draws * step.fetches;
         cost.stateFetches *= cost.draws;
-        if (cost.lanes == Lanes::vertex)
-            cost.sharedBytes = group.vertexCount * FusedLimits::sharedBytesPerVertex(group.solver);
-        cost.registers = registersOf(group, cost.lanes);
-        cost.occupancy = occupancyOf(cost, group.vertexCount);
+        if (cost.lanes == Lanes::vertex) {
+            const WorkgroupShape shape = workgroupShape(group.vertexCount, limits.maxSharedBytes);
+            cost.sharedBytes = shape.molecules * FusedLimits::sharedBytes(group.vertexCount);
+            cost.registers = registersOf(group, shape.vertices);
+            cost.occupancy = occupancyOf(cost, shape.molecules * shape.rows);
+        } else {
+            cost.registers = registersOf(group, group.vertexCount);
+            cost.occupancy = occupancyOf(cost, 0);
+        }
     }
     return out;
 }

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -13,6 +14,28 @@ namespace {
 const char* when(PassPlan::When moment) {
     static constexpr const char* words[] = {"once a frame, first", "every substep", "once a frame, last"};
     return words[size_t(moment)];
+}
+
+// How its molecules are spread over lanes, on either kind of device.
+std::string lanesText(const Plan& plan, const GroupPlan& group) {
+    PathLimits limits;
+    const std::string onGpu = name(chooseLanes(plan, group, Lanes::automatic, limits));
+    limits.software = true;
+    std::string onRasteriser;
+    try {
+        const Lanes lanes = chooseLanes(plan, group, Lanes::automatic, limits);
+        onRasteriser = concat("a lane a ", name(lanes));
+        if (lanes == Lanes::molecule)
+            onRasteriser += concat(", compiled in about ", std::lround(secondsToCompile(plan, group)), " s");
+    } catch (const Error&) {
+        onRasteriser = "refused, since it would compile for too long";
+    }
+    const std::string why =
+        solver(group.solver).implicit
+            ? concat("; ", name(group.solver), " goes over the springs one after the other, in one lane")
+            : concat("; a lane a vertex holds ", FusedLimits::vertices(limits.maxSharedBytes),
+                     " vertices with ", limits.maxSharedBytes, " bytes of shared memory");
+    return concat("on a GPU a lane a ", onGpu, ", on a CPU rasteriser ", onRasteriser, why);
 }
 
 }  // namespace
@@ -160,6 +183,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             listPasses(out, plan, g);
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
+        if (choice.path == Path::fused) out << "  lanes    " << lanesText(plan, group) << "\n";
         tellSchool(out, plan, g);
         listBirths(out, group);
         const std::string absent = leftOut(group, choice.path != Path::pingPong);

@@ -42,6 +42,7 @@ struct GeneratedColliders : Generated {
     std::vector<size_t> materials;
     std::vector<MovingCollider> moving;
     std::optional<size_t> fastestSlot;  // setPoses
+    bool joint = false;                 // all at once: with JOINT_CONTACT
 };
 
 // float clearance(vec3 anchor, vec3 position, float time): m from the nearest surface, negative inside. For

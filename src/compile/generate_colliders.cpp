@@ -148,6 +148,7 @@ class Joint {
         }
         GeneratedColliders out = std::move(writer_.result);
         out.source = source(out, fastest);
+        out.joint = true;
         return out;
     }
 

@@ -40,8 +40,6 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
             if (molecule.vertices[v].pinned) out += concat("    pull = max(pull, length(force[", v, "]));\n");
         out += "    return pull;\n}\n";
     }
-    if (countsMuscles(needs))
-        out += parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
     out += "\nvec3 meanProbe()\n{\n    vec3 sum = probe[0];\n";
     for (size_t v = 1; v < count; ++v)
         out += concat("    sum += probe[", v, "];\n");
@@ -50,12 +48,14 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
     double mass = 0;
     for (const Vertex& vertex : molecule.vertices)
         mass += vertex.mass;
+    // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a
+    // loop does
     const auto mean = [&](const char* comment, const char* name, const char* array) {
         std::string text =
             concat("\n// ", comment, ", by mass.\nvec3 ", name, "()\n{\n    vec3 sum = vec3(0.0);\n");
         for (size_t v = 0; v < count; ++v)
-            text += concat("    sum += ", array, "[", v, "] * ",
-                           glslLiteral(molecule.vertices[v].mass / mass), ";\n");
+            text += concat("    sum += inRegister(", array, "[", v, "] * ",
+                           glslLiteral(molecule.vertices[v].mass / mass), ");\n");
         return text + "    return sum;\n}\n";
     };
     if (needs.thrust) out += mean("Of w", "meanVelocity", "w");
@@ -116,14 +116,12 @@ const char* springVariables(const Needs& needs) {
 }
 
 // The force of a spring, added to its ends: of the way between these, and of their relative velocity.
-std::string forceText(const Molecule& molecule, const Spring& spring, const SpringText& numbers,
-                      const std::string& way, const std::string& relative) {
-    const double inverseMasses =
-        1 / molecule.vertices[size_t(spring.a)].mass + 1 / molecule.vertices[size_t(spring.b)].mass;
+std::string forceText(const Spring& spring, const SpringText& numbers, const std::string& way,
+                      const std::string& relative) {
     return concat(numbers.load, "    f = sprung(", way, ", ", numbers.damped ? relative : "vec3(0.0)", ", ",
                   numbers.stiffness, ", ", numbers.damping, ", ", numbers.restLength, ", ",
-                  glslLiteral(inverseMasses), ");\n    ", at("force", spring.a), " += f;\n    ",
-                  at("force", spring.b), " -= f;\n");
+                  at("inverseMass", spring.a), " + ", at("inverseMass", spring.b), ");\n    ",
+                  at("force", spring.a), " += f;\n    ", at("force", spring.b), " -= f;\n");
 }
 
 std::string springText(const Molecule& molecule, const Needs& needs) {
@@ -134,7 +132,7 @@ std::string springText(const Molecule& molecule, const Needs& needs) {
         springVariables(needs), MuscleWaves(molecule, needs).text());
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
-        out += forceText(molecule, spring, numbersOf(molecule, i, needs),
+        out += forceText(spring, numbersOf(molecule, i, needs),
                          concat(at("x", spring.a), " - ", at("x", spring.b)),
                          concat(at("w", spring.a), " - ", at("w", spring.b)));
     }
@@ -169,7 +167,7 @@ std::string stageText(const Molecule& molecule, const Needs& needs) {
     for (size_t i = 0; i < molecule.springs.size(); ++i) {
         const Spring& spring = molecule.springs[i];
         const std::string a = concat("[", spring.a, "]"), b = concat("[", spring.b, "]");
-        out += forceText(molecule, spring, numbersOf(molecule, i, needs),
+        out += forceText(spring, numbersOf(molecule, i, needs),
                          concat("(x", a, " - x", b, ") + (q", a, " - q", b, ")"),
                          concat("((q", a, " - q", b, ") - (z", a, " - z", b, ")) * inverseEta"));
     }
@@ -325,8 +323,12 @@ std::vector<size_t> sweepOrder(const Molecule& molecule) {
     return out;
 }
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver) {
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver, bool ofLane) {
     KernelText text;
+    if (countsMuscles(needs))
+        text.muscles = parameterArray("muscleAngles", muscleAngles(muscleFrequencies(molecule), 0).size());
+    text.waves = MuscleWaves(molecule, needs).arrayText();
+    if (!ofLane) return text;
     text.molecule = moleculeText(molecule, needs);
     text.forces = "#include \"physics/normal.glsl\"\n#include \"step/springs.glsl\"\n\n";
     if (needs.liveSprings)

@@ -40,17 +40,23 @@ struct Needs {
 };
 
 struct KernelText {
-    std::string molecule;  // generated/molecule.glsl: masses, pins; for a lane and for a workgroup
-    std::string forces;    // generated/forces.glsl: springForces, surfaceNormals; for a lane
-    std::string sweeps;    // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
+    // Of a lane a molecule. generated/molecule.glsl: masses, pins, sums over the vertices
+    std::string molecule;
+    std::string forces;  // generated/forces.glsl: springForces, surfaceNormals
+    std::string sweeps;  // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
     // For generated/packing.glsl of a lane: loadState, and expressions of the 4-vectors that are stored.
     std::string load;
     std::vector<std::string> state, normals;
+    // generated/muscles.glsl: how far muscles are, where that is a uniform
+    std::string muscles;
+    // Of a lane a vertex. generated/waves.glsl: the waves that muscles share
+    std::string waves;
 
     bool operator==(const KernelText&) const = default;
 };
 
-KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver);
+// `ofLane`: with the text of a lane a molecule, which grows with the molecule.
+KernelText kernelText(const Molecule& molecule, const Needs& needs, const Solver& solver, bool ofLane = true);
 
 // Returns the numbers that the kernel reads where springs are live, two 4-vectors a spring:
 //   stiffness, damping, rest length;   actuation: amplitude, 2 pi frequency, phase, angle at the frame's

@@ -35,7 +35,7 @@ double signOf(const Actuation& muscle) {
 MuscleWaves::MuscleWaves(const Molecule& molecule, const Needs& needs)
     : molecule_(&molecule), phased_(needs.phase) {
     for (const Spring& spring : molecule.springs)
-        if (needs.steers && moves(spring) && waveOf(*spring.actuation) == waves_.size())
+        if (needs.steers && !needs.liveSprings && moves(spring) && waveOf(*spring.actuation) == waves_.size())
             waves_.push_back({1, spring.actuation->frequency, phaseOf(*spring.actuation)});
 }
 
@@ -51,19 +51,38 @@ std::string MuscleWaves::text() const {
     if (waves_.empty()) return {};
     std::string out = "    float clock = swimClock(time);\n";
     for (size_t i = 0; i < waves_.size(); ++i)
-        out += concat("    float wave", i, " = musclePull(vec3(1.0, ",
-                      glslLiteral(2 * std::numbers::pi * waves_[i].frequency), ", ",
-                      glslLiteral(waves_[i].phase), "), 0.0, clock, ", phased_ ? "phase);\n" : "0.0);\n");
+        out += concat("    float wave", i, " = ", waveText(i));
     return out;
+}
+
+std::string MuscleWaves::arrayText() const {
+    if (waves_.empty()) return {};
+    std::string out = concat("#include \"physics/spring.glsl\"\n\n#define WAVES ", waves_.size(),
+                             "\nfloat waves[WAVES];\n\n",
+                             "void moveMuscles(float time)\n{\n    float clock = swimClock(time);\n");
+    for (size_t i = 0; i < waves_.size(); ++i)
+        out += concat("    waves[", i, "] = ", waveText(i));
+    return out + "}\n";
+}
+
+// What a wave is at the time `clock`.
+std::string MuscleWaves::waveText(size_t wave) const {
+    return concat("musclePull(vec3(1.0, ", glslLiteral(2 * std::numbers::pi * waves_[wave].frequency), ", ",
+                  glslLiteral(waves_[wave].phase), "), 0.0, clock, ", phased_ ? "phase);\n" : "0.0);\n");
+}
+
+std::optional<MuscleWaves::Share> MuscleWaves::shareOf(const Spring& spring) const {
+    if (waves_.empty()) return {};
+    if (!moves(spring)) return Share{};
+    return Share{spring.actuation->amplitude * signOf(*spring.actuation), waveOf(*spring.actuation)};
 }
 
 std::string MuscleWaves::lengthOf(const std::string& length, const Spring& spring) const {
     const double bend = bendOf(*molecule_, spring);
     if (!moves(spring) && bend == 0) return length;
+    const std::optional<Share> share = shareOf(spring);
     const std::string pull =
-        moves(spring) ? concat(glslLiteral(spring.actuation->amplitude * signOf(*spring.actuation)),
-                               " * wave", waveOf(*spring.actuation))
-                      : "0.0";
+        moves(spring) ? concat(glslLiteral(share->amplitude), " * wave", share->wave) : "0.0";
     return concat("bentLength(", length, ", ", pull, ", ", glslLiteral(bend), " * curvature)");
 }
 

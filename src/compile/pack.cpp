@@ -1,10 +1,12 @@
 #include "compile/pack.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
+#include "compile/muscle_waves.h"
 #include "compile/school_plan.h"
 #include "core/random.h"
 
@@ -118,39 +120,69 @@ void packStart(const Scene& scene, GroupPlan& group) {
     group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 
+// What tells a spring's muscle: see compile/plan.h.
+static glm::vec4 muscleOf(const Molecule& molecule, const GroupPlan& group, const MuscleWaves& waves,
+                          const Spring& spring) {
+    const Actuation actuation = spring.actuation.value_or(Actuation{});
+    const auto number =
+        group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring));
+    if (const std::optional<MuscleWaves::Share> share = waves.shareOf(spring))
+        return {share->amplitude, share->wave, 0, number};
+    return {actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase, number};
+}
+
+// Which elements touch each vertex, in their order; `cornersOf` returns the vertices of one.
+template <typename Element, typename Corners>
+static std::vector<std::vector<size_t>> around(size_t vertices, const std::vector<Element>& elements,
+                                               const Corners& cornersOf) {
+    std::vector<std::vector<size_t>> out(vertices);
+    for (size_t i = 0; i < elements.size(); ++i)
+        for (const int vertex : cornersOf(elements[i]))
+            out[size_t(vertex)].push_back(i);
+    return out;
+}
+
 int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology) {
     const size_t base = topology.size(), count = molecule.vertices.size();
+    double mass = 0;
+    for (const Vertex& vertex : molecule.vertices)
+        mass += vertex.mass;
+    const MuscleWaves waves(molecule, group.needs);
+    const auto cornersOf = [](const Triangle& t) { return std::array{t.a, t.b, t.c}; };
+    const auto springs = around(count, molecule.springs, [](const Spring& spring) {
+        return std::array{spring.a, spring.b};
+    });
+    const auto triangles = around(count, molecule.triangles, cornersOf);
     topology.resize(base + 2 * count);
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
         const bool pinned = group.needs.pins && vertex.pinned;
-        topology[base + count + v] = glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, 0);
+        topology[base + count + v] =
+            glm::vec4(1 / vertex.mass, pinned ? 1 : 0, vertex.mass, vertex.mass / mass);
 
         const size_t firstSpring = topology.size();
-        int springs = 0;
-        for (const Spring& spring : molecule.springs) {
-            if (spring.a != int(v) && spring.b != int(v)) continue;
-            const Actuation actuation = spring.actuation.value_or(Actuation{});
+        for (const size_t i : springs[v]) {
+            const Spring& spring = molecule.springs[i];
             topology.emplace_back(spring.a == int(v) ? spring.b : spring.a, spring.stiffness, spring.damping,
                                   molecule.restLength(spring));
-            topology.emplace_back(
-                actuation.amplitude, 2 * std::numbers::pi * actuation.frequency, actuation.phase,
-                group.needs.steers ? bendOf(molecule, spring) : double(muscleNumber(group.muscles, spring)));
-            ++springs;
+            topology.push_back(muscleOf(molecule, group, waves, spring));
         }
         const size_t firstTriangle = topology.size();
-        int triangles = 0;
-        for (const Triangle& t : molecule.triangles) {
-            const int corners[3] = {t.a, t.b, t.c};
-            for (int k = 0; k < 3; ++k) {
-                if (corners[k] != int(v)) continue;
-                topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], 0, 0);
-                ++triangles;
-            }
+        for (const size_t i : triangles[v]) {
+            const std::array<int, 3> corners = cornersOf(molecule.triangles[i]);
+            const auto k = size_t(std::find(corners.begin(), corners.end(), int(v)) - corners.begin());
+            topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], k, 0);
         }
-        topology[base + v] = glm::vec4(firstSpring, springs, firstTriangle, triangles);
+        topology[base + v] = glm::vec4(firstSpring, springs[v].size(), firstTriangle, triangles[v].size());
     }
     return int(base);
+}
+
+void repackTopology(const Molecule& molecule, size_t group, Plan& plan) {
+    const auto base = plan.topology.begin() + plan.groups[group].topologyBase;
+    std::vector<glm::vec4> table(plan.topology.begin(), base);
+    packTopology(molecule, plan.groups[group], table);
+    std::copy(table.begin() + plan.groups[group].topologyBase, table.end(), base);
 }
 
 }  // namespace shoal

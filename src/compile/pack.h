@@ -33,5 +33,7 @@ std::vector<glm::vec4> unsteered(size_t molecules);
 void packStart(const Scene& scene, GroupPlan& group);
 // Appends the molecule's tables and returns their base index.
 int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology);
+// Replaces the table of a group, whose springs have other numbers but join the same vertices.
+void repackTopology(const Molecule& molecule, size_t group, Plan& plan);
 
 }  // namespace shoal

@@ -109,10 +109,10 @@ void checkFused(const Plan& plan, const PathLimits& limits) {
         throw Error(concat("compute shaders need OpenGL 4.3; this context has ", limits.version));
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
-        const int most = std::max(FusedLimits::workgroup(limits, group.solver),
-                                  limits.software ? FusedLimits::softwareLane : 0);
+        const int most = std::max(FusedLimits::vertices(limits.maxSharedBytes), FusedLimits::laneVertices);
         checkMatrix(group, limits);
-        if (solver(group.solver).implicit || group.needs.life) chooseLanes(group, Lanes::automatic, limits);
+        if (solver(group.solver).implicit || group.needs.life)
+            chooseLanes(plan, group, Lanes::automatic, limits);
         if (group.vertexCount <= most) continue;
         throw Error(group.location,
                     concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
@@ -142,7 +142,7 @@ void checkFragments(const Plan& plan, const PathLimits& limits) {
     checkUniforms(plan, limits);
     for (const GroupPlan& group : plan.groups) {
         checkMatrix(group, limits);
-        if (!group.isStill()) chooseLanes(group, Lanes::molecule, limits);
+        if (!group.isStill()) checkLane(plan, group, limits);
         checkLayers(group, limits);
     }
 }
@@ -169,49 +169,6 @@ Path path(const std::string& word) {
         if (word == name(path)) return path;
     throw Error(
         concat("unknown path \"", word, "\"", suggestion(word, {"auto", "fused", "fragments", "ping-pong"})));
-}
-
-const char* name(Lanes lanes) {
-    static constexpr const char* names[] = {"auto", "molecule", "vertex"};
-    return names[size_t(lanes)];
-}
-
-Lanes lanes(const std::string& word) {
-    for (const Lanes lanes : {Lanes::automatic, Lanes::molecule, Lanes::vertex})
-        if (word == name(lanes)) return lanes;
-    throw Error(concat("unknown lanes \"", word, "\"", suggestion(word, {"auto", "molecule", "vertex"})));
-}
-
-Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
-    const bool implicit = solver(group.solver).implicit;
-    const int most = limits.software || implicit ? FusedLimits::softwareLane : FusedLimits::gpuLane;
-    if (implicit && (wanted == Lanes::vertex || group.vertexCount > most))
-        throw Error(
-            group.location,
-            concat(name(group.solver), " keeps a molecule in one lane, which holds at most ", most,
-                   " vertices; a molecule of \"", group.name, "\" has ", group.vertexCount,
-                   wanted == Lanes::vertex ? ": leave out --lanes vertex" : ": use an explicit solver"));
-    if (implicit && group.springCount > FusedLimits::laneSprings)
-        throw Error(group.location,
-                    concat(name(group.solver), " writes out the springs of a molecule, at most ",
-                           FusedLimits::laneSprings, "; a molecule of \"", group.name, "\" has ",
-                           group.springCount, ": use an explicit solver"));
-    if (group.needs.life && group.vertexCount > FusedLimits::softwareLane)
-        throw Error(group.location, concat("molecules of more than ", FusedLimits::softwareLane,
-                                           " vertices cannot be born or die; one of \"", group.name,
-                                           "\" has ", group.vertexCount));
-    if (group.needs.life && wanted != Lanes::vertex) return Lanes::molecule;
-    if (group.needs.life)
-        throw Error(group.location,
-                    concat("\"", group.name, "\" is born and dies, which keeps a molecule in one lane: ",
-                           "leave out --lanes vertex"));
-    if (wanted == Lanes::automatic)
-        return group.vertexCount <= most && group.springCount <= FusedLimits::laneSprings ? Lanes::molecule
-                                                                                          : Lanes::vertex;
-    if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::softwareLane)
-        throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
-                                           " vertices; a lane holds at most ", FusedLimits::softwareLane));
-    return wanted;
 }
 
 PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {

@@ -11,6 +11,7 @@
 
 #include <string>
 
+#include "compile/lanes.h"
 #include "compile/plan.h"
 
 namespace shoal {
@@ -21,15 +22,6 @@ enum class Path { automatic, fused, fragments, pingPong };
 const char* name(Path path);
 // Error: another word, with the nearest.
 Path path(const std::string& word);
-
-// How a molecule is spread over a compute device.
-enum class Lanes {
-    automatic,
-    molecule,  // one lane a molecule: all in registers
-    vertex,    // one workgroup a molecule, one lane a vertex: in shared memory
-};
-const char* name(Lanes lanes);  // "auto", "molecule", "vertex"
-Lanes lanes(const std::string& word);
 
 // Holds the limits of a context by which a path is chosen.
 struct PathLimits {
@@ -43,23 +35,6 @@ struct PathLimits {
     int targets = 8;  // textures that one draw writes
     int maxTextureLayers = 256;
 };
-
-// Largest molecules of the fused path, in vertices.
-struct FusedLimits {
-    // Beyond these a lane's code takes too long to compile, and on a GPU its state does not fit the
-    // registers.
-    static constexpr int softwareLane = 64, gpuLane = 16;
-    static constexpr int laneSprings = 1024;
-    // Shared memory: position, velocity, the springs' velocity, force, probe, fluid, normal; leapfrog's
-    // acceleration and kick; rk4's start and sums. Drivers may give each as much as a 4-vector; Mesa does.
-    static int sharedBytesPerVertex(SolverKind solver) { return (solver == SolverKind::rk4 ? 11 : 9) * 16; }
-    static int workgroup(const PathLimits& limits, SolverKind solver) {
-        return limits.maxSharedBytes / sharedBytesPerVertex(solver);
-    }
-};
-
-// How the molecules of a group are spread: a lane each up to the limit of the device, else a workgroup each.
-Lanes chooseLanes(const GroupPlan& group, Lanes wanted, const PathLimits& limits);
 
 struct PathChoice {
     Path path = Path::fused;

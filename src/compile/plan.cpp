@@ -7,6 +7,7 @@
 #include "compile/choose_solver.h"
 #include "compile/generate.h"
 #include "compile/generate_emitters.h"
+#include "compile/lanes.h"
 #include "compile/muscle_limits.h"
 #include "compile/pack.h"
 #include "compile/surface_pair.h"
@@ -73,6 +74,7 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     out.count = placesOf(group);
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
+    out.triangleCount = int(group.molecule.triangles.size());
     out.needs = findNeeds(scene, group, options);
     out.forces = generateForces(scene.forces, group.name, out.needs.drag);
     out.needs.forces = !out.forces.pulls.empty();
@@ -340,7 +342,8 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
         packStart(scene, group);
-        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver));
+        group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver),
+                                  fitsLane(group) || group.isStill());  // which is drawn in fragments
         if (group.needs.liveSprings) {
             group.springNumbers = springNumbers(scene.groups[i].molecule);
             group.springFrequencies = springFrequencies(scene.groups[i].molecule);
@@ -366,8 +369,10 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.colliderCount = scene.colliders.size();
     plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
         const WavesField* waves = std::get_if<WavesField>(&*field.shape);
-        return (waves && waves->trains.size() > 4) || std::holds_alternative<GustField>(*field.shape) ||
-               std::holds_alternative<CurlNoiseField>(*field.shape) ||
+        const GustField* gust = std::get_if<GustField>(&*field.shape);
+        const CurlNoiseField* curl = std::get_if<CurlNoiseField>(&*field.shape);
+        return (waves && waves->trains.size() > 4) || (gust && gust->noise == NoiseForm::computed) ||
+               (curl && curl->noise == NoiseForm::computed) ||
                std::holds_alternative<GridField>(*field.shape);
     });
     if (any(&Needs::fields)) {
@@ -393,6 +398,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldClocks = std::move(fields.clocks);
     plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
+    plan.jointContact = colliders.joint;
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide || group.needs.avoids)

@@ -8,11 +8,12 @@
 // Topology, for the paths that read it from a table: one texture of 4-vectors, read by index i at
 // (i mod 1024, i / 1024); per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
-//   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), unused
+//   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), its share of the molecule's
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
-//                                  amplitude, 2 pi frequency, phase; of what steers the bend
-//                                  (compile/school_plan.h), else the number of its frequency
-//   triangle entries, one texel    the other two corners, anticlockwise after v
+//                                  amplitude, 2 pi frequency, phase, the number of its frequency; of what
+//                                  steers the bend in its place (compile/school_plan.h), and where waves are
+//                                  shared (compile/muscle_waves.h) amplitude, number of the wave, 0
+//   triangle entries, one texel    the other two corners, anticlockwise after v; which of the three v is
 #pragma once
 
 #include <algorithm>
@@ -47,7 +48,7 @@ struct GroupPlan {
     Location location;  // of the group in the scene file, for messages
     size_t index = 0;   // in scene.groups
     int count = 0;      // places, where some are born or die
-    int vertexCount = 0, springCount = 0;
+    int vertexCount = 0, springCount = 0, triangleCount = 0;
     TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
@@ -123,7 +124,8 @@ struct Plan {
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses
     size_t fieldCount = 0, colliderCount = 0;
-    bool longFields = false;  // noise, grids or many waves: too much text to repeat for every vertex
+    bool jointContact = false;  // colliders answer together (compile/generate.h)
+    bool longFields = false;    // computed noise, grids or many waves: too much text to repeat
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
     std::vector<NoiseTile> noiseTiles;  // that fields read

@@ -28,6 +28,16 @@ using Eigen::VectorXd;
 // converges from below), or of the Laplacian that bounds it.
 double largestByIteration(const Molecule& molecule, const Freedom& freedom, double Spring::*coefficient,
                           bool laplacian) {
+    struct Link {
+        int a, b;  // -1: held
+        double ra, rb, coefficient;
+        Eigen::Vector3d n;
+    };
+    std::vector<Link> links;
+    for (const Spring& spring : molecule.springs)
+        links.push_back({freedom.index[size_t(spring.a)], freedom.index[size_t(spring.b)],
+                         inverseRootMass(molecule, spring.a), inverseRootMass(molecule, spring.b),
+                         spring.*coefficient, direction(molecule, spring.a, spring.b)});
     Eigen::Matrix3Xd x(3, freedom.count);
     for (int i = 0; i < freedom.count; ++i)
         for (int axis = 0; axis < 3; ++axis)
@@ -36,17 +46,12 @@ double largestByIteration(const Molecule& molecule, const Freedom& freedom, doub
     for (int round = 0; round < 300; ++round) {
         x.normalize();
         Eigen::Matrix3Xd y = Eigen::Matrix3Xd::Zero(3, freedom.count);
-        for (const Spring& spring : molecule.springs) {
-            const int a = freedom.index[size_t(spring.a)], b = freedom.index[size_t(spring.b)];
-            const double ra = inverseRootMass(molecule, spring.a), rb = inverseRootMass(molecule, spring.b);
+        for (const auto& [a, b, ra, rb, factor, n] : links) {
             Eigen::Vector3d d = Eigen::Vector3d::Zero();
             if (a >= 0) d += ra * x.col(a);
             if (b >= 0) d -= rb * x.col(b);
-            if (!laplacian) {
-                const Eigen::Vector3d n = direction(molecule, spring.a, spring.b);
-                d = n.dot(d) * n;
-            }
-            d *= spring.*coefficient;
+            if (!laplacian) d = n.dot(d) * n;
+            d *= factor;
             if (a >= 0) y.col(a) += ra * d;
             if (b >= 0) y.col(b) -= rb * d;
         }

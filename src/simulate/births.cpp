@@ -8,12 +8,12 @@ using gpu::Buffer;
 using gpu::Program;
 using gpu::Traffic;
 
-static void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
+static void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group, int together) {
     const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
     const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
                                  size_t(info.maxBufferTexels) / size_t(group.layout().stateElements()));
     const auto lanes = size_t(group.layout().lanes());
-    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * lanes);
+    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * size_t(together));
     if (group.layout().padded(size_t(group.count)) <= reach) return;
     throw Error(group.life->cycle.location,
                 concat("a capacity of ", group.count, " for \"", group.name,
@@ -26,23 +26,24 @@ static void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group) {
 constexpr size_t wordsApart = 64;
 
 Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-               gpu::ProgramCache* cache)
+               const std::vector<int>& together, gpu::ProgramCache* cache)
     : BirthPasses(plan, wordsApart),
       context_(&context),
       tables_(&tables),
       buffers_(plan.groups.size()),
       lists_(context, shaderRoot, plan.groups.size(), size_t(mostPlaces(plan)), cache) {
     for (const auto& living : groups_)
-        if (living) make(*living, shaderRoot, cache);
+        if (living) make(*living, shaderRoot, together[living->group], cache);
     if (diedWords_ > 0)
         died_ = Buffer(context, Buffer::Use::storage, nullptr, diedWords_ * sizeof(uint32_t), "deaths");
 }
 
-void Births::make(const Living& living, const std::string& shaderRoot, gpu::ProgramCache* cache) {
+void Births::make(const Living& living, const std::string& shaderRoot, int together,
+                  gpu::ProgramCache* cache) {
     const GroupPlan& group = *living.plan;
-    checkPlaces(context_->info(), group);
+    checkPlaces(context_->info(), group, together);
     Buffers& buffers = buffers_[living.group];
-    buffers.set = {group.count, living.group, group.layout().lanes()};
+    buffers.set = {group.count, living.group, together};
     const size_t bytes = PlaceLists::bytesOf(size_t(group.count));
     buffers.free = Buffer(*context_, Buffer::Use::storage, nullptr, bytes, "free places");
     if (group.life->feeds) {
@@ -62,11 +63,12 @@ void Births::bindStep(const Program& program, size_t group) const {
     setAge(program, *groups_[group]);
 }
 
-void Births::dispatchStep(const Program& program, size_t group, int own) const {
+void Births::dispatchStep(const Program& program, size_t group) const {
     if (groups_[group]->onGpu())
         return program.dispatchIndirect(lists_.control(),
                                         (control::of(group) + control::stepGroups) * sizeof(uint32_t));
-    program.dispatch((reachOf(*groups_[group]) + own - 1) / own);
+    const int together = buffers_[group].set.stepLanes;
+    program.dispatch((reachOf(*groups_[group]) + together - 1) / together);
 }
 
 void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
@@ -141,8 +143,9 @@ void Births::write(size_t group, const GroupState& state, double time) {
     for (size_t m = 0; m < state.lives.size(); ++m)
         if (!(state.lives[m].y > 0)) bits[m / 32] |= uint32_t(1) << (m % 32);
     own.free.update(Traffic::Kind::state, 0, bits.data(), own.free.bytes());
-    const int lanes = own.set.stepLanes;
-    lists_.writeControl(group, begin(living, state, time, (living.count() + lanes - 1) / lanes).data());
+    const int together = own.set.stepLanes;
+    const int groups = (living.count() + together - 1) / together;
+    lists_.writeControl(group, begin(living, state, time, groups).data());
 }
 
 void Births::read(size_t group, GroupState& state) const {

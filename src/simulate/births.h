@@ -16,13 +16,14 @@ namespace shoal {
 
 class Births : public BirthPasses {
   public:
-    // Borrows all but the strings. Error, located at the group: more places than the context holds.
+    // Borrows all but the strings. `together`: of each group, the molecules that a workgroup of its step
+    // takes. Error, located at the group: more places than the context holds.
     Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-           gpu::ProgramCache* cache);
+           const std::vector<int>& together, gpu::ProgramCache* cache);
 
     // The step of a group with life: what growOlder() needs, and as many workgroups as there are lives.
     void bindStep(const gpu::Program& program, size_t group) const;
-    void dispatchStep(const gpu::Program& program, size_t group, int lanes) const;
+    void dispatchStep(const gpu::Program& program, size_t group) const;
     // After the step of all groups: who is born in it.
     void step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
@@ -39,7 +40,7 @@ class Births : public BirthPasses {
         PlaceSet set;
         const gpu::Program* spawn = nullptr;  // none: nothing is born
     };
-    void make(const Living& living, const std::string& shaderRoot, gpu::ProgramCache* cache);
+    void make(const Living& living, const std::string& shaderRoot, int together, gpu::ProgramCache* cache);
     void countPlaces(const Living& living, int scheduled, bool allocates);
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
     void bindBirths(const Living& living, std::vector<GroupBuffers>& state) const;

@@ -34,26 +34,28 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     constexpr uint32_t fine = 0;
     if (options.watchdog)
         alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
-    if (plan.hasLife()) births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, options.cache);
+    std::vector<int> together;
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
-        kernel.lanes = chooseLanes(group, options.lanes, limitsOf(info));
+        kernel.lanes = chooseLanes(plan, group, options.lanes, limitsOf(info));
+        kernel.sharedBytes = info.maxSharedBytes;
         // contact still moves what a dispatch leaves, and newborns come after it
         kernel.normals = options.drawn && !plan.contact.any() && !group.needs.life;
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
         kernel.watch = options.watchdog;
-        const size_t perWorkgroup =
-            kernel.lanes == Lanes::molecule ? size_t(workgroupLanes(group, kernel.lanes)) : 1;
+        together.push_back(workgroupMolecules(group, kernel));
         state.emplace_back(context, group, options.drawn, options.inPlace,
-                           size_t(info.maxWorkGroupsX) * perWorkgroup);
+                           size_t(info.maxWorkGroupsX) * size_t(together.back()));
         kernels_.push_back(
             std::make_unique<GroupKernel>(source, g, kernel, GroupKernel::Steps{std::nullopt}, programs_));
         normals_.push_back(options.drawn && group.needs.normals
                                ? &kernels_.back()->also(KernelOptions::Work::normals)
                                : nullptr);
     }
+    if (plan.hasLife())
+        births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, together, options.cache);
     if (plan.contact.any())
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
@@ -75,12 +77,12 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
     if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));
     if (buffers.hasNormals() && (options.normals || !steps))
         store(program, "NewNormals", binding::newNormals, buffers.normals(part));
-    const int lanes = workgroupLanes(group, options.lanes);
+    const int together = workgroupMolecules(group, options);
     if (births_ && births_->has(index) && steps) {
         births_->bindStep(program, index);
-        return births_->dispatchStep(program, index, lanes);
+        return births_->dispatchStep(program, index);
     }
-    program.dispatch(options.lanes == Lanes::molecule ? (part.count + lanes - 1) / lanes : part.count);
+    program.dispatch((part.count + together - 1) / together);
 }
 
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {

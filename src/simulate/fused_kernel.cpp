@@ -43,17 +43,22 @@ bool writesNormals(const GroupPlan& group, const KernelOptions& options) {
 std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     const Needs& needs = group.needs;
     std::vector<std::string> out = group.layout().defines(options.fragments.has_value());
-    out.push_back(concat("VERTICES ", group.vertexCount));
     const bool births = options.work == Work::births;
+    const bool perLane = options.lanes == Lanes::molecule;
     if (!options.fragments)
-        out.push_back(concat("LANES ", births ? birthLanes : workgroupLanes(group, options.lanes)));
+        out.push_back(concat("LANES ", births ? birthLanes : workgroupMolecules(group, options)));
+    if (perLane) {
+        out.push_back(concat("VERTICES ", group.vertexCount));
+    } else {
+        const WorkgroupShape shape = workgroupShape(group.vertexCount, options.sharedBytes);
+        out.insert(out.end(), {concat("ROWS ", shape.rows), concat("VERTICES ", shape.vertices),
+                               concat("MOLECULE_VERTICES ", group.vertexCount)});
+    }
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);
     };
-    const bool perLane = options.lanes == Lanes::molecule;
     define(true, "FUSED");
-    define(!perLane, "SHARED_MOLECULE");
-    define(options.software && perLane, "SOFTWARE");
+    define(options.software, "SOFTWARE");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(writesNormals(group, options), "NORMALS");
     if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.fragments)) {
@@ -75,7 +80,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.springs, "SPRINGS");
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
-    define(needs.actuation, "MUSCLES");
+    define(needs.actuation || (needs.steers && !perLane), "MUSCLES");
     define(needs.scale || needs.phase, "CONSTANTS");
     define(needs.fields, "FIELDS");
     define(births || plan.fieldSampling == FieldSampling::vertexSubstep, "SAMPLE_SUBSTEPS");
@@ -114,8 +119,10 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
         if (need) out += concat("#include \"", file, "\"\n");
     };
     include(true, "fused/state.glsl");
-    include(true, "generated/molecule.glsl");
+    include(countsMuscles(group.needs), "generated/muscles.glsl");
+    include(perLane, "generated/molecule.glsl");
     include(group.needs.steers, "fused/steering.glsl");
+    include(!perLane, "generated/waves.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
     // never under a condition: what it includes would be left out with it, and not come again
     include(group.needs.fields, "generated/fields.glsl");
@@ -204,21 +211,23 @@ std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
 }
 
 // Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
-// registers. Noise is too long for more than a few vertices, and on a CPU rasteriser, which compiles slowly,
-// for more than one.
+// registers. Noise is too long for more than a few vertices. A CPU rasteriser has no registers that are
+// looked up by index: keeping a loop of more than 32 turns, fewer of which it writes out itself, costs it
+// several times as long to compile as writing it out.
 VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
-    if (options.lanes == Lanes::vertex)
-        return {group.vertexCount, Form::ownVertices, Form::ownVertices, Form::ownVertices,
-                Form::ownVertices};
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
     constexpr size_t longest = 48;  // calls of a field or a collider
-    const size_t vertices = size_t(group.vertexCount);
-    const size_t noiseAt = options.software ? 1 : 8;
-    return {group.vertexCount, Form::writeOut,
-            form((plan.longFields && vertices > noiseAt) ||
-                 vertices * (plan.fieldCount + group.forces.pulls.size()) > longest),
-            form(vertices * plan.colliderCount > longest), Form::keep};
+    const int ofLane = options.lanes == Lanes::molecule
+                           ? group.vertexCount
+                           : workgroupShape(group.vertexCount, options.sharedBytes).vertices;
+    const auto vertices = size_t(ofLane);
+    const bool software = options.software;
+    const bool isLong = plan.longFields || (!software && !plan.noiseTiles.empty());
+    return {ofLane, Form::writeOut,
+            form((isLong && vertices > (software ? 1 : 8)) ||
+                 (!software && vertices * (plan.fieldCount + group.forces.pulls.size()) > longest)),
+            form(!software && vertices * plan.colliderCount > longest), form(!software || vertices <= 32)};
 }
 
 const char* rootFile(const KernelOptions& options) {
@@ -253,9 +262,10 @@ std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets) {
     return out;
 }
 
-int workgroupLanes(const GroupPlan& group, Lanes lanes) {
-    return lanes == Lanes::molecule ? group.layout().lanes()
-                                    : std::clamp((group.vertexCount + 31) / 32 * 32, 32, 128);
+int workgroupMolecules(const GroupPlan& group, const KernelOptions& options) {
+    return options.lanes == Lanes::molecule
+               ? group.layout().lanes()
+               : workgroupShape(group.vertexCount, options.sharedBytes).molecules;
 }
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOptions& options) {
@@ -273,6 +283,8 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     out.defines = defines(plan, group, options);
     out.generated = {{root, rootText(group, options)},
                      {"generated/molecule.glsl", group.kernel.molecule},
+                     {"generated/muscles.glsl", group.kernel.muscles},
+                     {"generated/waves.glsl", group.kernel.waves},
                      {"generated/forces.glsl", group.kernel.forces},
                      {"generated/sweeps.glsl", group.kernel.sweeps},
                      {"generated/factors.glsl", factorsText(group, options)},

@@ -28,10 +28,11 @@ struct KernelOptions {
     std::optional<Targets> fragments = {};  // a fragment shader (OpenGL 3.3); else a compute shader
     std::string factors = {};               // bdf2-corotated: its matrix as constants; empty: a uniform block
     Lanes lanes = Lanes::molecule;          // not automatic
-    bool normals = false;                   // a frame writes them, where the shape has a surface
-    bool groupVote = false;                 // ContextInfo::groupVote
-    bool software = false;                  // what suits a CPU rasteriser
-    bool watch = false;                     // a frame looks for states that run away
+    int sharedBytes = PathLimits{}.maxSharedBytes;  // of a workgroup, for a lane a vertex
+    bool normals = false;                           // a frame writes them, where the shape has a surface
+    bool groupVote = false;                         // ContextInfo::groupVote
+    bool software = false;                          // what suits a CPU rasteriser
+    bool watch = false;                             // a frame looks for states that run away
 };
 
 // Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where
@@ -43,8 +44,8 @@ std::vector<std::string> storedAtBirth(const GroupPlan& group);
 std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
-// Lanes of a workgroup of the step.
-int workgroupLanes(const GroupPlan& group, Lanes lanes);
+// Molecules of a workgroup of the step.
+int workgroupMolecules(const GroupPlan& group, const KernelOptions& options);
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);
 

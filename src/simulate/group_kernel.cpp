@@ -125,7 +125,7 @@ void GroupKernel::bindTables(const Program& program) const {
     tables.bindNoiseTiles(program, *source_.plan);
     if (springs_) program.texture("liveSprings", kernel_unit::springs, springs_);
     if (options_.lanes != Lanes::vertex) return;
-    program.texture("topology", kernel_unit::topology, tables.topology);
+    program.storage("Topology", 6, tables.topologyBuffer);
     program.set("topologyBase", group().topologyBase);
 }
 

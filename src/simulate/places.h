@@ -64,7 +64,7 @@ constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, st
 // 16 that any device has.
 constexpr int mostDeathRuns = 6;
 
-// Whose bits, where its control is, and with how many lanes a workgroup of its step works.
+// Whose bits, where its control is, and how many molecules a workgroup of its step takes.
 struct PlaceSet {
     int places = 0;
     size_t group = 0;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compile/pack.h"
 #include "core/contract.h"
 #include "simulate/fragments.h"
 #include "simulate/fused.h"
@@ -10,7 +11,7 @@
 
 namespace shoal {
 
-static Tables::Form sampleFormOf(Path path) {
+static Tables::Form tableFormOf(Path path) {
     return path == Path::fused ? Tables::Form::buffer : Tables::Form::texture;
 }
 
@@ -19,7 +20,7 @@ Simulation::Simulation(gpu::Context& context, const std::string& shaderRoot, Pla
     : context_(&context),
       plan_(std::move(plan)),
       choice_(choosePath(plan_, options.path, limitsOf(context.info()))),
-      tables_(context, plan_, sampleFormOf(choice_.path)),
+      tables_(context, plan_, tableFormOf(choice_.path)),
       options_(options),
       timers_(context, options.timing),
       path_(makePath(shaderRoot)) {
@@ -62,7 +63,7 @@ std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoo
             throw error;
         }
         choice_.why = "the compute shaders failed";
-        tables_ = Tables(*context_, plan_, sampleFormOf(choice_.path));
+        tables_ = Tables(*context_, plan_, tableFormOf(choice_.path));
         warnings_.push_back({error.location(), concat(error.message(), "; going on in fragment shaders")});
         return fragments();
     }
@@ -134,10 +135,17 @@ void Simulation::check() const {
 
 bool Simulation::changeSprings(size_t group, const Molecule& molecule) {
     GroupPlan& plan = plan_.groups[group];
-    if (!plan.needs.liveSprings || path_->lanes(group) != Lanes::molecule) return false;
+    if (!plan.needs.liveSprings || path_->lanes(group) == Lanes::automatic) return false;
     if (molecule.springs.size() != size_t(plan.springCount)) return false;
+    const std::vector<double> muscles = muscleFrequencies(molecule);
+    if (muscleAngles(muscles, 0).size() != muscleAngles(plan.muscles, 0).size()) return false;
+    plan.muscles = muscles;
     plan.springNumbers = springNumbers(molecule);
     plan.springFrequencies = springFrequencies(molecule);
+    if (path_->lanes(group) == Lanes::vertex) {
+        repackTopology(molecule, group, plan_);
+        tables_.updateTopology(plan_, group);
+    }
     lastStep_ = 0;
     return true;
 }

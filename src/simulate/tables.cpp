@@ -36,14 +36,16 @@ static gpu::VolumeTexture makeTile(gpu::Context& context, const NoiseTile& tile)
     return {context, gpu::Format::rgb10a2, tile.texels, std::as_bytes(std::span(words)), tile.sampler()};
 }
 
-Tables::Tables(gpu::Context& context, const Plan& plan, Form sampleForm)
-    : topology(makeTable(context, plan.topology, plan.topologyRows, "topology")) {
+Tables::Tables(gpu::Context& context, const Plan& plan, Form form) {
     for (const NoiseTile& tile : plan.noiseTiles)
         noiseTiles.push_back(makeTile(context, tile));
-    if (sampleForm == Form::texture) {
+    if (form == Form::texture) {
+        topology = makeTable(context, plan.topology, plan.topologyRows, "topology");
         samples = makeSamples(context, plan);
         return;
     }
+    const std::span<const glm::vec4> entries(plan.topology);
+    topologyBuffer = gpu::Buffer(context, gpu::Buffer::Use::storage, entries, "topology");
     if (plan.samples.empty()) return;
     gpu::BufferTexture::checkTexels(context.info(), plan.samples.size(), "samples");
     const std::span<const glm::vec4> table(plan.samples);
@@ -56,6 +58,14 @@ void Tables::bindNoiseTiles(const gpu::Program& program, const Plan& plan) const
     for (size_t i = 0; i < noiseTiles.size(); ++i)
         if (program.uses(plan.noiseTiles[i].sampler()))
             program.texture(plan.noiseTiles[i].sampler(), firstUnit + int(i), noiseTiles[i]);
+}
+
+void Tables::updateTopology(const Plan& plan, size_t group) {
+    const auto first = size_t(plan.groups[group].topologyBase);
+    const size_t end =
+        group + 1 < plan.groups.size() ? size_t(plan.groups[group + 1].topologyBase) : plan.topology.size();
+    topologyBuffer.update(gpu::Traffic::Kind::parameters, first * sizeof(glm::vec4),
+                          plan.topology.data() + first, (end - first) * sizeof(glm::vec4));
 }
 
 }  // namespace shoal

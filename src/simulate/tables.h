@@ -12,21 +12,23 @@
 namespace shoal {
 
 struct Tables {
-    // The fused path reads samples from a buffer, which needs no second coordinate: on a CPU rasteriser a
-    // fetch then costs half as much.
+    // The fused path reads from buffers, which need no second coordinate: on a CPU rasteriser a fetch then
+    // costs half as much.
     enum class Form { texture, buffer };
 
-    gpu::Texture topology;
-    gpu::Texture samples;  // as a texture
-    gpu::Buffer sampleBuffer;
+    gpu::Texture topology, samples;  // as textures
+    gpu::Buffer topologyBuffer, sampleBuffer;
     gpu::BufferTexture sampleTexels;             // as a buffer; null: there are none
     std::vector<gpu::VolumeTexture> noiseTiles;  // of the plan's
 
     // Error: more samples than the context holds.
-    Tables(gpu::Context& context, const Plan& plan, Form sampleForm);
+    Tables(gpu::Context& context, const Plan& plan, Form form);
 
     // Binds the tiles that a program reads, which is in use.
     void bindNoiseTiles(const gpu::Program& program, const Plan& plan) const;
+    // Takes over the plan's topology of a group from its base on, which has changed in numbers alone. Of
+    // buffers.
+    void updateTopology(const Plan& plan, size_t group);
 };
 
 }  // namespace shoal

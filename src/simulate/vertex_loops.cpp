@@ -90,16 +90,10 @@ class Expander {
                                                 : loops_.touches;
             if (variable == 0 || form == Form::keep) {
                 add(lines_[k].text, lines_[k].origin);
-            } else if (form == Form::writeOut) {
+            } else {
                 const size_t end = closingLine(lines_, k);
                 writeOut(variable, k, end);
                 k = end;
-            } else {
-                const std::string indent(lines_[k].text.find_first_not_of(' '), ' ');
-                add(indent + "waitForGroup();", lines_[k].origin);
-                add(indent + "for (int " + variable + " = int(gl_LocalInvocationID.x); " + variable +
-                        " < VERTICES; " + variable + " += LANES) {",
-                    lines_[k].origin);
             }
         }
     }

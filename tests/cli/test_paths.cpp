@@ -119,7 +119,7 @@ TEST_CASE("explain prints the kernels, in which no slider's value occurs", "[cli
     CHECK(text.find("9.81") == std::string::npos);
     CHECK(kernels({"--substeps", "9", "--dt", "0.011", "--count", "77", "--seed", "3"}) == text);
     CHECK(kernels({"--solver", "euler"}) != text);
-    CHECK_THAT(kernels({"--lanes", "vertex"}), Catch::Contains("uniform sampler2D topology"));
+    CHECK_THAT(kernels({"--lanes", "vertex"}), Catch::Contains("readonly buffer Topology"));
     CHECK_THAT(kernels({"--path", "fragments"}),
                Catch::Contains("#version 330 core") && Catch::Contains("out vec4 target0;"));
 }

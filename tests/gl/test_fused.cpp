@@ -34,48 +34,6 @@ Scene fullScene(Molecule molecule, int count, FieldSampling sampling, SolverKind
 
 }  // namespace
 
-TEST_CASE("a lane a molecule and a lane a vertex agree", "[fused][lanes][long]") {
-    if (!test::canFuse()) return;
-    using Sampling = FieldSampling;
-    struct Case {
-        Molecule molecule;
-        std::vector<Sampling> samplings;
-    };
-    // 64 vertices are what a lane holds at most, and take it seconds to compile
-    const Case cases[] = {
-        {test::shippedMolecule("quad"),
-         {Sampling::vertexSubstep, Sampling::vertexFrame, Sampling::moleculeFrame}},
-        {test::shippedMolecule("fish"), {Sampling::vertexFrame}},
-        {test::sheet(64, 1, true), {Sampling::moleculeFrame}},  // a chain: few springs, all unrolled
-        {test::sheet(11, 3, true), {Sampling::vertexSubstep}},
-        {test::point(0.3), {Sampling::vertexSubstep}},
-    };
-    REQUIRE(cases[3].molecule.vertices.size() == 33);
-    REQUIRE(cases[2].molecule.vertices.size() == 64);
-    int contacts = 0, releases = 0, number = 0;
-    for (const auto& [molecule, samplings] : cases) {
-        for (const Sampling sampling : samplings) {
-            const SolverKind solver = ++number % 2 == 0 ? SolverKind::euler : SolverKind::leapfrog;
-            const Scene scene = fullScene(molecule, 67, sampling, solver);
-            test::Agreement agreement(scene, {.path = Path::fused, .lanes = Lanes::molecule},
-                                      {.path = Path::fused, .lanes = Lanes::vertex});
-            CHECK(agreement.first().lanes(0) == Lanes::molecule);
-            for (const int frame : {0, 10, 40}) {
-                const test::Comparison c = agreement.at(frame);
-                UNSCOPED_INFO(molecule.name << ", " << name(solver) << ", " << name(sampling) << ", frame "
-                                            << frame << ": " << text(c));
-                CHECK(c.wrong == 0);
-                CHECK(c.excepted < 0.05 * c.molecules);
-                CHECK(c.normal < test::Agreement::normalTolerance);
-                contacts += c.contacts;
-                releases += c.releases;
-            }
-        }
-    }
-    CHECK(contacts > 100);
-    CHECK(releases > 10);
-}
-
 TEST_CASE("in place the bits are the same, from half the memory", "[fused]") {
     if (!test::canFuse()) return;
     for (const Lanes lanes : {Lanes::molecule, Lanes::vertex}) {

@@ -173,7 +173,7 @@ TEST_CASE("the ping-pong path refuses fields that are not read every substep", "
 TEST_CASE("the largest molecule that a workgroup holds runs, and one more is refused", "[fused][errors]") {
     if (!test::canFuse()) return;
     const PathLimits limits = limitsOf(testContext().info());
-    const int most = FusedLimits::workgroup(limits, SolverKind::leapfrog);
+    const int most = FusedLimits::vertices(limits.maxSharedBytes);
     REQUIRE(most > 64);
     Molecule molecule = test::sheet(most, 1, true);  // a chain, with a triangle so that all arrays are used
     REQUIRE(int(molecule.vertices.size()) == most);
@@ -199,12 +199,12 @@ TEST_CASE("the largest molecule that a workgroup holds runs, and one more is ref
                Catch::Contains(concat("has ", most + 1, " vertices; the fused path holds at most ", most)));
     CHECK(Simulation(testContext(), shaders, compile(scene)).path().path == Path::pingPong);
 
-    scene.groups[0].molecule.vertices.resize(FusedLimits::softwareLane + 1);
+    scene.groups[0].molecule.vertices.resize(FusedLimits::laneVertices + 1);
     CHECK_THAT(messageOf([&] {
                    Simulation(testContext(), shaders, compile(scene),
                               {.path = Path::fused, .lanes = Lanes::molecule});
                }),
-               Catch::Contains(concat("a lane holds at most ", FusedLimits::softwareLane)));
+               Catch::Contains(concat("a lane holds at most ", FusedLimits::laneVertices)));
 }
 
 TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fused][errors]") {
@@ -213,8 +213,9 @@ TEST_CASE("where two sides do not fit, auto goes on with one and says so", "[fus
     const Plan plan = compile(scene);
     const size_t one = stateBytes(plan, Path::fused, true, true), two = stateBytes(plan, Path::fused, true);
     const auto make = [&](size_t bytes, const SimulationOptions& options) {
-        // and the samples, and the watchdog's word
-        const LittleMemory memory(bytes + plan.samples.size() * sizeof(glm::vec4) + sizeof(uint32_t));
+        // and the tables, and the watchdog's word
+        const size_t tables = (plan.samples.size() + plan.topology.size()) * sizeof(glm::vec4);
+        const LittleMemory memory(bytes + tables + sizeof(uint32_t));
         return Simulation(testContext(), shaders, plan, options);
     };
     Simulation roomy = make(two, {});

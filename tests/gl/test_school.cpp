@@ -167,23 +167,6 @@ TEST_CASE("A school repeats bit for bit, and goes on from a checkpoint and a res
     CHECK(again.simulation.hash() == run.simulation.hash());
 }
 
-TEST_CASE("One lane a vertex steers and swims as one lane a molecule does", "[school]") {
-    if (!canRun()) return;
-    const Scene scene = pond(20);
-    SimulationOptions options;
-    options.lanes = Lanes::molecule;
-    Run lane(scene, options);
-    options.lanes = Lanes::vertex;
-    Run group(scene, options);
-    lane.frames(3);
-    group.frames(3);
-    const Snapshot a = lane.simulation.snapshot(0), b = group.simulation.snapshot(0);
-    double worst = 0;
-    for (size_t i = 0; i < a.positions.size(); ++i)
-        worst = std::max(worst, glm::distance(a.positions[i], b.positions[i]));
-    CHECK(worst < 2e-6);  // m: roundings of a body of 10 cm
-}
-
 TEST_CASE("Speeds and turns keep to their limits, bodies to their course, and all stay upright", "[school]") {
     if (!canRun()) return;
     const Scene scene = pond(120);

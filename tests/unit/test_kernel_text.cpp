@@ -113,9 +113,11 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
                                                         number + ", " + number +
                                                         R"(\), muscleAngles\[0\]\.x, time, phase\), 0\.0\))";
     const auto springs = matches(
-        text.forces, std::regex(R"(f = sprung\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" +
-                                number + ", " + number + ", (?:" + number + R"( \* scale|)" + muscle + "), " +
-                                number + R"(\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
+        text.forces,
+        std::regex(
+            R"(f = sprung\(x\[(\d)\] - x\[(\d)\], (vec3\(0\.0\)|w\[\d\] - w\[\d\]), )" + number + ", " +
+            number + ", (?:" + number + R"( \* scale|)" + muscle +
+            R"(), inverseMass\[(\d)\] \+ inverseMass\[(\d)\]\);\n    force\[(\d)\] \+= f;\n    force\[(\d)\] -= f;)"));
     REQUIRE(springs.size() == 6);
     CHECK(matches(text.forces, std::regex("sprung\\(")).size() == 6);
     for (size_t i = 0; i < 6; ++i) {
@@ -123,13 +125,11 @@ TEST_CASE("each spring is listed once, its numbers to the bit", "[kernel]") {
         const std::smatch& found = springs[i];
         CHECK(found[1] == std::to_string(spring.a));
         CHECK(found[2] == std::to_string(spring.b));
-        CHECK(found[12] == found[1]);
-        CHECK(found[13] == found[2]);
+        for (const size_t k : {11u, 13u})
+            CHECK((found[k] == found[1] && found[k + 1] == found[2]));
         CHECK(sameBits(readBack(found[4]), spring.stiffness));
         CHECK(sameBits(readBack(found[5]), spring.damping));
         CHECK(sameBits(readBack(found[i == 3 ? 7 : 6]), *spring.restLength));
-        const auto massOf = [&](int v) { return molecule.vertices[size_t(v)].mass; };
-        CHECK(sameBits(readBack(found[11]), 1 / massOf(spring.a) + 1 / massOf(spring.b)));
         if (i != 3) continue;
         CHECK(sameBits(readBack(found[8]), 0.3));
         CHECK(sameBits(readBack(found[9]), 2 * std::acos(-1.0) * 1.7));
@@ -251,9 +251,10 @@ TEST_CASE("no slider changes a kernel's text", "[kernel]") {
         moved.seed = 12;
         group.count = 2000;
         CHECK(kernelOf(moved, options) == text);
-        // while another shape, or one more spring, is another kernel
+        // while another shape, or one more spring, is another kernel of a lane a molecule, whose text holds
+        // them
         moved.groups[0].molecule.springs.pop_back();
-        CHECK(kernelOf(moved, options) != text);
+        CHECK((kernelOf(moved, options) == text) == (lanes == Lanes::vertex));
     }
 }
 

@@ -280,14 +280,14 @@ TEST_CASE("without compute shaders the fused path runs in fragments and says so,
 TEST_CASE("a molecule beyond the device's shared memory is refused with the number that fits", "[plan]") {
     Scene scene = sceneWith("point");
     Molecule& molecule = scene.groups[0].molecule;
-    molecule.vertices.resize(400);
+    molecule.vertices.resize(1400);
     PathLimits limits;
     const Plan plan = compile(scene);
     CHECK_THAT(messageOf([&] { choosePath(plan, Path::fused, limits); }),
-               Catch::Contains("400 vertices") &&
-                   Catch::Contains(concat("at most ", FusedLimits::workgroup(limits, SolverKind::leapfrog))));
+               Catch::Contains("1400 vertices") &&
+                   Catch::Contains(concat("at most ", FusedLimits::vertices(limits.maxSharedBytes))));
     CHECK(choosePath(plan, Path::automatic, limits).path == Path::pingPong);
-    molecule.vertices.resize(size_t(FusedLimits::workgroup(limits, SolverKind::leapfrog)));
+    molecule.vertices.resize(size_t(FusedLimits::vertices(limits.maxSharedBytes)));
     CHECK(choosePath(compile(scene), Path::fused, limits).path == Path::fused);
 }
 

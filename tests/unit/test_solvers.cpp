@@ -139,8 +139,8 @@ TEST_CASE("implicit solvers are refused where a molecule does not fit a lane, an
     CHECK(choosePath(plan, Path::automatic, {}).path == Path::fused);
     CHECK_THAT(messageOf([&] { choosePath(plan, Path::pingPong, {}); }),
                Catch::Contains("bdf2-xpbd") && Catch::Contains("needs the fused path"));
-    CHECK_THAT(messageOf([&] { chooseLanes(plan.groups[0], Lanes::vertex, {}); }),
-               Catch::Contains("keeps a molecule in one lane"));
+    CHECK_THAT(messageOf([&] { chooseLanes(plan, plan.groups[0], Lanes::vertex, {}); }),
+               Catch::Contains("in one lane: leave out --lanes vertex"));
     Molecule chain;
     for (int i = 0; i < 65; ++i)
         chain.vertices.push_back({{0.1 * i, 0, 0}, {}, 1, false});

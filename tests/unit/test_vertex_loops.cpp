@@ -71,19 +71,9 @@ TEST_CASE("other loops are left alone", "[loops]") {
     CHECK(expanded(text, {4, Form::keep, Form::writeOut}).text == text);
 }
 
-TEST_CASE("in a workgroup the lanes meet and take their own vertices", "[loops]") {
-    const VertexLoops loops{40, Form::ownVertices, Form::ownVertices};
-    const std::string text =
-        "void f()\n{\n    for (int j = 0; j < VERTICES; ++j) {\n        x[j] = u;\n    }\n}\n";
-    CHECK(expanded(text, loops).text ==
-          "void f()\n{\n    waitForGroup();\n"
-          "    for (int j = int(gl_LocalInvocationID.x); j < VERTICES; j += LANES) {\n"
-          "        x[j] = u;\n    }\n}\n");
-}
-
 TEST_CASE("lines keep where they came from", "[loops]") {
     const std::string text = "#include \"lib/a.glsl\"\n" + loop("    one(i);\n    two(i);\n") + "after;\n";
-    for (const Form form : {Form::keep, Form::writeOut, Form::ownVertices}) {
+    for (const Form form : {Form::keep, Form::writeOut}) {
         gpu::ShaderSource source = gpu::resolveShader(
             "nowhere", "main.comp", {"COUNT 3"},
             {{"main.comp", text}, {"lib/a.glsl", "first;\nsecond;\n" + loop("    in(i);\n")}},

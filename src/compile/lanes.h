@@ -1,0 +1,56 @@
+// How the molecules of a group are spread over the lanes of a compute device: the two forms of the fused
+// kernel, what each can hold, and which one is taken. Pure functions. What the choice rests on is measured:
+// the table in lanes.cpp.
+//
+//   molecule   a lane a molecule, whose topology is written out as text: all of it in registers
+//   vertex     a lane a vertex: a workgroup takes several molecules side by side, and neighbouring lanes do
+//              the same vertex of neighbouring molecules, with the positions and velocities of the others in
+//              shared memory (shaders/fused/gather.glsl). Its text is the same for every topology.
+#pragma once
+
+#include <string>
+
+namespace shoal {
+
+struct GroupPlan;
+struct PathLimits;
+struct Plan;
+
+enum class Lanes { automatic, molecule, vertex };
+const char* name(Lanes lanes);  // "auto", "molecule", "vertex"
+// Error: another word, with the nearest.
+Lanes lanes(const std::string& word);
+
+// Largest molecules of the fused path.
+struct FusedLimits {
+    // Of a lane a molecule, in vertices and springs: beyond these its code takes too long to compile.
+    static constexpr int laneVertices = 64, laneSprings = 1024;
+    // Bytes of shared memory of a molecule of so many vertices: positions and velocities, in whole 4-vectors.
+    static constexpr int sharedBytes(int vertices) { return (3 * vertices + 3) / 4 * 32; }
+    // Returns the most vertices with a lane a vertex, of a workgroup with so much shared memory.
+    static int vertices(int sharedBytes) { return sharedBytes / 32 * 4 / 3; }
+};
+
+// Whether a lane holds a molecule of the group.
+bool fitsLane(const GroupPlan& group);
+
+// A workgroup of the form with a lane a vertex.
+struct WorkgroupShape {
+    int molecules = 0;  // side by side; a power of 2
+    int rows = 0;       // of lanes, each for every so many-th vertex
+    int vertices = 0;   // of a lane, at most
+};
+// As many molecules as fit shared memory, up to 32; they must fit one at least (FusedLimits::vertices).
+WorkgroupShape workgroupShape(int vertices, int sharedBytes);
+
+// Returns about how long a CPU rasteriser takes to a group's first frame with a lane a molecule and no cache,
+// in seconds of a processor; `draws` as many as a frame in fragments takes, 0 with compute.
+double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws = 0);
+
+// Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
+// to compile.
+Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits);
+// The same in fragments, which have a lane a molecule alone.
+void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits);
+
+}  // namespace shoal

@@ -1,0 +1,115 @@
+// Which form of the fused kernel a group takes, and what is refused because it takes too long to compile.
+#include <filesystem>
+
+#include "bench/case.h"
+#include "compile/path.h"
+#include "scene/collider_kinds.h"
+#include "scene/json/scene_file.h"
+#include "support/catch.h"
+#include "support/message_of.h"
+
+using namespace shoal;
+
+namespace {
+
+// Vertices in a row, each joined to its neighbours where asked for.
+Molecule row(int vertices, bool sprung) {
+    Molecule out;
+    for (int i = 0; i < vertices; ++i)
+        out.vertices.push_back({{0.1 * i, 0, 0}, {}, 1, false});
+    for (int i = 1; sprung && i < vertices; ++i)
+        out.springs.push_back({i - 1, i, 10, 0.1, {}, {}});
+    return out;
+}
+
+Plan planOf(const Molecule& molecule, int colliders, SolverKind solver = SolverKind::leapfrog,
+            int count = 1024) {
+    Scene scene;
+    scene.solver.kind = solver;
+    scene.solver.substeps = 64;
+    scene.colliders.resize(size_t(colliders));
+    Group group;
+    group.name = "some";
+    group.molecule = molecule;
+    group.count = count;
+    group.drag = {6, 1};
+    group.place.kind = Placement::Kind::volume;
+    group.place.box = {{-1, 0, -1}, {1, 2, 1}};
+    scene.groups.push_back(group);
+    return compile(scene);
+}
+
+Lanes chosen(const Plan& plan, bool software, Lanes wanted = Lanes::automatic) {
+    PathLimits limits;
+    limits.software = software;
+    return chooseLanes(plan, plan.groups[0], wanted, limits);
+}
+
+}  // namespace
+
+TEST_CASE("a GPU takes a lane a vertex from 13 vertices on, and a CPU rasteriser what it compiles in time",
+          "[lanes]") {
+    CHECK(chosen(planOf(row(12, true), 1), false) == Lanes::molecule);
+    CHECK(chosen(planOf(row(13, true), 1), false) == Lanes::vertex);
+    CHECK(chosen(planOf(row(13, true), 0), false) == Lanes::vertex);
+    CHECK(chosen(planOf(row(20, true), 0, SolverKind::leapfrog, 131072), false) == Lanes::molecule);
+    CHECK(chosen(planOf(row(20, true), 1, SolverKind::leapfrog, 131072), false) == Lanes::vertex);
+    CHECK(chosen(planOf(row(21, true), 0, SolverKind::leapfrog, 131072), false) == Lanes::vertex);
+
+    for (const int vertices : {1, 24, 60, 64})
+        for (const int colliders : {0, 1})
+            CHECK(chosen(planOf(row(vertices, true), colliders), true) == Lanes::molecule);
+    CHECK(chosen(planOf(row(24, true), 2), true) == Lanes::molecule);
+    CHECK(chosen(planOf(row(48, true), 2), true) == Lanes::vertex);
+    CHECK(chosen(planOf(bench::cloth(6), 1), true) == Lanes::molecule);
+    CHECK(chosen(planOf(bench::cloth(8), 1), true) == Lanes::vertex);
+    CHECK(chosen(planOf(row(65, false), 0), true) == Lanes::vertex);
+}
+
+TEST_CASE("what a CPU rasteriser would compile for long is refused where a lane a molecule is the only form",
+          "[lanes]") {
+    const Plan many = planOf(row(64, true), 3);
+    CHECK(chosen(many, false, Lanes::molecule) == Lanes::molecule);
+    CHECK_THAT(messageOf([&] { chosen(many, true, Lanes::molecule); }),
+               Catch::Contains("would take about 14 s to compile \"some\", 64 vertices and 63 springs") &&
+                   Catch::Contains("leave out --lanes molecule"));
+    CHECK(chosen(many, true) == Lanes::vertex);
+
+    const Plan stiff = planOf(bench::cloth(8), 0, SolverKind::bdf2Xpbd);
+    CHECK(chosen(stiff, false) == Lanes::molecule);
+    CHECK_THAT(messageOf([&] { chosen(stiff, true); }),
+               Catch::Contains("with bdf2-xpbd in one lane") && Catch::Contains("use an explicit solver"));
+    CHECK(chosen(planOf(row(32, true), 1, SolverKind::bdf2Xpbd), true) == Lanes::molecule);
+
+    PathLimits limits;
+    limits.software = true;
+    limits.compute = false;
+    const Plan chain = planOf(row(64, true), 1);
+    CHECK_THAT(messageOf([&] { choosePath(chain, Path::fragments, limits); }),
+               Catch::Contains("use --path ping-pong"));
+    CHECK(choosePath(chain, Path::automatic, limits).path == Path::pingPong);
+    CHECK(choosePath(planOf(row(24, true), 1), Path::automatic, limits).path == Path::fragments);
+}
+
+TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, and runs in fragments",
+          "[lanes]") {
+    int groups = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(SHOAL_SOURCE_DIR "/models")) {
+        if (!entry.path().string().ends_with(".scene.json")) continue;
+        Scene scene = readScene(entry.path().string());
+        for (Group& group : scene.groups)
+            group.count = std::min(group.count, 100);
+        const Plan plan = compile(scene);
+        PathLimits limits;
+        limits.software = true;
+        for (const GroupPlan& group : plan.groups) {
+            INFO(entry.path().filename() << ", " << group.name << ", " << group.vertexCount << " vertices, "
+                                         << secondsToCompile(plan, group) << " s");
+            if (group.isStill()) continue;
+            CHECK(chooseLanes(plan, group, Lanes::automatic, limits) == Lanes::molecule);
+            CHECK_NOTHROW(checkLane(plan, group, limits));
+            ++groups;
+        }
+    }
+    CHECK(groups > 20);
+}
