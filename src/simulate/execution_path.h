@@ -30,7 +30,8 @@ struct SimulationOptions {
     Lanes lanes = Lanes::automatic;  // fused: how molecules are spread
     gpu::ProgramCache* cache = nullptr;
     bool watchdog = true;  // simulate/watchdog.h
-    // Contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context is; both give the same bits.
+    // Contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context is; both give the
+    // same bits.
     std::optional<bool> asOnGpu = std::nullopt;
 };
 
