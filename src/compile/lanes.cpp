@@ -53,15 +53,14 @@ constexpr double mostSeconds = 5;      // to the first frame, where there is a c
 constexpr double longestSeconds = 12;  // where there is none: more is refused
 
 // Of secondsToCompile(), in s; fitted to 62 kernels of 4 to 64 vertices on the same machine, of which it is
-// off by 9 % (root mean square) and by 30 % at most. Fields, fragments and loops that are kept were fitted to
-// a few apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times as
+// off by 9 % (root mean square) and by 30 % at most. Fields and loops that are kept were fitted to a few
+// apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times as
 // long.
 constexpr double start = 0.7;  // of everything else
 constexpr double ofVertex = 0.0048, ofTriangle = 0.0103;
 constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
 constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
 constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
-constexpr double ofDraw = 0.6;   // in fragments each holds the whole step
 
 // Of a spring.
 double secondsOf(SolverKind solver) {
@@ -130,14 +129,14 @@ WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
     return out;
 }
 
-double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws) {
+double secondsToCompile(const Plan& plan, const GroupPlan& group) {
     const double vertices = group.vertexCount;
     double ofEach = ofVertex;
     if (group.needs.collide) ofEach += plan.jointContact ? ofJointContact : ofCollider;
     if (group.needs.fields) ofEach += double(plan.fieldCount) * (plan.longFields ? ofLongField : ofField);
     const double text = vertices * ofEach + group.springCount * secondsOf(group.solver) +
                         (group.needs.directionalDrag ? group.triangleCount : 0) * ofTriangle;
-    return start + text * (1 + vertices / crowding) * (draws > 0 ? ofDraw * draws : 1);
+    return start + text * (1 + vertices / crowding);
 }
 
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
@@ -185,9 +184,6 @@ void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limit
     PathLimits any = limits;
     any.software = false;
     chooseLanes(plan, group, Lanes::molecule, any);
-    const int stored = group.layout().stateElements() + (group.needs.records ? 1 : 0);
-    const int draws = (stored + limits.targets - 1) / limits.targets;
-    checkSeconds(group, secondsToCompile(plan, group, draws), limits, "use --path ping-pong");
 }
 
 }  // namespace shoal

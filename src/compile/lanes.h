@@ -44,13 +44,13 @@ struct WorkgroupShape {
 WorkgroupShape workgroupShape(int vertices, int sharedBytes);
 
 // Returns about how long a CPU rasteriser takes to a group's first frame with a lane a molecule and no cache,
-// in seconds of a processor; `draws` as many as a frame in fragments takes, 0 with compute.
-double secondsToCompile(const Plan& plan, const GroupPlan& group, int draws = 0);
+// in seconds of a processor, with compute shaders.
+double secondsToCompile(const Plan& plan, const GroupPlan& group);
 
 // Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
 // to compile.
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits);
-// The same in fragments, which have a lane a molecule alone.
+// The same in fragments, which have a lane a molecule alone, however long it takes to compile.
 void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits);
 
 }  // namespace shoal
