@@ -51,7 +51,7 @@ Scene fullScene(const Molecule& plain, SolverKind solver) {
     scene.colliders = {everyCollider()[0]};
     Group& group = scene.groups[0];
     group.drag = {3, 0.8};
-    group.release = Release{1.5, 4.0, 0};
+    group.release = Release{20, 4, 0};
     group.phaseSpread = 3;
     setStableSubsteps(scene);
     return scene;
@@ -76,7 +76,7 @@ TEST_CASE("a lane a vertex leaves the bits of a lane a molecule with every expli
         checkSame(scene, 12);
         Simulation rows = on(compile(scene), Lanes::vertex);
         test::run(rows, 12);
-        const auto& released = rows.save().groups[0].released;
+        const auto released = rows.save().groups[0].released;
         CHECK(std::count(released.begin(), released.end(), true) > 0);
         CHECK(std::count(released.begin(), released.end(), false) > 0);
     }
