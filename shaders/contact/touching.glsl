@@ -3,7 +3,7 @@ layout(std430, binding = 5) buffer Touching {
     uint touching;
     uint touchingSlots[];
 };
-// What glDispatchComputeIndirect takes: workgroups of 64 lanes, a lane a slot that touches. In a buffer of its own, so that a
+// The words that glDispatchComputeIndirect takes: workgroups of 64 lanes, a lane a slot that touches. In a buffer of its own, so that a
 // driver that looks after such a buffer looks after no more.
 layout(std430, binding = 6) buffer Groups {
     uint groupsX;

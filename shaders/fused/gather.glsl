@@ -1,20 +1,21 @@
-// What a lane needs of its molecule's other vertices, where lanes are spread over vertices: a workgroup has LANES
+// A lane's view of its molecule's other vertices, where lanes are spread over vertices: a workgroup has LANES
 // molecules side by side and ROWS rows of lanes. The lanes of a row do the same vertex of neighbouring molecules, so that the
 // topology is the same for all of them; row r takes the vertices r, r + ROWS, ... of MOLECULE_VERTICES, each in a register
-// array of VERTICES places. What others read of a vertex lies in shared memory: number 3 vertex + component of molecule m at
+// array of VERTICES places. Whatever others read of a vertex lies in shared memory: number 3 vertex + component of molecule m
+// at
 //
 //   number * LANES + m
 //
-// so that a row touches neighbouring memory. There are two such arrays, for positions and velocities, and what they hold
-// changes: a barrier goes before they are written, so that nobody still reads, and one after.
+// so that a row touches neighbouring memory, once for PLACES and once, behind them, for VELOCITIES. Their contents change: a
+// barrier goes before they are written, so that nobody still reads, and one after.
 //
 // Sums run over the springs and triangles in their order, as generated/forces.glsl writes them out for a lane a molecule: the
 // bits are the same.
 #include "sort/wait.glsl"
 
-const int numbers = 4 * POSITION_ELEMENTS;  // of a molecule, with the padding of the last 4-vector
-shared float places[numbers * LANES];      // m, of the vertices or of the probes; unit, of normals
-shared float velocities[numbers * LANES];  // m/s
+const int PLACES = 0;                                  // m, of the vertices or of the probes; unit, of normals
+const int VELOCITIES = 4 * POSITION_ELEMENTS * LANES;  // m/s, behind the padding of the last 4-vector of places
+shared float sharedNumbers[2 * VELOCITIES];
 
 float inverseMass[VERTICES];  // 1/kg
 bool pinned[VERTICES];
@@ -48,53 +49,40 @@ bool isOwn(int i)
     return row() + i * ROWS < MOLECULE_VERTICES;
 }
 
-int sharedIndex(int vertex)
+// `array`: PLACES or VELOCITIES.
+int sharedIndex(int array, int number)
 {
-    return 3 * vertex * LANES + column();
+    return array + number * LANES + column();
 }
 
-vec3 placeOf(int vertex)
+vec3 sharedVector(int array, int vertex)
 {
-    int at = sharedIndex(vertex);
-    return vec3(places[at], places[at + LANES], places[at + 2 * LANES]);
+    int at = sharedIndex(array, 3 * vertex);
+    return vec3(sharedNumbers[at], sharedNumbers[at + LANES], sharedNumbers[at + 2 * LANES]);
 }
 
-vec3 velocityOf(int vertex)
-{
-    int at = sharedIndex(vertex);
-    return vec3(velocities[at], velocities[at + LANES], velocities[at + 2 * LANES]);
-}
-
-void sharePlace(int i, vec3 place)
+// The lane's own vertex i, if no other lane has it.
+void share(int array, int i, vec3 value)
 {
     if (!isOwn(i)) return;
-    int at = sharedIndex(vertexOf(i));
-    places[at] = place.x;
-    places[at + LANES] = place.y;
-    places[at + 2 * LANES] = place.z;
-}
-
-void shareVelocity(int i, vec3 velocity)
-{
-    if (!isOwn(i)) return;
-    int at = sharedIndex(vertexOf(i));
-    velocities[at] = velocity.x;
-    velocities[at + LANES] = velocity.y;
-    velocities[at + 2 * LANES] = velocity.z;
+    int at = sharedIndex(array, 3 * vertexOf(i));
+    sharedNumbers[at] = value.x;
+    sharedNumbers[at + LANES] = value.y;
+    sharedNumbers[at + 2 * LANES] = value.z;
 }
 
 void shareProbes()
 {
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        sharePlace(i, probe[i]);
+        share(PLACES, i, probe[i]);
     }
     waitForGroup();
 }
 
-#define springPlace(vertex) placeOf(vertex)
-#define springVelocity(vertex) velocityOf(vertex)
-#define surfacePlace(vertex) placeOf(vertex)
+#define springPlace(vertex) sharedVector(PLACES, vertex)
+#define springVelocity(vertex) sharedVector(VELOCITIES, vertex)
+#define surfacePlace(vertex) sharedVector(PLACES, vertex)
 #define springInverseMass(vertex) inertia(vertex).x
 #include "step/gather_springs.glsl"
 #include "step/gather_normal.glsl"
@@ -109,13 +97,13 @@ void loadInertia()
 }
 
 #ifdef SPRINGS
-// Of all springs, on all vertices, from x and w; time for the muscles.
+// Adds up all springs on all vertices, from x and w; time for the muscles.
 void springForces(float time)
 {
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        sharePlace(i, x[i]);
-        shareVelocity(i, w[i]);
+        share(PLACES, i, x[i]);
+        share(VELOCITIES, i, w[i]);
     }
     waitForGroup();
 #ifdef WAVES
@@ -140,10 +128,10 @@ void surfaceNormals()
 float largest(float value)
 {
     waitForGroup();
-    velocities[row() * LANES + column()] = value;
+    sharedNumbers[sharedIndex(VELOCITIES, row())] = value;
     waitForGroup();
-    float most = velocities[column()];
-    for (int r = 1; r < ROWS; ++r) most = max(most, velocities[r * LANES + column()]);
+    float most = sharedNumbers[sharedIndex(VELOCITIES, 0)];
+    for (int r = 1; r < ROWS; ++r) most = max(most, sharedNumbers[sharedIndex(VELOCITIES, r)]);
     return most;
 }
 
@@ -165,41 +153,41 @@ float pullOnPins()
     return pull;
 }
 
-// Of vertex 0, m.
+// The position of vertex 0, m.
 vec3 firstPlace()
 {
     waitForGroup();
-    if (row() == 0) sharePlace(0, x[0]);
+    if (row() == 0) share(PLACES, 0, x[0]);
     waitForGroup();
-    return placeOf(0);
+    return sharedVector(PLACES, 0);
 }
 
 vec3 meanProbe()
 {
     shareProbes();
-    vec3 sum = placeOf(0);
-    for (int vertex = 1; vertex < MOLECULE_VERTICES; ++vertex) sum += placeOf(vertex);
+    vec3 sum = sharedVector(PLACES, 0);
+    for (int vertex = 1; vertex < MOLECULE_VERTICES; ++vertex) sum += sharedVector(PLACES, vertex);
     return sum * (1.0 / float(MOLECULE_VERTICES));
 }
 
-// Of w, by mass.
+// The mean of w by mass.
 vec3 meanVelocity()
 {
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        shareVelocity(i, w[i]);
+        share(VELOCITIES, i, w[i]);
     }
     waitForGroup();
     vec3 sum = vec3(0.0);
-    for (int vertex = 0; vertex < MOLECULE_VERTICES; ++vertex) sum += velocityOf(vertex) * inertia(vertex).w;
+    for (int vertex = 0; vertex < MOLECULE_VERTICES; ++vertex) sum += sharedVector(VELOCITIES, vertex) * inertia(vertex).w;
     return sum;
 }
 
-// Of the probes, by mass.
+// The mean of the probes by mass.
 vec3 steeredMiddle()
 {
     shareProbes();
     vec3 sum = vec3(0.0);
-    for (int vertex = 0; vertex < MOLECULE_VERTICES; ++vertex) sum += placeOf(vertex) * inertia(vertex).w;
+    for (int vertex = 0; vertex < MOLECULE_VERTICES; ++vertex) sum += sharedVector(PLACES, vertex) * inertia(vertex).w;
     return sum;
 }

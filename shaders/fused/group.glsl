@@ -24,14 +24,14 @@ void loadState(int molecule)
         vec4 place = element(oldState, first, e);
         vec4 velocity = element(oldState, first, POSITION_ELEMENTS + e);
         for (int c = 0; c < 4; ++c) {
-            places[(4 * e + c) * LANES + column()] = place[c];
-            velocities[(4 * e + c) * LANES + column()] = velocity[c];
+            sharedNumbers[sharedIndex(PLACES, 4 * e + c)] = place[c];
+            sharedNumbers[sharedIndex(VELOCITIES, 4 * e + c)] = velocity[c];
         }
     }
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        x[i] = placeOf(vertexOf(i));
-        v[i] = velocityOf(vertexOf(i));
+        x[i] = sharedVector(PLACES, vertexOf(i));
+        v[i] = sharedVector(VELOCITIES, vertexOf(i));
     }
     loadInertia();
 #ifdef LIFE
@@ -50,21 +50,12 @@ void keepState(int molecule)
 }
 #endif
 
-// 4-vector e of what is shared, with zeros behind the vertices.
-vec4 sharedPlaces(int e)
+// 4-vector e of an array, with zeros behind the vertices.
+vec4 sharedElement(int array, int e)
 {
     vec4 values;
     for (int c = 0; c < 4; ++c) {
-        values[c] = 4 * e + c < 3 * MOLECULE_VERTICES ? places[(4 * e + c) * LANES + column()] : 0.0;
-    }
-    return values;
-}
-
-vec4 sharedVelocities(int e)
-{
-    vec4 values;
-    for (int c = 0; c < 4; ++c) {
-        values[c] = 4 * e + c < 3 * MOLECULE_VERTICES ? velocities[(4 * e + c) * LANES + column()] : 0.0;
+        values[c] = 4 * e + c < 3 * MOLECULE_VERTICES ? sharedNumbers[sharedIndex(array, 4 * e + c)] : 0.0;
     }
     return values;
 }
@@ -82,13 +73,13 @@ void storeState(int molecule)
     int first = firstElement(molecule, STATE_ELEMENTS);
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        sharePlace(i, x[i]);
-        shareVelocity(i, v[i]);
+        share(PLACES, i, x[i]);
+        share(VELOCITIES, i, v[i]);
     }
     waitForGroup();
     for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) {
-        vec4 place = sharedPlaces(e);
-        vec4 velocity = sharedVelocities(e);
+        vec4 place = sharedElement(PLACES, e);
+        vec4 velocity = sharedElement(VELOCITIES, e);
 #ifdef LIFE
         if (STATE_ELEMENTS % 2 == 0 && e == POSITION_ELEMENTS - 1) {
             place.w = age;
@@ -109,10 +100,10 @@ void storeNormals(int molecule)
     int first = firstElement(molecule, POSITION_ELEMENTS);
     waitForGroup();
     for (int i = 0; i < VERTICES; ++i) {
-        sharePlace(i, normal[i]);
+        share(PLACES, i, normal[i]);
     }
     waitForGroup();
-    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) newNormals[first + e * BLOCK] = stored(sharedPlaces(e));
+    for (int e = row(); e < POSITION_ELEMENTS; e += ROWS) newNormals[first + e * BLOCK] = stored(sharedElement(PLACES, e));
 }
 #endif
 

@@ -29,7 +29,7 @@ bool anyLane(bool value)
     return value;
 }
 
-// Of vertex 0, m.
+// The position of vertex 0, m.
 vec3 firstPlace()
 {
     return x[0];

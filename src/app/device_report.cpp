@@ -203,7 +203,7 @@ JsonValue asJson(const DeviceReport& report, const MeasuredOn& machine, bool qui
 
 // ---- For people
 
-// What did not hold or failed, a line each.
+// A line for each check that did not hold or failed.
 std::vector<std::string> troubles(const DeviceReport& report) {
     std::vector<std::string> out;
     for (const DeviceCheckResult& check : report.checks) {

@@ -22,7 +22,7 @@ double arithmeticSeconds(const KernelCost& cost, const DeviceRates& rates) {
     return cost.operations * cost.molecules / rates.operationsPerSecond;
 }
 
-// What bounds a kernel from below. A GPU's registers go first where a lane wants more than there are.
+// Names the bound of a kernel from below. A GPU's registers go first where a lane wants more than there are.
 const char* boundOf(const KernelCost& cost, const SceneCost& all) {
     if (!all.rates) return "not known";
     if (!all.software && cost.spills()) return "registers";

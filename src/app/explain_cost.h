@@ -1,4 +1,4 @@
-// What `shoal explain --cost` reports.
+// The report of `shoal explain --cost`.
 #pragma once
 
 #include <optional>

@@ -59,7 +59,7 @@ class FrameEntrant {
     double seconds = 0;  // of a visit
 
   private:
-    // The same frames, each between two timestamps, which the wall time is spared.
+    // Repeats the frames, each between two timestamps, which the wall time is spared.
     void visitAgain() {
         runner_->restart();
         if (!slow_) runner_->frame();

@@ -18,9 +18,9 @@ constexpr int mostMolecules = 1000, placesFactor = 4;
 constexpr int solverMolecules = 256;
 constexpr int agreeingFrame = 20, repeatedFrames = 20;
 constexpr int agreeingMolecules = 200;
-// Of a molecule's size: what two ways of one frame may differ by; a rounding is 6e-8 m.
+// The share of a molecule's size that two ways of one frame may differ by; a rounding is 6e-8 m.
 constexpr double apart = 1e-5;
-// Of the molecules: a rounding decides when one touches something or tears off.
+// The share of molecules that may differ by more: a rounding decides when one touches something or tears off.
 constexpr double exceptions = 0.05;
 
 std::unique_ptr<Simulation> checkedSimulation(const Scene& scene, const BenchDevice& device,
@@ -203,7 +203,6 @@ class CheckMaker : public std::enable_shared_from_this<CheckMaker> {
         return {same ? 0.0 : 1e30, same ? "the same bits" : "other bits the second time"};
     }
 
-  private:
     const std::vector<NamedFile>& scenes_;
     std::string folder_;
     const StoredStates& stored_;

@@ -49,7 +49,7 @@ using NamedFile = std::pair<std::string, std::string>;
 Scene checkedScene(const std::string& file);
 constexpr int checkedFrames = 60, solverFrames = 30;
 
-// What is stored a state of beside the scenes: a name and a scene for each solver.
+// A name and a scene for each solver, whose states are stored beside those of the scenes.
 std::vector<std::pair<std::string, Scene>> solverScenes(const std::string& moleculeFolder);
 
 // All of them. `scenes`: those that ship. Borrows `device` and `stored`.

@@ -1,4 +1,4 @@
-// What a device reaches when it only copies, and when it only computes: measured once and kept.
+// The rates of a device when it only copies, and when it only computes: measured once and kept.
 #pragma once
 
 #include <optional>

@@ -56,7 +56,7 @@ std::vector<double> statisticsOf(const Snapshot& state) {
             std::sqrt(speeds), alive,   released};
 }
 
-// What a statistic's least tolerance is a share of.
+// The figure of which a statistic's least tolerance is a share.
 double scaleOf(size_t statistic, const std::vector<double>& values, double size) {
     if (statistic < 3 || statistic == 6) return std::max(values[6], size);
     if (statistic < 6 || statistic == 7) return std::max(values[7], 1e-2);

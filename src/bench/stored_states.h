@@ -1,7 +1,7 @@
 // The states and pictures that a device must come to: computed once, small enough to ship
 // (models/golden/states.json and pictures.png; docs/testing.md says how they are made).
 //
-// Of each group a handful of statistics, and some vertices where these can be foretold. A tolerance is eight
+// Each group has a handful of statistics, and some vertices where these can be foretold. A tolerance is eight
 // times what shifting every vertex by a rounding or two (3e-7 of its place) every tenth frame makes of the
 // figure, at least 2e-4 of its scale. Where that moves vertices by more than a quarter of a molecule, as
 // contact and births do after a while, their places are chance: then only the statistics are stored.
@@ -54,7 +54,7 @@ Mismatch mismatch(const Simulation& simulation, const StoredGroup& stored, size_
 StoredState recordState(const std::string& name, const Scene& scene, int frames, const BenchDevice& device);
 
 // ---- Pictures
-// Of each picture the means of blocks are stored, which rasterisers agree on better than on pixels: 48 x 27
+// The means of a picture's blocks are stored, which rasterisers agree on better than on pixels: 48 x 27
 // of them, one above the other in one sheet.
 constexpr int blockColumns = 48, blockRows = 27, blockSide = 10;  // pixels
 

@@ -82,7 +82,7 @@ ReadingCost costOfAll(const std::vector<Shaped>& all) {
     return out;
 }
 
-// Of a molecule and a frame.
+// Counts a molecule and a frame.
 ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& group) {
     const Molecule& molecule = scene.groups[group.index].molecule;
     const Needs& needs = group.needs;

@@ -1,4 +1,4 @@
-// What the fused kernel of a group costs, counted from its plan: bytes, operations, fetches and shared memory
+// The costs of a group's fused kernel, counted from its plan: bytes, operations, fetches and shared memory
 // exactly or about, registers as an estimate. Pure functions; which of them bounds it follows from the rates
 // of a device (bench/rates.h).
 //
@@ -21,12 +21,12 @@ namespace shoal {
 // its anchor moves.
 size_t bytesPerMolecule(const GroupPlan& group, bool drawn);
 
-// Of one evaluation.
+// One evaluation takes:
 constexpr double springOperations = 35;  // with damping
 constexpr double motionOperations = 12;  // of a vertex: drag and gravity 6, moving 6
 constexpr double planeOperations = 6;    // of a vertex: the distance from a plane
 
-// What reading a kind of field at a vertex, or looking for contact with a kind of collider, takes.
+// One reading of a kind of field at a vertex, or one look for contact with a kind of collider.
 struct ReadingCost {
     double operations = 0;
     double fetches = 0;  // 4-vectors of the table of samples
@@ -39,13 +39,12 @@ struct KernelCost {
     int molecules = 0;
     Lanes lanes = Lanes::automatic;  // automatic: in fragments
     int draws = 1;                   // in fragments: each does the whole step again
-    // Of a molecule and frame:
+    // A molecule and frame take:
     double bytes = 0;
     double operations = 0;
     double stateFetches = 0;  // 4-vectors of the state, records and constants
     double tableFetches = 0;  // 4-vectors of samples, which caches mostly hold
-    // Of a workgroup, bytes.
-    int sharedBytes = 0;
+    int sharedBytes = 0;      // of a workgroup
     // Estimates, for a GPU: 32-bit registers that a lane wants (positions, velocities and what the solver
     // keeps of its vertices, and 24 beside them), and how many of 2,048 lanes 65,536 registers and 100 KiB of
     // shared memory then hold, the numbers of a multiprocessor of NVIDIA since 2020. Beyond 255 registers a

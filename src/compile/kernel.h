@@ -40,7 +40,7 @@ struct Needs {
 };
 
 struct KernelText {
-    // Of a lane a molecule. generated/molecule.glsl: masses, pins, sums over the vertices
+    // For a lane a molecule. generated/molecule.glsl: masses, pins, sums over the vertices
     std::string molecule;
     std::string forces;  // generated/forces.glsl: springForces, surfaceNormals
     std::string sweeps;  // generated/sweeps.glsl: relaxForward, relaxBackward; for implicit solvers
@@ -49,7 +49,7 @@ struct KernelText {
     std::vector<std::string> state, normals;
     // generated/muscles.glsl: how far muscles are, where that is a uniform
     std::string muscles;
-    // Of a lane a vertex. generated/waves.glsl: the waves that muscles share
+    // For a lane a vertex. generated/waves.glsl: the waves that muscles share
     std::string waves;
 
     bool operator==(const KernelText&) const = default;

@@ -11,7 +11,7 @@ namespace shoal {
 
 namespace {
 
-// What the choice rests on.
+// The measurements that the choice rests on.
 //
 // A GPU: one NVIDIA H100 (driver 580.159.04), 22 November 2026, fused milliseconds a frame, minimum;
 // `leapfrog`, 5 substeps, uniform wind, drag by direction; without and with a plane. "By hand" is a kernel
@@ -52,17 +52,17 @@ constexpr int gpuLane = 12, gpuLaneFree = 20, many = 131072;
 constexpr double mostSeconds = 5;      // to the first frame, where there is a choice
 constexpr double longestSeconds = 12;  // where there is none: more is refused
 
-// Of secondsToCompile(), in s; fitted to 62 kernels of 4 to 64 vertices on the same machine, of which it is
-// off by 9 % (root mean square) and by 30 % at most. Fields and loops that are kept were fitted to a few
-// apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times as
-// long.
+// The parts of secondsToCompile(), in s; fitted to 62 kernels of 4 to 64 vertices on the same machine, of
+// which it is off by 9 % (root mean square) and by 30 % at most. Fields and loops that are kept were fitted
+// to a few apart. Loops are written out (simulate/fused_kernel.cpp): those that are kept take several times
+// as long.
 constexpr double start = 0.7;  // of everything else
 constexpr double ofVertex = 0.0048, ofTriangle = 0.0103;
 constexpr double ofCollider = 0.0187, ofJointContact = 0.0888;  // of a vertex
 constexpr double ofField = 0.004, ofLongField = 0.03;           // of a vertex
 constexpr double crowding = 57;  // vertices: twice as long for the same text, as registers run out
 
-// Of a spring.
+// Returns the part of a spring.
 double secondsOf(SolverKind solver) {
     switch (solver) {
     case SolverKind::euler:

@@ -23,7 +23,7 @@ Lanes lanes(const std::string& word);
 
 // Largest molecules of the fused path.
 struct FusedLimits {
-    // Of a lane a molecule, in vertices and springs: beyond these its code takes too long to compile.
+    // A lane a molecule holds so many vertices and springs: beyond these its code takes too long to compile.
     static constexpr int laneVertices = 64, laneSprings = 1024;
     // Bytes of shared memory of a molecule of so many vertices: positions and velocities, in whole 4-vectors.
     static constexpr int sharedBytes(int vertices) { return (3 * vertices + 3) / 4 * 32; }
@@ -50,7 +50,7 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group);
 // Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
 // to compile.
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits);
-// The same in fragments, which have a lane a molecule alone, however long it takes to compile.
+// Checks it for fragments, which have a lane a molecule alone, however long it takes to compile.
 void checkLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits);
 
 }  // namespace shoal

@@ -65,7 +65,7 @@ std::string MuscleWaves::arrayText() const {
     return out + "}\n";
 }
 
-// What a wave is at the time `clock`.
+// Writes a wave's pull at the time `clock`.
 std::string MuscleWaves::waveText(size_t wave) const {
     return concat("musclePull(vec3(1.0, ", glslLiteral(2 * std::numbers::pi * waves_[wave].frequency), ", ",
                   glslLiteral(waves_[wave].phase), "), 0.0, clock, ", phased_ ? "phase);\n" : "0.0);\n");

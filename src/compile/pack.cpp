@@ -120,7 +120,7 @@ void packStart(const Scene& scene, GroupPlan& group) {
     group.needs.phase = group.needs.actuation && (newbornsPhased || differs(group.constants.phases, 0));
 }
 
-// What tells a spring's muscle: see compile/plan.h.
+// Tells a spring's muscle: see compile/plan.h.
 static glm::vec4 muscleOf(const Molecule& molecule, const GroupPlan& group, const MuscleWaves& waves,
                           const Spring& spring) {
     const Actuation actuation = spring.actuation.value_or(Actuation{});

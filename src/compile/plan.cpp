@@ -123,7 +123,8 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
     const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13;
-    const int64_t fit = (most - before) / vertices, held = availableMemory() / each;
+    const int64_t available = availableMemory();
+    const int64_t fit = (most - before) / vertices, held = available / each;
     const auto refuse = [&](const std::string& why, int64_t fitting) {
         throw Error(group.location,
                     concat(many(count, "molecule", "molecules"), " of ", many(vertices, "vertex", "vertices"),
@@ -132,7 +133,7 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     };
     if (count > fit) refuse(concat(" are more than the ", most, " vertices that a scene may have"), fit);
     if (count > held)
-        refuse(concat(" take ", (count * each) >> 20, " MiB to start; ", availableMemory() >> 20,
+        refuse(concat(" take ", (count * each) >> 20, " MiB to start; ", available >> 20,
                       " MiB of memory are free"),
                held);
 }
