@@ -47,15 +47,26 @@ void run()
 {
     int done = 0;
 #ifdef COLLIDE
+    beginContact();
 #ifdef GROUP_VOTE
     // All neighbours that run in step look for contacts together: where nothing touches, nothing is paid for it,
     // also on devices that run both sides of every branch.
     do {
         bool found;
         do {
+#ifdef BOUNDED
+            bool near;
+            do {
+                advance(done);
+                ++done;
+                near = mayTouch();
+            } while (!anyInvocationARB(near) && done < substeps);
+            found = near && findContacts(done);
+#else
             advance(done);
             ++done;
             found = findContacts(done);
+#endif
         } while (!anyInvocationARB(found) && done < substeps);
         if (found) resolveContacts(done);
     } while (done < substeps);
@@ -63,7 +74,7 @@ void run()
     while (done < substeps) {
         advance(done);
         ++done;
-        if (findContacts(done)) resolveContacts(done);
+        if (mayTouch() && findContacts(done)) resolveContacts(done);
     }
 #endif
 #else

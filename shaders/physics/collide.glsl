@@ -37,8 +37,9 @@ const float pushSpeed = 1.0f;
 //
 // Without branches: what does not apply is chosen away at the end, because a rasteriser on a CPU runs every branch of
 // its lanes anyway, and then pays for the bookkeeping of the branches as well.
-Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
-                Drift drift)
+// `inside`: whether the vertex was deep inside when its drift began, where that is known.
+Contact respondFrom(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+                    Drift drift)
 {
     float depth = max(-distance, 0.0f);
     float vn = dot(v, n);
@@ -78,7 +79,7 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     velocity = leaves ? v : velocity;
 
     // Deeper than it can have come within the step: out the short way, but not at once, and without a kick.
-    bool caught = depth > caughtDepth + 2.0f * abs(vn) * drift.step;
+    bool caught = inside || depth > caughtDepth + 2.0f * abs(vn) * drift.step;
     float way = min(depth, (pushSpeed - min(vn, 0.0f)) * drift.step);
     position = caught ? x + n * way : position;
     velocity = caught ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : velocity;
@@ -87,11 +88,16 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     return Contact(outside ? x : position, outside ? v : velocity);
 }
 
+Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
+{
+    return respondFrom(false, x, v, distance, n, gravity, restitution, friction, drift);
+}
+
 // Contact as a constraint on the position [Jakobsen 2001], [Latta 2004, section 3.4.3], for verlet: the vertex is moved
 // out of the surface, and its velocity is what that leaves of the substep's way, v + moved / h = (x' - x_before) / h.
 // Nothing bounces. Friction takes back the way along the surface, by at most mu times the depth (Coulomb: a depth of h^2 g
 // is a pressure of g); what is caught leaves at no more than pushSpeed.
-Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float step)
+Contact constrain(bool inside, vec3 x, vec3 v, float distance, vec3 n, float friction, float step)
 {
     float vn = dot(v, n);
     float moved = min(max(-distance, 0.0f), max(pushSpeed - vn, 0.0f) * step);
@@ -104,8 +110,11 @@ Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float 
     float started = distance - vn * step;
     bool rests = lost >= speed && abs(started) < min(restingSlack, -0.02f * vn * step);
     bool outside = distance >= 0.0f;
-    return Contact(outside ? x : (rests ? x - v * step : x + change * step),
-                   outside ? v : (rests ? vec3(0.0f) : v + change));
+    // of what is caught a speed outwards is kept, and none inwards
+    vec3 left = inside ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : v + change;
+    vec3 place = inside ? x + n * moved : x + change * step;
+    rests = rests && !inside;
+    return Contact(outside ? x : (rests ? x - v * step : place), outside ? v : (rests ? vec3(0.0f) : left));
 }
 
 // Returns what contact has made of a velocity v to which the solver still owes a kick, without it, all in m/s. Contact acts on
@@ -115,13 +124,14 @@ vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
     return answered != v + kick ? answered - kick : v;
 }
 
-// As the solver takes contact.
-Contact answer(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
+// Contact as the solver takes it; `inside` as for respondFrom.
+Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+               Drift drift)
 {
 #ifdef VERLET
-    return constrain(x, v, distance, n, friction, drift.step);
+    return constrain(inside, x, v, distance, n, friction, drift.step);
 #else
-    return respond(x, v, distance, n, gravity, restitution, friction, drift);
+    return respondFrom(inside, x, v, distance, n, gravity, restitution, friction, drift);
 #endif
 }
 

@@ -90,6 +90,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
+    constexpr int few = 16;  // vertices, which are chosen from registers (fused/contact.glsl)
+    define(needs.collide && perLane && group.vertexCount <= few, "FEW_VERTICES");
     define(group.rigid && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (needs.life) defineLife(*group.life, births, out);
