@@ -25,17 +25,29 @@ vec3 struckSurface[VERTICES];  // m/s, its velocity
 #endif
 #ifdef JOINT_CONTACT
 bool walks[VERTICES];  // whether its way through the substep has to be followed
+#endif
 
 // s, since the frame's start, when so many substeps are done; 0 where no collider moves.
 float contactTime(int done)
 {
-    return collidersMove ? float(done) * substep : 0.0;
-}
+#ifdef JOINT_CONTACT
+    if (collidersMove) return float(done) * substep;
 #endif
+    return 0.0;
+}
 
 #ifdef KEEP_SURFACE
 // The surfaces that findContacts() found: a height field costs more to look up than to keep.
 vec4 seen[VERTICES];
+#endif
+
+#ifdef HISTORY
+vec3 beyondBy[VERTICES];  // m, physics/collide.glsl
+#define DRIFT(beyond) Drift(driftOfStep.x, kickDrift, driftOfStep.z, beyond)
+#define DRIFT_OF(i) DRIFT(beyondBy[i])
+#else
+#define DRIFT(beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z)
+#define DRIFT_OF(i) DRIFT(vec3(0.0))
 #endif
 
 // The vertices as contact takes them up.
@@ -47,18 +59,22 @@ void beginAnswers()
 #if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
         driftedBy[i] = v[i];
 #endif
+#ifdef HISTORY
+        beyondBy[i] = wayBeyond(dx[i], dv[i], v[i]);
+#endif
     }
 }
 
 // What contact has made of them.
-void acceptAnswers()
+void acceptAnswers(float time)
 {
 #ifdef HISTORY
-    bool changed = false;
+    bool impact = false;
 #endif
     for (int i = 0; i < VERTICES; ++i) {
 #ifdef HISTORY
-        changed = changed || touchPosition[i] != x[i] || touchVelocity[i] != v[i];
+        if (touchPosition[i] != x[i] || touchVelocity[i] != v[i])
+            impact = changeHistory(touchPosition[i] - x[i], touchVelocity[i] - v[i], dx[i], dv[i], v[i]) || impact;
 #endif
 #ifdef TOUCH_COUNTS
         touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != v[i] + OWED(i);
@@ -67,7 +83,10 @@ void acceptAnswers()
         x[i] = touchPosition[i];
     }
 #ifdef HISTORY
-    if (changed) forgetHistory();
+    if (impact) forgetHistory();
+#endif
+#ifdef FOOTING
+    findFooting(time);
 #endif
 }
 
@@ -119,8 +138,7 @@ bool findContacts(int done)
     for (int k = 0; k < VERTICES; ++k) {
 #if defined(NEAREST) && !defined(RIGID_IMPACT)
         Contact c = Contact(touchPosition[k], touchVelocity[k]);
-        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]),
-                                      Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
+        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
         bool open = counts && !isHeld(pinned[k]);
         walks[k] = open && !answered;
         bool moves = open && answered;
@@ -133,7 +151,7 @@ bool findContacts(int done)
         found = found || walks[k];
     }
 #if defined(NEAREST) && !defined(RIGID_IMPACT)
-    acceptAnswers();
+    acceptAnswers(contactTime(done));
 #endif
 #else
     float least = 1e30;
@@ -154,10 +172,9 @@ bool findContacts(int done)
 }
 
 #ifdef JOINT_CONTACT
-Contact follow(Contact c, vec3 drifted, int done)
+Contact follow(Contact c, vec3 drifted, Drift drift, int done)
 {
-    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position),
-                      Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime(done));
+    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position), drift, contactTime(done));
 }
 #endif
 
@@ -180,15 +197,19 @@ void resolveContacts(int done)
     while (next >= 0) {
         Contact c = Contact(vec3(0.0), vec3(0.0));
         vec3 drifted = vec3(0.0);
+        vec3 beyond = vec3(0.0);
         next = -1;
         for (int i = 0; i < VERTICES; ++i) {
             if (walks[i]) {
                 next = i;
                 c = Contact(touchPosition[i], touchVelocity[i]);
                 drifted = driftedBy[i];
+#ifdef HISTORY
+                beyond = beyondBy[i];
+#endif
             }
         }
-        if (next >= 0) c = follow(c, drifted, done);
+        if (next >= 0) c = follow(c, drifted, DRIFT(beyond), done);
         for (int i = 0; i < VERTICES; ++i) {
             if (next == i) {
                 walks[i] = false;
@@ -204,7 +225,7 @@ void resolveContacts(int done)
 #else
     for (int n = 0; n < VERTICES; ++n) {
         if (walks[n]) {
-            Contact c = follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], done);
+            Contact c = follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], DRIFT_OF(n), done);
             touchPosition[n] = c.position;
             touchVelocity[n] = c.velocity;
 #ifdef RIGID_IMPACT
@@ -222,8 +243,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]),
-                                 Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
+            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;
 #ifdef RIGID_IMPACT
@@ -236,5 +256,5 @@ void resolveContacts(int done)
 #ifdef RIGID_IMPACT
     answerAsBody();
 #endif
-    acceptAnswers();
+    acceptAnswers(contactTime(done));
 }

@@ -13,11 +13,27 @@ struct Contact {
 //              for leapfrog
 //   lag        how far the stored velocity lags behind the position: h/2 for euler (its positions lie on the
 //              exact parabola of the velocity half a step later), 0 for leapfrog
+//   beyond     where the solver has a history of its ways: how far this vertex's way differs from that of a constant
+//              acceleration between its velocities, m
 struct Drift {
     float step;
     float kickDrift;
     float lag;
+#ifdef HISTORY
+    vec3 beyond;
+#endif
 };
+
+// What the acceleration has added to the way of a vertex that began the substep at the surface's velocity, m. v: m/s,
+// relative to the surface.
+vec3 wayGained(vec3 v, Drift drift)
+{
+#ifdef HISTORY
+    return v * (0.5 * drift.step) + drift.beyond;
+#else
+    return v * drift.kickDrift;
+#endif
+}
 
 // A vertex within this of a surface, in m, may rest where it is: float's rounding a metre from the anchor.
 const float restingSlack = 1e-6f;
@@ -68,10 +84,14 @@ Contact respondFrom(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gr
     // A vertex that started its drift on the surface, at rest, goes back exactly: anything else would add up
     // a rounding a step. The slack stays well below the drift itself, or what rests above the surface would
     // seem to bounce.
+#ifdef HISTORY
+    float started = distance - dot(wayGained(v, drift), n);
+#else
     float started = distance - vn * drift.kickDrift;
+#endif
     float slack = min(restingSlack, -0.02f * vn * drift.kickDrift);
     bool rests = !bounces && lost >= speed && abs(started) < slack;
-    position = rests ? x - v * drift.kickDrift : position;
+    position = rests ? x - wayGained(v, drift) : position;
     velocity = rests ? vec3(0.0f) : velocity;
 
     bool leaves = vn >= 0.0f;  // already on its way out
@@ -122,6 +142,17 @@ Contact constrain(bool inside, vec3 x, vec3 v, float distance, vec3 n, float fri
 vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
 {
     return answered != v + kick ? answered - kick : v;
+}
+
+// What is left, m/s^2, of the acceleration of a vertex at rest on a surface of normal n: none while the surface holds it,
+// by a friction within mu of the pressure (Coulomb). Negative friction: it rests on nothing.
+vec3 heldBy(vec3 n, float friction, vec3 acceleration)
+{
+    float pressure = -dot(acceleration, n);
+    vec3 along = acceleration + n * pressure;
+    float most = friction * pressure;
+    bool holds = friction >= 0.0f && pressure >= 0.0f && dot(along, along) <= most * most;
+    return holds ? vec3(0.0f) : acceleration;
 }
 
 // Contact as the solver takes it; `inside` as for respondFrom.

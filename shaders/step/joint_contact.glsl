@@ -176,7 +176,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         }
         if (!alone && (crease || n == mostTouches - 1)) {
             // the third that presses, or the last of many
-            vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
+            vec3 back = position - wayGained(velocity - t.velocity, drift);
             vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back - c.position, t.normal) + t.distance);
             bool fits = crease && min(backs.x, backs.y) > -touching;
             c = Contact(fits ? back : way.from, t.velocity);
@@ -207,7 +207,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                 keepToBoth(r, before.normal, t.normal, offs, speeds);
                 followPosition(r, position, velocity, drift.step);
                 // at rest in it: back to where the substep began, exactly, or roundings would add up
-                vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
+                vec3 back = position - wayGained(velocity - t.velocity, drift);
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
                 vec3 left = r.velocity - t.velocity;
                 if (dot(left, left) < stillSquared && all(lessThan(abs(backs), vec2(touching)))) {
@@ -229,13 +229,21 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     return c;
 }
 
+// What a vertex at rest rests on, if that stands still: xyz the surface's normal, w its friction; w negative: none.
+vec4 footing(vec3 anchor, vec3 position, float time)
+{
+    Touch t = nearest(anchor, position, time).touch;
+    bool rests = abs(t.distance) < 1.1 * touching && t.velocity == vec3(0.0);
+    return vec4(t.normal, rests ? materialOf(t).y : -1.0);
+}
+
 #ifdef NEAREST
 // Answers a vertex, as collideAll does, where its nearest surface at the substep's end is all that matters:
 // one look for finding, response and the way out. Returns whether that is so; if not, its way has to be followed.
 bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, vec3 gravity, Drift drift)
 {
     setWay(drifted, drift.step);
-    Nearest s = nearest(anchor, c.position);
+    Nearest s = nearest(anchor, c.position, 0.0);
     Touch t = s.touch;
     vec2 material = materialOf(t);
     bool passes = s.atEnd || beyondReach(t.distance, drifted, drift.step) >= 0.0;

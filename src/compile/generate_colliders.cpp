@@ -115,7 +115,9 @@ std::string sourceOfOne(const Text& text) {
         "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, gravity, "
         "drift);\n}\n\n",
         "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return surfaceAt(anchor, "
-        "position).w;\n}\n");
+        "position).w;\n}\n\nvec4 footing(vec3 anchor, vec3 position, float time)\n{\n    vec4 surface = "
+        "surfaceAt(anchor, position);\n    return vec4(surface.xyz, abs(surface.w) < restingSlack ? ",
+        text.material, ".y : -1.0);\n}\n");
 }
 
 class Joint {
@@ -142,6 +144,7 @@ class Joint {
         const ColliderTable::Loops loops = table_.write(*samples_);
         clearances_ += loops.clearances;
         survey_ += loops.survey;
+        nearest_ += loops.nearest;
         std::string fastest = "0.0";
         if (swept_ && !writer_.result.moving.empty()) {
             writer_.result.fastestSlot = writer_.result.parameters.size();
@@ -220,10 +223,9 @@ class Joint {
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
             survey_, "    return s;\n}\n\n",
-            nearestIsEnough() ? concat("Nearest nearest(vec3 anchor, vec3 position)\n{\n    Contact c = "
-                                       "Contact(position, vec3(0.0));\n    vec4 surface;\n    Nearest s;\n",
-                                       nearest_, "    return s;\n}\n\n")
-                              : "",
+            "// What is nearest of all.\nNearest nearest(vec3 anchor, vec3 position, float time)\n{\n",
+            "    Contact c = Contact(position, vec3(0.0));\n    vec4 surface;\n",
+            "    Nearest s = Nearest(noTouch(), true, true, 1e30);\n", nearest_, "    return s;\n}\n\n",
             "#include \"step/joint_contact.glsl\"\n");
     }
 

@@ -136,9 +136,9 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
         include(group.factored(), "generated/factors.glsl");
         include(group.needs.springs, "generated/sweeps.glsl");
     }
+    include(group.needs.collide, "generated/colliders.glsl");
     include(solver(group.solver).history, "fused/bdf2.glsl");
     include(true, concat("solver/", name(group.solver), ".glsl"));
-    include(group.needs.collide, "generated/colliders.glsl");
     include(group.needs.collide, "fused/contact.glsl");
     include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
     out += parameterLoads(group, options);

@@ -223,4 +223,15 @@ TEST_CASE("contact as a constraint: the velocity is what the moved position leav
     CHECK(glm::length(rests.position - start) < 1e-7f);
 }
 
+TEST_CASE("what rests is held while the reaction stays within Coulomb's cone", "[contact]") {
+    const glm::vec3 n(0, 1, 0);
+    const float mu = 0.5f;
+    CHECK(shader::heldBy(n, mu, {0, -g, 0}) == glm::vec3(0));
+    CHECK(shader::heldBy(n, mu, {3, -10, -3.9f}) == glm::vec3(0));        // 4.92 of 5
+    CHECK(shader::heldBy(n, mu, {3, -10, -4.1f}) != glm::vec3(0));        // 5.08
+    CHECK(shader::heldBy(n, mu, {0, 0.1f, 0}) == glm::vec3(0, 0.1f, 0));  // lifted
+    CHECK(shader::heldBy(n, 0, {0, -g, 0}) == glm::vec3(0));
+    CHECK(shader::heldBy(n, -1, {0, -g, 0}) == glm::vec3(0, -g, 0));  // on nothing
+}
+
 }  // namespace shoal
