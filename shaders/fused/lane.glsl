@@ -43,14 +43,21 @@ void keepState(int molecule)
 }
 #endif
 
+#ifdef GROUP_VOTE
+#define SOME_LANE(value) anyInvocationARB(value)
+#else
+#define SOME_LANE(value) value
+#endif
+
 void run()
 {
     int done = 0;
 #ifdef COLLIDE
     beginContact();
-#ifdef GROUP_VOTE
-    // All neighbours that run in step look for contacts together: where nothing touches, nothing is paid for it,
-    // also on devices that run both sides of every branch.
+#if defined(GROUP_VOTE) || defined(SOFTWARE)
+    // All neighbours that run in step look for contacts together: where nothing touches, little is paid for it, also on
+    // devices that run both sides of every branch, and once what follows a loop. Where such a device lets nobody vote, a
+    // lane waits at the end of its loop until all of them are there.
     do {
         bool found;
         do {
@@ -60,14 +67,14 @@ void run()
                 advance(done);
                 ++done;
                 near = mayTouch();
-            } while (!anyInvocationARB(near) && done < substeps);
+            } while (!SOME_LANE(near) && done < substeps);
             found = near && findContacts(done);
 #else
             advance(done);
             ++done;
             found = findContacts(done);
 #endif
-        } while (!anyInvocationARB(found) && done < substeps);
+        } while (!SOME_LANE(found) && done < substeps);
         if (found) resolveContacts(done);
     } while (done < substeps);
 #else
