@@ -6,13 +6,14 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, when pins have been released, when the substep
+// Where there is no history - at the start, after an impact, when pins have been released, when the substep
 // or a slider has changed - a step is exact for free flight in a fluid of that velocity, however heavy the
 // drag, and takes the springs by backward Euler:
 //
 //   z = flight - h flown,  q = flight without springs,  eta = h
 //
-// where flown and flight are the velocity and the way after h. A molecule that lies in contact does so in every step.
+// where flown and flight are the velocity and the way after h. A molecule that rests on a collider keeps its history: begun
+// anew in every step, its free vertices would take a velocity of g h / 2 for rest.
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
