@@ -185,8 +185,8 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         }
         float off = dot(c.position, t.normal) - t.distance;
         vec2 material = materialOf(t);
-        Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x, material.y,
-                            drift);
+        Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x,
+                           material.y, drift);
 #ifdef RIGID_IMPACT
         struckLast = vec4(t.normal, way.caught ? -1.0 : material.y);
         struckVelocity = t.velocity;
