@@ -6,18 +6,20 @@
 // one ended: a one-step method at the start of every frame (SDIRK2, TR-BDF2) costs a second stage, and the velocity
 // that an unfinished stage leaves it with made pinned molecules of 1e6 N/m and more wander.
 //
-// Where there is no history - at the start, after a contact, when pins have been released, when the substep
+// Where there is no history - at the start, after an impact, when pins have been released, when the substep
 // or a slider has changed - a step is exact for free flight in a fluid of that velocity, however heavy the
 // drag, and takes the springs by backward Euler:
 //
 //   z = flight - h flown,  q = flight without springs,  eta = h
 //
-// where flown and flight are the velocity and the way after h. A molecule that lies in contact does so in every step.
+// where flown and flight are the velocity and the way after h. A molecule that rests on a collider keeps its history: begun
+// anew in every step, its free vertices would take a velocity of g h / 2 for rest.
 
 vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
 bool restart;
 float eta;  // s, of this step
+float kickDrift;  // s, for contact (physics/collide.glsl)
 vec3 unsprung[VERTICES];  // m/s, the velocity without springs
 
 const float third = 1.0 / 3.0;
@@ -27,10 +29,27 @@ void beginHistory()
     restart = restarts != 0 || dx[0].x > 0.5 * NO_HISTORY;
 }
 
-// For a contact: the step after it starts anew.
+// After an impact: the step after it starts anew.
 void forgetHistory()
 {
     restart = true;
+}
+
+// How far a vertex's way differs from that of a constant acceleration from v - dv to v, m.
+vec3 wayBeyond(vec3 moved, vec3 gained, vec3 ended)
+{
+    return moved - (ended - 0.5 * gained) * substep;
+}
+
+// Takes into a vertex's history how contact has changed its place (m) and velocity v (m/s). Returns whether that was an
+// impact: what goes on as it began, at rest mostly, within the roundings below, has none.
+bool changeHistory(vec3 shift, vec3 change, inout vec3 displacement, inout vec3 gained, vec3 ended)
+{
+    gained += change;
+    vec3 along = (ended + change - gained) * substep;
+    vec3 off = displacement + shift - along;
+    displacement = along;  // what rests leaves no rounding of a way
+    return dot(gained, gained) > 1e-10 || dot(off, off) > 1e-12;
 }
 
 void endHistory()
@@ -59,6 +78,7 @@ void predict(int step)
     restart = restart || (held && released);  // what was at rest on its pins has no changes to go on from
     thrustAhead();
     eta = restart ? substep : stageEta;
+    kickDrift = restart ? 0.5 * substep : stageEta;
     vec2 stepPhi = restart ? phi : stagePhi;
 #ifdef DIRECTIONAL_DRAG
     acrossLess = 1.0 - stepPhi.x / stepPhi.y;

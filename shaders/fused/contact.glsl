@@ -24,34 +24,137 @@ vec3 struckSurface[VERTICES];  // m/s, its velocity
 #include "fused/body.glsl"
 #endif
 #ifdef JOINT_CONTACT
-vec3 askedPosition[VERTICES];  // apart from the above, whose loop is always kept: these stay in registers
-vec3 askedVelocity[VERTICES];
+bool walks[VERTICES];  // whether its way through the substep has to be followed
+#endif
 
 // s, since the frame's start, when so many substeps are done; 0 where no collider moves.
 float contactTime(int done)
 {
-    return collidersMove ? float(done) * substep : 0.0;
-}
+#ifdef JOINT_CONTACT
+    if (collidersMove) return float(done) * substep;
 #endif
+    return 0.0;
+}
 
 #ifdef KEEP_SURFACE
 // The surfaces that findContacts() found: a height field costs more to look up than to keep.
 vec4 seen[VERTICES];
 #endif
 
-// Whether a vertex that is not held lies inside a collider, after so many substeps.
+#ifdef HISTORY
+vec3 beyondBy[VERTICES];  // m, physics/collide.glsl
+#define DRIFT(beyond) Drift(driftOfStep.x, kickDrift, driftOfStep.z, beyond)
+#define DRIFT_OF(i) DRIFT(beyondBy[i])
+#else
+#define DRIFT(beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z)
+#define DRIFT_OF(i) DRIFT(vec3(0.0))
+#endif
+
+// The vertices as contact takes them up.
+void beginAnswers()
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        touchPosition[i] = x[i];
+        touchVelocity[i] = v[i] + OWED(i);
+#if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
+        driftedBy[i] = v[i];
+#endif
+#ifdef HISTORY
+        beyondBy[i] = wayBeyond(dx[i], dv[i], v[i]);
+#endif
+    }
+}
+
+// What contact has made of them.
+void acceptAnswers(float time)
+{
+#ifdef HISTORY
+    bool impact = false;
+#endif
+    for (int i = 0; i < VERTICES; ++i) {
+#ifdef HISTORY
+        if (touchPosition[i] != x[i] || touchVelocity[i] != v[i])
+            impact = changeHistory(touchPosition[i] - x[i], touchVelocity[i] - v[i], dx[i], dv[i], v[i]) || impact;
+#endif
+#ifdef TOUCH_COUNTS
+        touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != v[i] + OWED(i);
+#endif
+        v[i] = ANSWERED(i);
+        x[i] = touchPosition[i];
+    }
+#ifdef HISTORY
+    if (impact) forgetHistory();
+#endif
+#ifdef FOOTING
+    findFooting(time);
+#endif
+}
+
+#ifdef BOUNDED
+// A ball that no surface reaches into, around where the first vertex is when the frame begins.
+vec3 clearAround;   // m
+float clearRadius;  // m, negative inside
+
+void beginContact()
+{
+    clearAround = x[0];
+    clearRadius = 0.99 * clearance(anchor, clearAround, 0.0) - 1e-4;  // less than distances are rounded by
+}
+
+// Whether the ways of this substep may have left that ball.
+bool mayTouch()
+{
+    float away = 0.0;
+    float fastest = 0.0;
+    for (int i = 0; i < VERTICES; ++i) {
+        vec3 apart = x[i] - clearAround;
+        away = max(away, dot(apart, apart));
+        fastest = max(fastest, dot(v[i], v[i]));
+    }
+    return !(sqrt(away) + sqrt(fastest) * substep < clearRadius);
+}
+#else
+void beginContact()
+{
+}
+
+bool mayTouch()
+{
+    return true;
+}
+#endif
+
+// Whether a vertex that is not held lies inside a collider, or may have crossed one, after so many substeps. With
+// NEAREST those are answered here which the nearest surface alone concerns, and the others count.
 bool findContacts(int done)
 {
-    float least = 1e30;
+    bool found = false;
+    bool counts = true;
+#ifdef LIFE
+    counts = taken();
+#endif
 #ifdef JOINT_CONTACT
-    for (int i = 0; i < VERTICES; ++i) {
-        askedPosition[i] = x[i];
-        askedVelocity[i] = v[i];
-    }
+    beginAnswers();
     for (int k = 0; k < VERTICES; ++k) {
-        if (!isHeld(pinned[k])) least = min(least, margin(anchor, askedPosition[k], askedVelocity[k], substep, contactTime(done)));
-    }
+#if defined(NEAREST) && !defined(RIGID_IMPACT)
+        Contact c = Contact(touchPosition[k], touchVelocity[k]);
+        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
+        bool open = counts && !isHeld(pinned[k]);
+        walks[k] = open && !answered;
+        bool moves = open && answered;
+        touchPosition[k] = moves ? c.position : touchPosition[k];
+        touchVelocity[k] = moves ? c.velocity : touchVelocity[k];
 #else
+        walks[k] = counts && !isHeld(pinned[k]) &&
+                   margin(anchor, touchPosition[k], driftedBy[k], substep, contactTime(done)) < 0.0;
+#endif
+        found = found || walks[k];
+    }
+#if defined(NEAREST) && !defined(RIGID_IMPACT)
+    acceptAnswers(contactTime(done));
+#endif
+#else
+    float least = 1e30;
     for (int i = 0; i < VERTICES; ++i) {
         touchPosition[i] = x[i];
     }
@@ -63,36 +166,66 @@ bool findContacts(int done)
         if (!isHeld(pinned[k])) least = min(least, clearance(anchor, touchPosition[k], 0.0));
 #endif
     }
+    found = counts && least < 0.0;
 #endif
-#ifdef LIFE
-    if (!taken()) least = 1.0;
-#endif
-    return least < 0.0;
+    return found;
 }
+
+#ifdef JOINT_CONTACT
+Contact follow(Contact c, vec3 drifted, Drift drift, int done)
+{
+    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position), drift, contactTime(done));
+}
+#endif
 
 // Resolves the contacts of all vertices. One that does not touch changes only where the molecule answers as a
 // rigid body (RIGID_IMPACT).
 void resolveContacts(int done)
 {
-    for (int i = 0; i < VERTICES; ++i) {
-        touchPosition[i] = x[i];
-        touchVelocity[i] = v[i] + OWED(i);
-#if defined(RIGID_IMPACT) || defined(JOINT_CONTACT)
-        driftedBy[i] = v[i];
-#endif
+    beginAnswers();
 #ifdef RIGID_IMPACT
+    for (int i = 0; i < VERTICES; ++i) {
         startPlace[i] = x[i];
         struck[i] = vec4(0.0, 0.0, 0.0, -1.0);
-#endif
     }
+#endif
 #ifdef JOINT_CONTACT
-    bool changed = false;
+#ifdef FEW_VERTICES
+    // Each lane takes its next vertex, from registers: an array that a variable looks up is memory, which a CPU rasteriser
+    // reads lane by lane.
+    int next = 0;
+    while (next >= 0) {
+        Contact c = Contact(vec3(0.0), vec3(0.0));
+        vec3 drifted = vec3(0.0);
+        vec3 beyond = vec3(0.0);
+        next = -1;
+        for (int i = 0; i < VERTICES; ++i) {
+            if (walks[i]) {
+                next = i;
+                c = Contact(touchPosition[i], touchVelocity[i]);
+                drifted = driftedBy[i];
+#ifdef HISTORY
+                beyond = beyondBy[i];
+#endif
+            }
+        }
+        if (next >= 0) c = follow(c, drifted, DRIFT(beyond), done);
+        for (int i = 0; i < VERTICES; ++i) {
+            if (next == i) {
+                walks[i] = false;
+                touchPosition[i] = c.position;
+                touchVelocity[i] = c.velocity;
+#ifdef RIGID_IMPACT
+                struck[i] = struckLast;
+                struckSurface[i] = struckVelocity;
+#endif
+            }
+        }
+    }
+#else
     for (int n = 0; n < VERTICES; ++n) {
-        if (!isHeld(pinned[n]) &&
-            margin(anchor, touchPosition[n], driftedBy[n], substep, contactTime(done)) < 0.0) {
-            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(anchor, touchPosition[n]),
-                                   Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime(done));
-            changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
+        if (walks[n]) {
+            Contact c = follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], DRIFT_OF(n), done);
             touchPosition[n] = c.position;
             touchVelocity[n] = c.velocity;
 #ifdef RIGID_IMPACT
@@ -101,6 +234,7 @@ void resolveContacts(int done)
 #endif
         }
     }
+#endif
 #else
     for (int k = 0; k < VERTICES; ++k) {
         if (!isHeld(pinned[k])) {
@@ -109,8 +243,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]),
-                                 Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
+            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;
 #ifdef RIGID_IMPACT
@@ -123,17 +256,5 @@ void resolveContacts(int done)
 #ifdef RIGID_IMPACT
     answerAsBody();
 #endif
-    for (int i = 0; i < VERTICES; ++i) {
-#ifdef TOUCH_COUNTS
-        touched = touched || touchPosition[i] != x[i] || touchVelocity[i] != v[i] + OWED(i);
-#endif
-        v[i] = ANSWERED(i);
-        x[i] = touchPosition[i];
-    }
-#ifdef HISTORY
-#ifdef JOINT_CONTACT
-    if (changed)
-#endif
-    forgetHistory();
-#endif
+    acceptAnswers(contactTime(done));
 }

@@ -109,10 +109,13 @@ void storeNormals(int molecule)
 
 void run()
 {
+#ifdef COLLIDE
+    beginContact();
+#endif
     for (int done = 0; done < substeps; ++done) {
         advance(done);
 #ifdef COLLIDE
-        if (findContacts(done + 1)) resolveContacts(done + 1);
+        if (mayTouch() && findContacts(done + 1)) resolveContacts(done + 1);
 #endif
     }
 }

@@ -43,27 +43,45 @@ void keepState(int molecule)
 }
 #endif
 
+#ifdef GROUP_VOTE
+#define SOME_LANE(value) anyInvocationARB(value)
+#else
+#define SOME_LANE(value) value
+#endif
+
 void run()
 {
     int done = 0;
 #ifdef COLLIDE
-#ifdef GROUP_VOTE
-    // All neighbours that run in step look for contacts together: where nothing touches, nothing is paid for it,
-    // also on devices that run both sides of every branch.
+    beginContact();
+#if defined(GROUP_VOTE) || defined(SOFTWARE)
+    // All neighbours that run in step look for contacts together: where nothing touches, little is paid for it, also on
+    // devices that run both sides of every branch, and once what follows a loop. Where such a device lets nobody vote, a
+    // lane waits at the end of its loop until all of them are there.
     do {
         bool found;
         do {
+#ifdef BOUNDED
+            bool near;
+            do {
+                advance(done);
+                ++done;
+                near = mayTouch();
+            } while (!SOME_LANE(near) && done < substeps);
+            found = near && findContacts(done);
+#else
             advance(done);
             ++done;
             found = findContacts(done);
-        } while (!anyInvocationARB(found) && done < substeps);
+#endif
+        } while (!SOME_LANE(found) && done < substeps);
         if (found) resolveContacts(done);
     } while (done < substeps);
 #else
     while (done < substeps) {
         advance(done);
         ++done;
-        if (findContacts(done)) resolveContacts(done);
+        if (mayTouch() && findContacts(done)) resolveContacts(done);
     }
 #endif
 #else

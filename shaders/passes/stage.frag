@@ -2,6 +2,7 @@
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "passes/step.glsl"
+#include "generated/colliders.glsl"
 
 uniform sampler2D startPositions;
 uniform sampler2D startVelocities;
@@ -40,13 +41,20 @@ void main()
 #ifdef SPRINGS
     a += springForces(own.x, own.y, now) * vertexInertia.x;
 #endif
+    vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
+#ifdef COLLIDE
+    // what begins the substep at rest on a collider is held by it, as in solver/rk4.glsl
+    if (startVelocity == vec3(0.0)) {
+        vec4 standsOn = footing(anchor, start, time);
+        a = heldBy(standsOn.xyz, standsOn.w, a);
+    }
+#endif
     vec3 sumV = v * shareOf(stage);
     vec3 sumA = a * shareOf(stage);
     if (stage > 0) {
         sumV += texelFetch(sumVelocities, texel, 0).xyz;
         sumA += texelFetch(sumAccelerations, texel, 0).xyz;
     }
-    vec3 startVelocity = texelFetch(startVelocities, texel, 0).xyz;
     newPosition = vec4(afterStage(stage, start, v, sumV), 0.0);
     newVelocity = vec4(afterStage(stage, startVelocity, a, sumA), 0.0);
     newSumVelocity = vec4(sumV, 0.0);

@@ -13,11 +13,27 @@ struct Contact {
 //              for leapfrog
 //   lag        how far the stored velocity lags behind the position: h/2 for euler (its positions lie on the
 //              exact parabola of the velocity half a step later), 0 for leapfrog
+//   beyond     where the solver has a history of its ways: how far this vertex's way differs from that of a constant
+//              acceleration between its velocities, m
 struct Drift {
     float step;
     float kickDrift;
     float lag;
+#ifdef HISTORY
+    vec3 beyond;
+#endif
 };
+
+// What the acceleration has added to the way of a vertex that began the substep at the surface's velocity, m. v: m/s,
+// relative to the surface.
+vec3 wayGained(vec3 v, Drift drift)
+{
+#ifdef HISTORY
+    return v * (0.5 * drift.step) + drift.beyond;
+#else
+    return v * drift.kickDrift;
+#endif
+}
 
 // A vertex within this of a surface, in m, may rest where it is: float's rounding a metre from the anchor.
 const float restingSlack = 1e-6f;
@@ -37,8 +53,9 @@ const float pushSpeed = 1.0f;
 //
 // Without branches: what does not apply is chosen away at the end, because a rasteriser on a CPU runs every branch of
 // its lanes anyway, and then pays for the bookkeeping of the branches as well.
-Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
-                Drift drift)
+// `inside`: whether the vertex was deep inside when its drift began, where that is known.
+Contact respondFrom(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+                    Drift drift)
 {
     float depth = max(-distance, 0.0f);
     float vn = dot(v, n);
@@ -67,10 +84,14 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     // A vertex that started its drift on the surface, at rest, goes back exactly: anything else would add up
     // a rounding a step. The slack stays well below the drift itself, or what rests above the surface would
     // seem to bounce.
+#ifdef HISTORY
+    float started = distance - dot(wayGained(v, drift), n);
+#else
     float started = distance - vn * drift.kickDrift;
+#endif
     float slack = min(restingSlack, -0.02f * vn * drift.kickDrift);
     bool rests = !bounces && lost >= speed && abs(started) < slack;
-    position = rests ? x - v * drift.kickDrift : position;
+    position = rests ? x - wayGained(v, drift) : position;
     velocity = rests ? vec3(0.0f) : velocity;
 
     bool leaves = vn >= 0.0f;  // already on its way out
@@ -78,7 +99,7 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     velocity = leaves ? v : velocity;
 
     // Deeper than it can have come within the step: out the short way, but not at once, and without a kick.
-    bool caught = depth > caughtDepth + 2.0f * abs(vn) * drift.step;
+    bool caught = inside || depth > caughtDepth + 2.0f * abs(vn) * drift.step;
     float way = min(depth, (pushSpeed - min(vn, 0.0f)) * drift.step);
     position = caught ? x + n * way : position;
     velocity = caught ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : velocity;
@@ -87,11 +108,16 @@ Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float rest
     return Contact(outside ? x : position, outside ? v : velocity);
 }
 
+Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
+{
+    return respondFrom(false, x, v, distance, n, gravity, restitution, friction, drift);
+}
+
 // Contact as a constraint on the position [Jakobsen 2001], [Latta 2004, section 3.4.3], for verlet: the vertex is moved
 // out of the surface, and its velocity is what that leaves of the substep's way, v + moved / h = (x' - x_before) / h.
 // Nothing bounces. Friction takes back the way along the surface, by at most mu times the depth (Coulomb: a depth of h^2 g
 // is a pressure of g); what is caught leaves at no more than pushSpeed.
-Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float step)
+Contact constrain(bool inside, vec3 x, vec3 v, float distance, vec3 n, float friction, float step)
 {
     float vn = dot(v, n);
     float moved = min(max(-distance, 0.0f), max(pushSpeed - vn, 0.0f) * step);
@@ -104,8 +130,11 @@ Contact constrain(vec3 x, vec3 v, float distance, vec3 n, float friction, float 
     float started = distance - vn * step;
     bool rests = lost >= speed && abs(started) < min(restingSlack, -0.02f * vn * step);
     bool outside = distance >= 0.0f;
-    return Contact(outside ? x : (rests ? x - v * step : x + change * step),
-                   outside ? v : (rests ? vec3(0.0f) : v + change));
+    // of what is caught a speed outwards is kept, and none inwards
+    vec3 left = inside ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : v + change;
+    vec3 place = inside ? x + n * moved : x + change * step;
+    rests = rests && !inside;
+    return Contact(outside ? x : (rests ? x - v * step : place), outside ? v : (rests ? vec3(0.0f) : left));
 }
 
 // Returns what contact has made of a velocity v to which the solver still owes a kick, without it, all in m/s. Contact acts on
@@ -115,13 +144,25 @@ vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
     return answered != v + kick ? answered - kick : v;
 }
 
-// As the solver takes contact.
-Contact answer(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
+// What is left, m/s^2, of the acceleration of a vertex at rest on a surface of normal n: none while the surface holds it,
+// by a friction within mu of the pressure (Coulomb). Negative friction: it rests on nothing.
+vec3 heldBy(vec3 n, float friction, vec3 acceleration)
+{
+    float pressure = -dot(acceleration, n);
+    vec3 along = acceleration + n * pressure;
+    float most = friction * pressure;
+    bool holds = friction >= 0.0f && pressure >= 0.0f && dot(along, along) <= most * most;
+    return holds ? vec3(0.0f) : acceleration;
+}
+
+// Contact as the solver takes it; `inside` as for respondFrom.
+Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+               Drift drift)
 {
 #ifdef VERLET
-    return constrain(x, v, distance, n, friction, drift.step);
+    return constrain(inside, x, v, distance, n, friction, drift.step);
 #else
-    return respond(x, v, distance, n, gravity, restitution, friction, drift);
+    return respondFrom(inside, x, v, distance, n, gravity, restitution, friction, drift);
 #endif
 }
 

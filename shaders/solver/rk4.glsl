@@ -1,12 +1,32 @@
 // rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
+// What begins a substep at rest on a collider is held by it in every stage: if it fell in the stages and were put back by
+// contact after them, the springs would have felt that, and the rest of its molecule would never lie still.
 
 vec3 startPosition[VERTICES];
 vec3 startVelocity[VERTICES];
 vec3 sumVelocity[VERTICES];      // of b v
 vec3 sumAcceleration[VERTICES];  // of b a
 
+#ifdef COLLIDE
+#define FOOTING
+vec4 standsOn[VERTICES];  // what a vertex at rest rests on: its normal and friction; w negative: nothing
+
+void findFooting(float time)
+{
+    for (int k = 0; k < VERTICES; ++k) {
+        standsOn[k] = v[k] == vec3(0.0) ? footing(anchor, x[k], time) : vec4(0.0, 0.0, 0.0, -1.0);
+#ifdef TOUCH_COUNTS
+        touched = touched || standsOn[k].w >= 0.0;
+#endif
+    }
+}
+#endif
+
 void beginSolver()
 {
+#ifdef COLLIDE
+    findFooting(0.0);
+#endif
 }
 
 // Stage s: adds up its rates at x, v and moves x, v to the next, or to the substep's end.
@@ -19,6 +39,9 @@ void stage(int s, int step, float time)
         vec3 a = dragAcceleration(v[i], fluid[i], FALL(i), normal[i]);
 #ifdef SPRINGS
         a += force[i] * inverseMass[i];
+#endif
+#ifdef COLLIDE
+        a = heldBy(standsOn[i].xyz, standsOn[i].w, a);
 #endif
         sumVelocity[i] += v[i] * shareOf(s);
         sumAcceleration[i] += a * shareOf(s);
@@ -36,6 +59,9 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         startPosition[i] = x[i];
         startVelocity[i] = v[i];
+#ifdef COLLIDE
+        if (v[i] != vec3(0.0)) standsOn[i].w = -1.0;
+#endif
         sumVelocity[i] = vec3(0.0);
         sumAcceleration[i] = vec3(0.0);
     }

@@ -1,5 +1,5 @@
 // Contact of a vertex with several colliders, thin ones or moving ones. Needs `survey`, `clearances`, `materialOf`,
-// `fastestSurface` and `collidersMove` of generated/colliders.glsl.
+// `fastestSurface`, `collidersMove` and `alone` of generated/colliders.glsl.
 //
 // The way of the substep is taken as a straight line. Distances change no faster than the vertex and the surfaces move,
 // so that a step along the line by what is free (conservative advancement, [Mirtich 1996]) passes through nothing.
@@ -17,7 +17,7 @@ const float stillSquared = 1e-8;  // m^2/s^2: at rest, but for the rounding of p
 const float stillSquared = 1e-10;
 #endif
 const int mostMarches = 48;   // steps along a way
-const int mostTouches = 6;    // of a substep; a vertex that touches more stops there
+const int mostTouches = alone ? 1 : 6;  // of a substep; a vertex that touches more of several stops there
 
 #ifdef SWEPT
 // Negative where a vertex and the surfaces may move by more than `free` towards one another in a step. m^2: in squares,
@@ -29,63 +29,21 @@ float beyondReach(float free, vec3 velocity, float step)
     return free * abs(free) - squared * (step * step);
 }
 
-// The first swept surface on the way from `from` to `to`, between two times: its distance is that of `to` from its
-// plane. `from` and `begin` move to where it touches.
-Touch sweep(vec3 anchor, inout vec3 from, vec3 to, inout float begin, float end, inout ivec3 skip)
+void setWay(vec3 drifted, float step)
 {
-    vec3 way = to - from;
-    float span = end - begin;
-    float most = max(length(way) + fastestSurface() * span, 1e-20);
-    Touch found = noTouch();
-    float s = 0.0;
-    bool there = false;
-    for (int n = 0; n < mostMarches && s < 1.0; ++n) {
-        Touch near = survey(anchor, from + way * s, vec3(0.0), begin + span * s, skip).swept;
-        if (near.distance > touching && n < mostMarches - 1) {
-            s += near.distance / most;
-            continue;
-        }
-        float approach = dot(way - near.velocity * span, near.normal);
-        float atEnd = near.distance + approach * (1.0 - s);
-        if (atEnd < 0.0) {
-            // on to the touch itself: at an edge the normal changes within micrometres
-            if (near.distance > 0.0 && !there && n < mostMarches - 1) {
-                s = min(s - near.distance / approach, 0.999999);
-                there = true;
-                continue;
-            }
-            found = near;
-            found.distance = atEnd;
-            from += way * s;
-            begin += span * s;
-            break;
-        }
-        skip = ivec3(near.which, skip.x, -1);  // along it, or away
-    }
-    return found;
+    waySquared = (dot(drifted, drifted) + fastestSurface() * fastestSurface()) * (2.0 * step * step);
 }
 
-// A vertex that is caught is taken out the short way, at a speed of at most pushSpeed, and keeps no speed inwards nor a
-// larger one outwards: nothing is shot out. Where it is in several, the short way is that of all together; where they
-// push against one another, across, and up.
-Contact comesOut(vec3 anchor, Contact c, vec3 gravity, Drift drift, float time)
+// The direction in which a vertex that is in several colliders comes out: the short way of all together; where they push
+// against one another, across, and up.
+vec3 wayOut(Survey s, vec3 gravity)
 {
-    Survey s = survey(anchor, c.position, c.velocity, time, ivec3(-1));
     Touch t = s.deepest;
-    if (t.distance >= 0.0) return c;
     float together = length(s.outwards);
     vec3 up = gravity - t.normal * dot(gravity, t.normal);
     vec3 other = abs(t.normal.y) < 0.9 ? vec3(0.0, 1.0, 0.0) : vec3(1.0, 0.0, 0.0);
     vec3 across = dot(up, up) > 1e-6 ? -normalize(up) : normalize(cross(t.normal, other));
-    vec3 n = together > 0.1 ? s.outwards / together : across;
-    vec3 relative = c.velocity - t.velocity;
-    float vn = dot(relative, n);
-#ifdef VERLET
-    float way = min(-t.distance, max(pushSpeed - vn, 0.0) * drift.step);
-#else
-    float way = min(-t.distance, (pushSpeed - min(vn, 0.0)) * drift.step);
-#endif
-    return Contact(c.position + n * way, c.velocity + n * (clamp(vn, 0.0, pushSpeed) - vn));
+    return together > 0.1 ? s.outwards / together : across;
 }
 #endif
 
@@ -100,18 +58,63 @@ float margin(vec3 anchor, vec3 position, vec3 velocity, float step, float time)
 #endif
 }
 
-// The next surface that the vertex touches on its way from `from` to c.position; none: its distance is not
-// negative.
-Touch nextTouch(vec3 anchor, Contact c, inout vec3 from, inout float begin, float end, inout ivec3 skip)
+// Where a vertex is on its way through a substep.
+struct Way {
+    vec3 from;    // m
+    float begin;  // s, since the frame's start
+    ivec3 skip;   // numbers of the surfaces that count no more
+    bool caught;  // deep inside a collider where it began
+};
+
+// The next surface that the vertex touches on its way to c.position, where it is at `end`; none: its distance is not
+// negative. Of one that is looked for along the way the distance is that of c.position from its plane, and `way` goes on
+// to where it touches.
+//
+// One survey stands here for the way and for its end, because a rasteriser on a CPU runs this text at least once a frame.
+// `at`: the survey of the end.
+Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, out Survey at)
 {
     Touch found = noTouch();
     float ago = -1.0;  // s
 #ifdef SWEPT
-    found = sweep(anchor, from, c.position, begin, end, skip);
-    if (found.distance < 0.0) ago = end - begin;
-#endif
-    Survey at = survey(anchor, c.position, c.velocity, end, ivec3(skip.xy, found.which));
+    vec3 path = c.position - way.from;
+    float span = end - way.begin;
+    float most = max(length(path) + fastestSurface() * span, 1e-20);
+    float s = 0.0;  // share of the way; 1: its end
+    bool there = false;
+    for (int n = 0; n <= mostMarches; ++n) {
+        bool ends = s >= 1.0 || n == mostMarches;
+        at = survey(anchor, ends ? c.position : way.from + path * s, c.velocity, ends ? end : way.begin + span * s,
+                    ivec3(way.skip.xy, found.which));
+        if (ends) break;
+        way.caught = way.caught || (first && n == 0 && at.inmost < -caughtDepth);
+        Touch near = at.swept;
+        bool last = n == mostMarches - 1;
+        float approach = dot(path - near.velocity * span, near.normal);
+        float atEnd = near.distance + approach * (1.0 - s);
+        if (way.caught) {
+            s = 1.0;
+        } else if (near.distance > touching && !last) {
+            s += near.distance / most;
+        } else if (atEnd >= 0.0) {
+            way.skip = ivec3(near.which, way.skip.x, -1);  // along it, or away
+        } else if (near.distance > 0.0 && !there && !last) {
+            // on to the touch itself: at an edge the normal changes within micrometres
+            s = min(s - near.distance / approach, 0.999999);
+            there = true;
+        } else {
+            found = near;
+            found.distance = atEnd;
+            way.from += path * s;
+            way.begin += span * s;
+            ago = end - way.begin;
+            s = 1.0;
+        }
+    }
     found.velocity = at.asked;  // where the substep ends, as of a solid one
+#else
+    at = survey(anchor, c.position, c.velocity, end, ivec3(way.skip.xy, -1));
+#endif
     if (at.entered > ago) found = at.solid;
     return found;
 }
@@ -148,40 +151,44 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
 #ifdef RIGID_IMPACT
     struckLast = vec4(0.0, 0.0, 0.0, -1.0);
 #endif
-    vec3 from = position - drifted * drift.step;
-    float begin = time - drift.step;
+    Way way = Way(position - drifted * drift.step, time - drift.step, ivec3(-1), false);
 #ifdef SWEPT
-    waySquared = (dot(drifted, drifted) + fastestSurface() * fastestSurface()) * (2.0 * drift.step * drift.step);
-    if (clearances(anchor, from, begin).y < -caughtDepth) return comesOut(anchor, c, gravity, drift, time);
+    setWay(drifted, drift.step);
 #endif
-    ivec3 skip = ivec3(-1);
+    Survey at;
     Touch before = noTouch();
     float beforeOff = 0.0;  // of the plane of `before`
     bool beforeRests = false;
     bool crease = false;
     int secondLast = -2;
     for (int n = 0; n < mostTouches; ++n) {
-        Touch t = nextTouch(anchor, c, from, begin, time, skip);
+        Touch t = nextTouch(anchor, c, way, time, n == 0, at);
+#ifdef SWEPT
+        if (way.caught) {
+            t = at.deepest;
+            if (!alone) t.normal = wayOut(at, gravity);
+        }
+#endif
         if (t.distance >= 0.0) break;
         if (t.which == secondLast && t.distance > -retouching) {
-            skip = ivec3(t.which, before.which, -1);
+            way.skip = ivec3(t.which, before.which, -1);
             continue;
         }
-        if (crease || n == mostTouches - 1) {
+        if (!alone && (crease || n == mostTouches - 1)) {
             // the third that presses, or the last of many
-            vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
+            vec3 back = position - wayGained(velocity - t.velocity, drift);
             vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back - c.position, t.normal) + t.distance);
             bool fits = crease && min(backs.x, backs.y) > -touching;
-            c = Contact(fits ? back : from, t.velocity);
+            c = Contact(fits ? back : way.from, t.velocity);
             if (!fits) followPosition(c, position, velocity, drift.step);
             break;
         }
         float off = dot(c.position, t.normal) - t.distance;
         vec2 material = materialOf(t);
-        Contact r = answer(c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x, material.y,
-                            drift);
+        Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x,
+                           material.y, drift);
 #ifdef RIGID_IMPACT
-        struckLast = vec4(t.normal, material.y);
+        struckLast = vec4(t.normal, way.caught ? -1.0 : material.y);
         struckVelocity = t.velocity;
 #endif
 #ifdef VERLET
@@ -190,7 +197,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         bool rests = dot(r.velocity, t.normal) < 1e-5;
 #endif
         r.velocity += t.velocity;
-        if (n > 0) {
+        if (!alone && n > 0) {
             vec2 offs = vec2(dot(r.position, before.normal) - beforeOff, dot(r.position, t.normal) - off);
             vec2 speeds = vec2(dot(r.velocity - before.velocity, before.normal),
                                dot(r.velocity - t.velocity, t.normal));
@@ -200,7 +207,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
                 keepToBoth(r, before.normal, t.normal, offs, speeds);
                 followPosition(r, position, velocity, drift.step);
                 // at rest in it: back to where the substep began, exactly, or roundings would add up
-                vec3 back = position - (velocity - t.velocity) * drift.kickDrift;
+                vec3 back = position - wayGained(velocity - t.velocity, drift);
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
                 vec3 left = r.velocity - t.velocity;
                 if (dot(left, left) < stillSquared && all(lessThan(abs(backs), vec2(touching)))) {
@@ -212,7 +219,8 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
             }
         }
         c = r;
-        skip = ivec3(t.which, crease ? before.which : -1, -1);
+        if (way.caught) break;
+        way.skip = ivec3(t.which, crease ? before.which : -1, -1);
         secondLast = before.which;
         before = t;
         beforeOff = off;
@@ -220,3 +228,40 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     }
     return c;
 }
+
+// What a vertex at rest rests on, if that stands still: xyz the surface's normal, w its friction; w negative: none.
+vec4 footing(vec3 anchor, vec3 position, float time)
+{
+    Touch t = nearest(anchor, position, time).touch;
+    bool rests = abs(t.distance) < 1.1 * touching && t.velocity == vec3(0.0);
+    return vec4(t.normal, rests ? materialOf(t).y : -1.0);
+}
+
+#ifdef NEAREST
+// Answers a vertex, as collideAll does, where its nearest surface at the substep's end is all that matters:
+// one look for finding, response and the way out. Returns whether that is so; if not, its way has to be followed.
+bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, vec3 gravity, Drift drift)
+{
+    setWay(drifted, drift.step);
+    Nearest s = nearest(anchor, c.position, 0.0);
+    Touch t = s.touch;
+    vec2 material = materialOf(t);
+    bool passes = s.atEnd || beyondReach(t.distance, drifted, drift.step) >= 0.0;
+    bool touches = t.distance < 0.0;
+    // a field's distances change up to sqrt(3) times as fast as the place
+    float before = (t.distance + caughtDepth) * abs(t.distance + caughtDepth);
+    bool caught = !s.isSolid && before < -1.5 * waySquared;
+    bool came = s.isSolid || before > 1.5 * waySquared;
+    Contact r = answer(caught, c.position, c.velocity, t.distance, t.normal, gravity, material.x, material.y, drift);
+    bool answered = touches ? s.atEnd && (came || caught) : passes;
+    if (!alone) {
+        // whatever way was made to the answer's place, nothing else is near it
+        vec3 moved = r.position - c.position;
+        float reach = max(touches ? dot(moved, moved) : 0.0, 0.5 * waySquared);
+        float free = max(s.others - 2.0 * touching, 0.0);
+        answered = answered && free * free >= 1.21 * reach;
+    }
+    if (touches && answered) c = r;
+    return answered;
+}
+#endif

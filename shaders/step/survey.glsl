@@ -14,6 +14,7 @@ struct Touch {
 
 struct Survey {
     Touch swept;      // the nearest of them
+    float inmost;     // m, the least distance of them and of the fields that a short way does not cross
     Touch solid;      // of those that the vertex is in, the one it entered first
     float entered;    // s ago
     vec3 outwards;    // sum of the normals of all that it is in
@@ -42,7 +43,7 @@ Touch noTouch()
 
 Survey noSurvey()
 {
-    return Survey(noTouch(), noTouch(), -1.0, vec3(0.0), noTouch(), vec3(0.0));
+    return Survey(noTouch(), 1e30, noTouch(), -1.0, vec3(0.0), noTouch(), vec3(0.0));
 }
 
 void meetAny(inout Survey s, Touch t)
@@ -54,6 +55,7 @@ void meetAny(inout Survey s, Touch t)
 void meetSwept(inout Survey s, Touch t, ivec3 skip)
 {
     meetAny(s, t);
+    s.inmost = min(s.inmost, t.distance);
     if (t.which == skip.z) s.asked = t.velocity;
     if (t.distance < s.swept.distance && t.which != skip.x && t.which != skip.y) s.swept = t;
 }
@@ -66,5 +68,36 @@ void meetSolid(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
     if (t.distance < 0.0 && entered > s.entered && t.which != skip.x && t.which != skip.y) {
         s.solid = t;
         s.entered = entered;
+    }
+}
+
+// A distance field, on a way that is shorter than its cell: what is thin in a model is thickened to two cells, so that
+// such a way ends inside.
+void meetShort(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
+{
+    s.inmost = min(s.inmost, t.distance);
+    meetSolid(s, t, velocity, skip);
+}
+
+// What is nearest to a vertex.
+struct Nearest {
+    Touch touch;
+    bool atEnd;    // whether the end of the way alone tells of it: a solid one, or a field that a short way does not cross
+    bool isSolid;
+    float others;  // m, at least to all others
+};
+
+void firstNearest(out Nearest s, Touch t, bool atEnd, bool isSolid)
+{
+    s = Nearest(t, atEnd, isSolid, 1e30);
+}
+
+void meetNearest(inout Nearest s, Touch t, bool atEnd, bool isSolid)
+{
+    s.others = min(s.others, max(s.touch.distance, t.distance));
+    if (t.distance < s.touch.distance) {
+        s.touch = t;
+        s.atEnd = atEnd;
+        s.isSolid = isSolid;
     }
 }

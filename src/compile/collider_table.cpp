@@ -59,10 +59,10 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
         out.clearances += loopOver(kind, base, kind.read,
                                    concat("least.y = min(least.y, surface.w - ", kind.thickness, ");"));
         const std::string last = concat("t", all - 1);
-        out.survey +=
-            loopOver(kind, base, all,
-                     concat("meetSwept(s, Touch(surface.xyz, surface.w - ", kind.thickness, ", vec2(-1.0 - ",
-                            last, ".w, 0.0), vec3(0.0), int(", last, ".z)), skip);"));
+        const std::string touch = concat("Touch(surface.xyz, surface.w - ", kind.thickness, ", vec2(-1.0 - ",
+                                         last, ".w, 0.0), vec3(0.0), int(", last, ".z))");
+        out.survey += loopOver(kind, base, all, concat("meetSwept(s, ", touch, ", skip);"));
+        out.nearest += loopOver(kind, base, all, concat("meetNearest(s, ", touch, ", false, false);"));
     }
     return out;
 }

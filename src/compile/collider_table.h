@@ -25,7 +25,8 @@ class ColliderTable {
     bool empty() const { return kinds_.empty(); }
 
     struct Loops {
-        std::string clearances, survey;  // statements of the functions of that name (compile/generate.h)
+        std::string clearances, survey,
+            nearest;  // statements of the functions of that name (compile/generate.h)
     };
     // Appends the texels.
     Loops write(std::vector<glm::vec4>& samples) const;

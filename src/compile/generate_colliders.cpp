@@ -108,13 +108,16 @@ std::string sourceOfOne(const Text& text) {
         "velocity, vec3 gravity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
         "surface.w < 0.0 ? ", text.material,
         ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return ",
-        "answer(position, velocity, surface.w, surface.xyz, gravity, ", text.material, ".x, ", text.material,
+        "answer(false, position, velocity, surface.w, surface.xyz, gravity, ", text.material, ".x, ",
+        text.material,
         ".y, drift);\n}\n\nContact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, "
         "Drift ",
         "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, gravity, "
         "drift);\n}\n\n",
         "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return surfaceAt(anchor, "
-        "position).w;\n}\n");
+        "position).w;\n}\n\nvec4 footing(vec3 anchor, vec3 position, float time)\n{\n    vec4 surface = "
+        "surfaceAt(anchor, position);\n    return vec4(surface.xyz, abs(surface.w) < restingSlack ? ",
+        text.material, ".y : -1.0);\n}\n");
 }
 
 class Joint {
@@ -141,6 +144,7 @@ class Joint {
         const ColliderTable::Loops loops = table_.write(*samples_);
         clearances_ += loops.clearances;
         survey_ += loops.survey;
+        nearest_ += loops.nearest;
         std::string fastest = "0.0";
         if (swept_ && !writer_.result.moving.empty()) {
             writer_.result.fastestSlot = writer_.result.parameters.size();
@@ -176,10 +180,14 @@ class Joint {
             return concat("(s, Touch(surface.xyz, ", distance, "(surface.w - ", t.material, ".z), ",
                           t.material, ".xy, ", t.velocity, ", ", number, "), ");
         };
+        nearest_ += concat(head, nearest_.empty() ? "    firstNearest" : "    meetNearest", touch(slower),
+                           !t.cell.empty() ? concat("isShort(", t.cell, "), false")
+                           : t.swept       ? "false, false"
+                                           : "true, true",
+                           ");\n");
         survey_ += head;
-        // what is thin in a model is thickened to two cells, so that a short way ends inside
         if (!t.cell.empty())
-            survey_ += concat("    if (isShort(", t.cell, ")) meetSolid", touch(""),
+            survey_ += concat("    if (isShort(", t.cell, ")) meetShort", touch(""),
                               "velocity, skip);\n    else meetSwept", touch(slower), "skip);\n");
         else
             survey_ += concat("    ", t.swept ? "meetSwept" : "meetSolid", touch(""),
@@ -189,9 +197,11 @@ class Joint {
     std::string source(const GeneratedColliders& out, const std::string& fastest) const {
         return concat(
             "#define JOINT_CONTACT\n", swept_ ? "#define SWEPT\n" : "",
+            nearestIsEnough() ? "#define NEAREST\n" : "", isBounded() ? "#define BOUNDED\n" : "",
             "#include \"physics/collide.glsl\"\n#include \"step/surfaces.glsl\"\n",
             "#include \"step/survey.glsl\"\n", parameterArray("colliderParameters", out.parameters.size()),
-            "const bool collidersMove = ", out.moving.empty() ? "false" : "true", ";\n\n",
+            "const bool collidersMove = ", out.moving.empty() ? "false" : "true", ";\n",
+            "const bool alone = ", colliders_->size() == 1 ? "true" : "false", ";  // a single collider\n\n",
             "// Restitution and friction.\nvec2 materialOf(Touch t)\n{\n",
             table_.empty() ? ""
                            : "    // of a collider in the table: -1 - the uniform's index\n"
@@ -212,7 +222,34 @@ class Joint {
             "// Nearest and first: of all but those whose numbers are skip.xy.\n",
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
-            survey_, "    return s;\n}\n\n#include \"step/joint_contact.glsl\"\n");
+            survey_, "    return s;\n}\n\n",
+            "// What is nearest of all.\nNearest nearest(vec3 anchor, vec3 position, float time)\n{\n",
+            "    Contact c = Contact(position, vec3(0.0));\n    vec4 surface;\n",
+            "    Nearest s = Nearest(noTouch(), true, true, 1e30);\n", nearest_, "    return s;\n}\n\n",
+            "#include \"step/joint_contact.glsl\"\n");
+    }
+
+    bool still() const {
+        return std::none_of(colliders_->begin(), colliders_->end(),
+                            [](const Collider& collider) { return collider.path.has_value(); });
+    }
+    bool any(auto&& holds) const { return std::any_of(colliders_->begin(), colliders_->end(), holds); }
+
+    // Fields are dear to look up, and answered at the end of a short way.
+    static bool isField(const Collider& collider) {
+        return std::holds_alternative<DistanceFieldCollider>(*collider.shape);
+    }
+
+    bool nearestIsEnough() const {
+        constexpr size_t few = 8;
+        return still() && any(isField) && table_.empty() && colliders_->size() <= few;
+    }
+
+    // Whether looking is dear, and no distance changes faster than the place: a height field's does.
+    bool isBounded() const {
+        return still() && (any(isField) || !table_.empty()) && !any([](const Collider& collider) {
+                   return std::holds_alternative<HeightFieldCollider>(*collider.shape);
+               });
     }
 
     const std::vector<Collider>* colliders_;
@@ -220,7 +257,7 @@ class Joint {
     ColliderWriter writer_;
     ColliderTable table_;
     std::map<std::tuple<std::string, double, double>, size_t> materials_;
-    std::string clearances_, survey_;  // statements
+    std::string clearances_, survey_, nearest_;  // statements
     bool swept_ = false;
 };
 

@@ -90,6 +90,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
+    constexpr int few = 16;  // vertices, which are chosen from registers (fused/contact.glsl)
+    define(needs.collide && perLane && group.vertexCount <= few, "FEW_VERTICES");
     define(group.rigid && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (needs.life) defineLife(*group.life, births, out);
@@ -134,9 +136,9 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
         include(group.factored(), "generated/factors.glsl");
         include(group.needs.springs, "generated/sweeps.glsl");
     }
+    include(group.needs.collide, "generated/colliders.glsl");
     include(solver(group.solver).history, "fused/bdf2.glsl");
     include(true, concat("solver/", name(group.solver), ".glsl"));
-    include(group.needs.collide, "generated/colliders.glsl");
     include(group.needs.collide, "fused/contact.glsl");
     include(true, perLane ? "fused/lane.glsl" : "fused/group.glsl");
     out += parameterLoads(group, options);

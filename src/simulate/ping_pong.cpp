@@ -23,6 +23,7 @@ std::vector<std::string> defines(const GroupPlan& group) {
     define(needs.springs, "SPRINGS");
     define(needs.springDamping, "SPRING_DAMPING");
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
+    define(needs.collide, "COLLIDE");
     define(needs.pins, "PINS");
     define(needs.release, "RELEASE");
     define(needs.records, "RECORDS");
@@ -41,6 +42,11 @@ std::string setOnceFor(const GroupPlan& group) {
     for (const glm::vec4& parameter : group.colliderParameters)
         out.append(reinterpret_cast<const char*>(&parameter), sizeof parameter);
     return out;
+}
+
+// Whether a pass looks for colliders: a stage of rk4 for what rests on them.
+bool readsColliders(PassKind kind, const Needs& needs) {
+    return kind == PassKind::collide || (kind == PassKind::stage && needs.collide);
 }
 
 // How contact reads the textures of passes, a texel a vertex, and changes them.
@@ -122,7 +128,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         wanted.cache = options.cache;
         program = &made_.get(context, shaderRoot, wanted, setOnceFor(plan.groups[pass.group]));
         program->use();
-        if (pass.kind == PassKind::collide)
+        if (readsColliders(pass.kind, plan.groups[pass.group].needs))
             program->set("colliderParameters",
                          std::span<const glm::vec4>(plan.groups[pass.group].colliderParameters));
     }
@@ -236,7 +242,7 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     program.texture("constants", 4, state.constant);
     program.texture("topology", 5, tables_->topology);
     if (((kind == PassKind::advect || kind == PassKind::stage) && group.needs.fields) ||
-        kind == PassKind::collide)
+        readsColliders(kind, group.needs))
         program.texture("samples", 6, tables_->samples);
     tables_->bindNoiseTiles(program, *plan_);
     if ((kind == PassKind::advect || kind == PassKind::stage) && state.normal)
@@ -259,6 +265,12 @@ void PingPong::setForces(const Program& program, PassKind kind, const GroupPlan&
         program.set("fieldParameters", std::span<const glm::vec4>(fieldParameters(*plan_, step.frame)));
     if (!step.first || !readsForces(kind, group.needs)) return;
     program.set("forceParameters", std::span<const glm::vec4>(forceParameters(*plan_, group, step.frame)));
+}
+
+void PingPong::setColliders(const Program& program, PassKind kind, const GroupPlan& group, const Step& step) {
+    if (step.first && readsColliders(kind, group.needs) && !plan_->movingColliders.empty())
+        program.set("colliderParameters",
+                    std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
 }
 
 void PingPong::draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets) {
@@ -356,6 +368,7 @@ void PingPong::stage(const GroupPlan& group, size_t index, const Step& step, int
     const Program& program = prepare(PassKind::stage, group, index);
     if (group.needs.springs) setSprings(program, group, step, 0);
     setForces(program, PassKind::stage, group, step);
+    if (s == 0) setColliders(program, PassKind::stage, group, step);
     program.texture("positions", 0, position);
     program.texture("velocities", 1, velocity);
     program.texture("startPositions", 8, state.position.read(index));
@@ -385,12 +398,9 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
-    if (!plan_->movingColliders.empty()) {
+    if (!plan_->movingColliders.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
-        if (step.first)
-            program.set("colliderParameters",
-                        std::span<const glm::vec4>(colliderParameters(*plan_, group, step.frame)));
-    }
+    setColliders(program, PassKind::collide, group, step);
     drawMotion(group, index);
 }
 

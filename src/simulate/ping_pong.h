@@ -72,6 +72,7 @@ class PingPong : public ExecutionPath {
     const gpu::Program& prepare(PassKind kind, const GroupPlan& group, size_t index);
     void setSprings(const gpu::Program& program, const GroupPlan& group, const Step& step,
                     double predictTime);
+    void setColliders(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     using Targets = std::vector<const gpu::Texture*>;
     void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);

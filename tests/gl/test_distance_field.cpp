@@ -182,6 +182,47 @@ TEST_CASE("distance field: what starts where it is level comes out", "[numerics]
     CHECK(now.positions[2].y == Approx(0.26).margin(0.01));
 }
 
+// Few colliders are answered by the nearest alone where that is enough; nine have the whole way followed.
+TEST_CASE("distance field: the nearest surface answers as following the way does",
+          "[numerics][contact][distanceField]") {
+    std::vector<test::Item> items;
+    for (int i = 1; i <= 3000; ++i) {
+        const glm::dvec3 share = glm::fract(double(i) * glm::dvec3(0.8191725134, 0.6710436067, 0.5497004779));
+        // around the edge where the box stands on the ground, up to 3 cm inside either
+        items.push_back(at(glm::dvec3(0.97, -0.03, -0.5) + share * glm::dvec3(0.09, 0.09, 1)));
+    }
+    const auto after = [&](const glm::dvec3& velocity, int far) {
+        Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, items);
+        scene.gravity = {0, -g, 0};
+        scene.groups[0].velocity = velocity;
+        Collider ground;
+        ground.shape = PlaneCollider{};
+        ground.friction = 0.3, ground.restitution = 0.3, ground.thickness = thickness;
+        scene.colliders = {fieldOf(box({-1, -1, -1}, {1, 1, 1}), 64, 0.3, 0.3), ground};
+        for (int i = 0; i < far; ++i) {
+            SphereCollider ball;
+            ball.center = {0, -1000, 3.0 * i};
+            scene.colliders.emplace_back();
+            scene.colliders.back().shape = ball;
+        }
+        setSteps(scene, 1 / 60.0, 4);
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation, 3);
+        return simulation.snapshot(0);
+    };
+    for (const glm::dvec3& velocity : {glm::dvec3(0), glm::dvec3(-2, -1, 0.3), glm::dvec3(0.5, -2.5, 0)}) {
+        const Snapshot nearest = after(velocity, 0), followed = after(velocity, 8);
+        double apart = 0, changed = 0;
+        for (size_t i = 0; i < items.size(); ++i) {
+            apart = std::max(apart, glm::distance(nearest.positions[i], followed.positions[i]));
+            changed = std::max(changed, glm::distance(nearest.velocities[i], followed.velocities[i]));
+        }
+        INFO("thrown at " << velocity.x << ", " << velocity.y);
+        CHECK(apart < 1e-6);
+        CHECK(changed < 1e-5);
+    }
+}
+
 TEST_CASE("distance field: far from the origin as near it", "[numerics][contact][distanceField]") {
     const glm::dvec3 far(1e5, -2e4, 5e4);
     Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog, {at(far + glm::dvec3(0.2, 0.3, 0.1))});

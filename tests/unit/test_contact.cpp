@@ -199,7 +199,7 @@ TEST_CASE("contact as a constraint: the velocity is what the moved position leav
     const glm::vec3 n(0, 1, 0);
     for (const float mu : {0.0f, 0.5f, 100.0f}) {
         const glm::vec3 x(1, -0.01f, 2), v(3, -4, -1);
-        const Contact after = shader::constrain(x, v, -0.01f, n, mu, h);
+        const Contact after = shader::constrain(false, x, v, -0.01f, n, mu, h);
         INFO("mu " << mu);
         CHECK(after.position.y == Approx(0).margin(1e-7));
         CHECK(glm::length(after.velocity - (v + (after.position - x) / h)) < 1e-3f);  // roundings of 1e-7 m
@@ -209,17 +209,29 @@ TEST_CASE("contact as a constraint: the velocity is what the moved position leav
         CHECK(glm::length(glm::vec2(after.velocity.x, after.velocity.z)) == Approx(left).margin(1e-4));
     }
     // outside nothing happens
-    CHECK(shader::constrain({1, 0.1f, 2}, {3, -4, 5}, 0.1f, n, 0.5f, h).velocity == glm::vec3(3, -4, 5));
+    CHECK(shader::constrain(false, {1, 0.1f, 2}, {3, -4, 5}, 0.1f, n, 0.5f, h).velocity ==
+          glm::vec3(3, -4, 5));
     // caught deep inside: out at pushSpeed, and no faster
-    const Contact caught = shader::constrain({0, -2, 0}, {0, 0, 0}, -2, n, 0.5f, h);
+    const Contact caught = shader::constrain(false, {0, -2, 0}, {0, 0, 0}, -2, n, 0.5f, h);
     CHECK(caught.velocity.y == Approx(1));
-    CHECK(shader::constrain({0, -2, 0}, {0, 1, 0}, -2, n, 0.5f, h).velocity.y == Approx(1));
+    CHECK(shader::constrain(false, {0, -2, 0}, {0, 1, 0}, -2, n, 0.5f, h).velocity.y == Approx(1));
     // a depth of g h^2 holds against gravity, and what began on the surface goes back to the bit
     const glm::vec3 start(0.3f, 0, 0.7f), pressed(0.01f, -9.81f * h, 0);
     const glm::vec3 end = start + pressed * h;
-    const Contact rests = shader::constrain(end, pressed, end.y, n, 0.5f, h);
+    const Contact rests = shader::constrain(false, end, pressed, end.y, n, 0.5f, h);
     CHECK(rests.velocity == glm::vec3(0));
     CHECK(glm::length(rests.position - start) < 1e-7f);
+}
+
+TEST_CASE("what rests is held while the reaction stays within Coulomb's cone", "[contact]") {
+    const glm::vec3 n(0, 1, 0);
+    const float mu = 0.5f;
+    CHECK(shader::heldBy(n, mu, {0, -g, 0}) == glm::vec3(0));
+    CHECK(shader::heldBy(n, mu, {3, -10, -3.9f}) == glm::vec3(0));        // 4.92 of 5
+    CHECK(shader::heldBy(n, mu, {3, -10, -4.1f}) != glm::vec3(0));        // 5.08
+    CHECK(shader::heldBy(n, mu, {0, 0.1f, 0}) == glm::vec3(0, 0.1f, 0));  // lifted
+    CHECK(shader::heldBy(n, 0, {0, -g, 0}) == glm::vec3(0));
+    CHECK(shader::heldBy(n, -1, {0, -g, 0}) == glm::vec3(0, -g, 0));  // on nothing
 }
 
 }  // namespace shoal
