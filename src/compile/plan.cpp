@@ -292,6 +292,15 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
     }
 }
 
+// Computed noise, grids and many waves are long texts.
+bool isLong(const Field& field) {
+    const WavesField* waves = std::get_if<WavesField>(&*field.shape);
+    const GustField* gust = std::get_if<GustField>(&*field.shape);
+    const CurlNoiseField* curl = std::get_if<CurlNoiseField>(&*field.shape);
+    return (waves && waves->trains.size() > 4) || (gust && gust->noise == NoiseForm::computed) ||
+           (curl && curl->noise == NoiseForm::computed) || std::holds_alternative<GridField>(*field.shape);
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -329,6 +338,10 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.forces = scene.forces;
     plan.fieldSampling = scene.solver.fieldSampling;
     plan.warnings = scene.warnings;
+    plan.fieldCount = scene.fields.size();
+    plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), isLong);
+    plan.colliderCount = scene.colliders.size();
+    plan.jointContact = respondTogether(scene.colliders);
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         checkCount(scene, i, plan);
@@ -338,7 +351,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                 {scene.groups[i].location,
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
-        chooseSolver(scene, scene.groups[i], group, plan.warnings);
+        chooseSolver(scene, scene.groups[i], plan, group);
         warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
@@ -366,16 +379,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     };
     GeneratedFields fields;
     GeneratedColliders colliders;
-    plan.fieldCount = scene.fields.size();
-    plan.colliderCount = scene.colliders.size();
-    plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        const WavesField* waves = std::get_if<WavesField>(&*field.shape);
-        const GustField* gust = std::get_if<GustField>(&*field.shape);
-        const CurlNoiseField* curl = std::get_if<CurlNoiseField>(&*field.shape);
-        return (waves && waves->trains.size() > 4) || (gust && gust->noise == NoiseForm::computed) ||
-               (curl && curl->noise == NoiseForm::computed) ||
-               std::holds_alternative<GridField>(*field.shape);
-    });
     if (any(&Needs::fields)) {
         fields = generateFields(scene.fields, plan.samples);
         plan.grids = describeGrids(scene.fields, fields.noiseTiles);
@@ -399,7 +402,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldClocks = std::move(fields.clocks);
     plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
-    plan.jointContact = colliders.joint;
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide || group.needs.avoids)
