@@ -111,8 +111,8 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     return out;
 }
 
-// Placing takes memory here before any device is asked: of a molecule its record and constants, of a vertex
-// its position and velocity.
+// Placing takes memory here before any device is asked: of a molecule its record, constants and life, of a
+// vertex its position and velocity.
 void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     constexpr int64_t most = std::numeric_limits<int>::max();  // vertices, which are counted in int
     int64_t before = 0;
@@ -122,7 +122,8 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     const int64_t count = placesOf(group);
     if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
-    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13;
+    const int64_t ofLife = group.life ? int64_t(2 * sizeof(glm::vec2) + sizeof(uint32_t)) : 0;
+    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13 + ofLife;
     const int64_t available = availableMemory();
     const int64_t fit = (most - before) / vertices, held = available / each;
     const auto refuse = [&](const std::string& why, int64_t fitting) {
