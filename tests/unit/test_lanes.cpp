@@ -120,6 +120,32 @@ TEST_CASE("auto takes no implicit solver that a CPU rasteriser would refuse to c
     CHECK_THROWS_AS(chosen(stiff, true), Error);
 }
 
+TEST_CASE("molecules that no path holds are refused by their vertices alone, as their plan is", "[lanes]") {
+    PathLimits limits;
+    limits.maxTextureSize = 2048;
+    const auto scene = [](int vertices) {
+        Scene out;
+        Group group;
+        group.name = "long";
+        group.molecule = row(vertices, false);
+        group.count = 1;
+        out.groups.push_back(group);
+        return out;
+    };
+    for (const auto& [path, most] : {std::pair(Path::automatic, 2048), std::pair(Path::pingPong, 2048),
+                                     std::pair(Path::fused, 1365), std::pair(Path::fragments, 170)}) {
+        INFO(name(path));
+        CHECK_NOTHROW(checkVertices(scene(most), path, limits));
+        CHECK_THAT(messageOf([&] { checkVertices(scene(most + 1), path, limits); }),
+                   Catch::Contains(concat("\"long\" has ", most + 1, " vertices")) &&
+                       Catch::Contains(concat("more than ", most, " on this device")));
+        CHECK_THROWS_AS(choosePath(compile(scene(most + 1)), path, limits), Error);
+    }
+    CHECK_NOTHROW(choosePath(compile(scene(2048)), Path::automatic, limits));
+    limits.compute = false;
+    CHECK_THROWS_AS(checkVertices(scene(171), Path::fused, limits), Error);
+}
+
 TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, and runs in fragments",
           "[lanes]") {
     int groups = 0;
