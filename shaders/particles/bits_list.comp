@@ -11,6 +11,9 @@ layout(std430, binding = 2) buffer Control { uint control[]; };
 layout(std430, binding = 3) writeonly buffer List { uint list[]; };
 
 uniform int controlBase;
+uniform int listFirst;  // rank of the first entry of List,
+uniform int listCount;  // and how many there are
+uniform int clears;     // 0: another dispatch over the same bits follows, for the rest of the list
 #ifndef DEATHS
 #include "particles/reach.glsl"
 #endif
@@ -31,7 +34,8 @@ void main()
         while (word != 0u && rank < limit) {
             uint place = uint(w * 32 + findLSB(word));
             word &= word - 1u;
-            list[rank] = place;
+            int at = int(rank) - listFirst;
+            if (at >= 0 && at < listCount) list[at] = place;
             ++rank;
 #ifndef DEATHS
             if (rank == limit) {  // the last newborn, which only this lane reaches
@@ -39,6 +43,6 @@ void main()
             }
 #endif
         }
-        if (word != before) bits[w] = word;
+        if (clears != 0 && word != before) bits[w] = word;
     }
 }

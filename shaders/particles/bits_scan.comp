@@ -68,7 +68,10 @@ void main()
         control[controlBase + controlBorn] = born;
         count(controlLost, requested - born);
         count(controlBornEver, born);
-        control[controlBase + controlBirthGroups] = (born + 63u) / 64u;
+        uint groups = (born + 63u) / 64u;
+        uint rows = (groups + mostGroups - 1u) / mostGroups;
+        control[controlBase + controlBirthGroups] = rows > 1u ? (groups + rows - 1u) / rows : groups;
+        control[controlBase + controlBirthGroups + 1] = max(rows, 1u);
     }
 #endif
 }

@@ -9,10 +9,10 @@ const int controlMarkBefore = 5;   // and one step before
 const int controlLost = 6;         // births that found no place, so far
 const int controlBornEver = 7;     // births, so far
 const int controlBirthGroups = 8;  // workgroups of the births, x y z
-const int controlStepGroups = 12;  // workgroups of the next step, x y z
 const int controlFirsts = 16;      // the first newborn of each emitter from deaths
 const int controlWords = 32;       // of a group
 const int mostDeathRuns = 6;
+const uint mostGroups = 65535u;    // that any device takes in one direction of a dispatch
 
 // A counter that stays at the largest number.
 uint counted(uint before, uint more)

@@ -38,10 +38,15 @@ layout(std430, binding = 2) writeonly buffer NewConstants { vec4 newConstants[];
 #endif
 layout(std430, binding = 4) buffer FreeBits { uint freeBits[]; };
 layout(std430, binding = 6) buffer Control { uint control[]; };
+// A dispatch spawns those of some newborns whose places lie in one part of the state.
+uniform int firstNewborn;
+uniform int newbornCount;
+uniform int partFirst;
+uniform int partPlaces;
 #ifdef DEATH_RUNS
 layout(std430, binding = 5) readonly buffer Died { uint died[]; };
 #endif
-#define placeAt(i) int(places[i])
+#define placeAt(i) int(places[i - firstNewborn])
 #define diedAt(i) int(died[i])
 #define controlWord(w) int(control[w])
 #endif
@@ -194,11 +199,19 @@ int findRun(int i, out Source source, out float at)
     return runs[r].y;
 }
 
-// Makes newborn i of those that find a place, and returns its place; -1: there are not so many.
+// Makes newborn i of those that find a place, and returns its place; -1: there are not so many, or another dispatch makes it.
 int newborn(int i)
 {
     int born = givenBorn < 0 ? controlWord(controlBase + controlBorn) : givenBorn;
     if (i >= born) return -1;
+#ifdef LISTED
+    int place = placeAt(i);
+#else
+    int place = (firstPlace + i) % placeCount;
+#endif
+#ifndef LAYERED
+    if (place < partFirst || place - partFirst >= partPlaces) return -1;
+#endif
     loadParameters();
     Source source;
     float at;
@@ -209,11 +222,7 @@ int newborn(int i)
     age = frameDuration - at;
     span = mix(lifeSpan.x, lifeSpan.y, drawn(seed, bornLife));
     flyOn(age);
-#ifdef LISTED
-    return placeAt(i);
-#else
-    return (firstPlace + i) % placeCount;
-#endif
+    return place;
 }
 
 #ifdef LAYERED
@@ -230,16 +239,19 @@ void main()
 #else
 void main()
 {
-    int molecule = newborn(int(gl_GlobalInvocationID.x));
-    if (molecule < 0) return;
+    int i = int((gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x);
+    if (i < firstNewborn || i - firstNewborn >= newbornCount) return;
+    int place = newborn(i);
+    if (place < 0) return;
+    int molecule = place - partFirst;  // in the part
     storeState(molecule);
     newRecords[molecule] = recordNow();
 #ifdef CONSTANTS
     newConstants[molecule] = constantsNow();
 #endif
     if (givenBorn < 0) return;
-    uint bit = 1u << (uint(molecule) & 31u);
-    uint before = atomicAnd(freeBits[molecule >> 5], ~bit);
+    uint bit = 1u << (uint(place) & 31u);
+    uint before = atomicAnd(freeBits[place >> 5], ~bit);
 #ifndef LISTED
     if ((before & bit) == 0u) atomicAdd(control[controlBase + controlLost], 1u);  // a life cut short
 #endif

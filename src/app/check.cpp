@@ -139,21 +139,23 @@ bool isScene(const std::string& file) {
     return json.find("groups") != nullptr;
 }
 
-// Warns of groups with a life cycle that are larger than 128 MiB. Each lies in one storage block, whose size
-// a context limits; llvmpipe and many GPUs have no more than this.
+// Warns of groups from whose deaths others are born, and that are larger than 128 MiB. Each lies in one
+// storage block, whose size a context limits; llvmpipe and many GPUs have no more than this.
 void warnOfCapacity(const Plan& plan, std::vector<Warning>& out) {
     constexpr size_t common = size_t{1} << 27;  // bytes
     for (const GroupPlan& group : plan.groups) {
         const BufferLayout layout = group.layout();
         const size_t each = size_t(layout.stateElements()) * sizeof(glm::vec4);
-        if (!group.life || layout.padded(size_t(group.count)) * each <= common) continue;
+        if (!group.life || !group.life->feeds || layout.padded(size_t(group.count)) * each <= common)
+            continue;
         out.push_back(
-            {group.life->cycle.location, concat("a capacity of ", group.count, " for \"", group.name,
-                                                "\" takes ", (size_t(group.count) * each) >> 20,
-                                                " MiB in one storage block, and many "
-                                                "contexts hold ",
-                                                common >> 20, " MiB, a capacity of ", common / each,
-                                                ": shoal info tells what yours holds")});
+            {group.life->cycle.location,
+             concat("a capacity of ", group.count, " for \"", group.name,
+                    "\", from whose deaths others are born, takes ", (size_t(group.count) * each) >> 20,
+                    " MiB in one storage block, and many "
+                    "contexts hold ",
+                    common >> 20, " MiB, a capacity of ", common / each,
+                    ": shoal info tells what yours holds")});
     }
 }
 

@@ -23,6 +23,7 @@
 #include "run/progress.h"
 #include "run/scene_list.h"
 #include "run/signals.h"
+#include "simulate/fused.h"
 #include "simulate/simulation.h"
 #include "window/windows.h"
 
@@ -313,13 +314,22 @@ static window::WindowOptions windowOptions(const Options& options) {
     return {options.scale, options.frames, options.screenshot};
 }
 
+// Such molecules take long to plan, and contexts differ in what they hold of them.
+static bool hasLarge(const Scene& scene) {
+    return std::any_of(scene.groups.begin(), scene.groups.end(), [](const Group& group) {
+        return int(group.molecule.vertices.size()) > FusedLimits::laneVertices;
+    });
+}
+
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
     // mistakes in the files are told before any context is made; what the context can hold, once it is there
     const bool chooses = options.files.empty() || fs::is_directory(options.files.front());
     if (chooses && !window) return listInstead(options);
     std::optional<Loaded> loaded;
-    if (!chooses) loaded = load(options);
+    if (!chooses) loaded = {readScene(options.files.front(), options), {}};
+    const bool plans = loaded && !options.error, large = plans && hasLarge(loaded->scene);
+    if (plans && !large) planScene(*loaded);
     gpu::ContextOptions wanted;
     wanted.kind = options.context;
     wanted.preferWindow = window;
@@ -328,6 +338,10 @@ int runCommand(const Options& options) {
     wanted.title = "Shoal";
     if (loaded) wanted.title += " - " + printable(fs::path(options.files.front()).filename().string());
     gpu::Context context(wanted);
+    if (large) {
+        checkVertices(loaded->scene, options.path, limitsOf(context.info()));
+        planScene(*loaded);
+    }
     if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
     if (context.window()) {
         const std::string folder = chooses ? folderOf(options) : modelFolder();

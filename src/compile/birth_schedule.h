@@ -27,8 +27,8 @@ struct BirthRun {
     bool random = false;
 };
 
-// At most so many in a run: more than a group can hold.
-constexpr int mostInRun = 1 << 25;
+// At most so many in a run: as many as a group can hold.
+constexpr int mostInRun = 1 << 30;
 
 // The runs of emitter number `index` in [from, to), after which its clock stands at `to`. None for emitters
 // from deaths.

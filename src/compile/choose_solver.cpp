@@ -92,7 +92,7 @@ std::string hastyForce(const std::vector<Force>& forces, const GroupPlan& group,
                   rate * step);
 }
 
-void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::vector<Warning>& warnings) {
+void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan& out) {
     const double step = 1 / scene.frameRate / scene.solver.substeps;
     out.fastestForce = fastestByPlace(scene.forces, group.name);
     const double turning = out.fastestForce ? fastestRate(scene.forces[*out.fastestForce]) : 0;
@@ -115,16 +115,17 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::v
     } else if (!out.needs.springs) {
         out.solver = SolverKind::leapfrog;
         out.solverWhy = "there are no springs";
-    } else if (safe || !mends || !fitsLane(out)) {
-        out.solver = SolverKind::leapfrog;
-        out.solverWhy = concat(safe     ? "the substep resolves the springs"
-                               : !mends ? "no solver resolves the forces with this substep"
-                                        : "the molecule is large",
-                               ": highest frequency times substep ", analysis.highestFrequency * step);
     } else {
         out.solver = SolverKind::bdf2Xpbd;
-        out.solverWhy = concat("the springs are stiff: highest frequency times substep ",
-                               analysis.highestFrequency * step);
+        const char* explicitly = safe             ? "the substep resolves the springs"
+                                 : !mends         ? "no solver resolves the forces with this substep"
+                                 : !fitsLane(out) ? "the molecule is large"
+                                 : step <= analysis.stableStepLeapfrog && takesLong(plan, out)
+                                     ? "a CPU rasteriser would take too long to compile bdf2-xpbd"
+                                     : nullptr;
+        if (explicitly) out.solver = SolverKind::leapfrog;
+        out.solverWhy = concat(explicitly ? explicitly : "the springs are stiff",
+                               ": highest frequency times substep ", analysis.highestFrequency * step);
     }
     out.stableStep = stableStep(analysis, out.solver);
     out.rigid = out.needs.collide && isRigid(analysis, step) && shoal::solver(out.solver).implicit;
@@ -132,7 +133,7 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::v
     const std::string hasty = hastyForce(scene.forces, out, step);
     if (hasty.empty()) return;
     const double longest = shoal::solver(out.solver).mostForced / turning;
-    warnings.push_back(
+    plan.warnings.push_back(
         {scene.forces[*out.fastestForce].location, concat(hasty, ": ", steps(1 / scene.frameRate, longest))});
 }
 

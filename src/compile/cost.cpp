@@ -10,22 +10,29 @@ namespace shoal {
 
 namespace {
 
-// Hand counts of shaders/physics/noise.glsl: a corner of the lattice hashes (28), makes a gradient and weighs
-// it.
+// Hand counts of shaders/physics/noise.glsl, for noise that is computed: a corner of the lattice hashes (28),
+// makes a gradient and weighs it.
 constexpr double gradientNoiseOperations = 8 * 57, curlNoiseOperations = 16 * 145;
+// Of shaders/physics/field.glsl and state/noise_tile.glsl, for noise by table: the place of a gust (40) and
+// its wind (6); two moments of curl noise (62) and their blend (20). A filtered read of a tile is one fetch.
+constexpr ReadingCost gustFromTile = {46, 1}, curlNoiseFromTile = {82, 2};
 constexpr double undampedSpring = 24, muscle = 9, directionalDrag = 25;
 constexpr double triangle = 18, vertexNormal = 8;  // of normals
 
 struct FieldCosts {
     ReadingCost operator()(const UniformField&) const { return {3, 0}; }
     ReadingCost operator()(const OscillatingField&) const { return {6, 0}; }
-    ReadingCost operator()(const GustField&) const { return {2 * gradientNoiseOperations + 45, 0}; }
+    ReadingCost operator()(const GustField& gust) const {
+        return gust.noise == NoiseForm::table ? gustFromTile
+                                              : ReadingCost{2 * gradientNoiseOperations + 45, 0};
+    }
     ReadingCost operator()(const ShearField&) const { return {18, 0}; }
     ReadingCost operator()(const VortexField&) const { return {39, 0}; }
     ReadingCost operator()(const AbcField&) const { return {18, 0}; }
     ReadingCost operator()(const TaylorGreenField&) const { return {13, 0}; }
     ReadingCost operator()(const CurlNoiseField& noise) const {
-        return {noise.octaves * (curlNoiseOperations + 20), 0};
+        return noise.noise == NoiseForm::table ? curlNoiseFromTile
+                                               : ReadingCost{noise.octaves * (curlNoiseOperations + 20), 0};
     }
     ReadingCost operator()(const GridField& grid) const {
         return grid.times.empty() ? ReadingCost{55, 8} : ReadingCost{110, 16};

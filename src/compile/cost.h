@@ -29,7 +29,7 @@ constexpr double planeOperations = 6;    // of a vertex: the distance from a pla
 // One reading of a kind of field at a vertex, or one look for contact with a kind of collider.
 struct ReadingCost {
     double operations = 0;
-    double fetches = 0;  // 4-vectors of the table of samples
+    double fetches = 0;  // 4-vectors of the table of samples, or filtered reads of a tile of noise
 };
 ReadingCost costOf(const FieldShape& shape);
 ReadingCost costOf(const ColliderShape& shape);
@@ -43,7 +43,7 @@ struct KernelCost {
     double bytes = 0;
     double operations = 0;
     double stateFetches = 0;  // 4-vectors of the state, records and constants
-    double tableFetches = 0;  // 4-vectors of samples, which caches mostly hold
+    double tableFetches = 0;  // of fields and colliders (ReadingCost), which caches mostly hold
     int sharedBytes = 0;      // of a workgroup
     // Estimates, for a GPU: 32-bit registers that a lane wants (positions, velocities and what the solver
     // keeps of its vertices, and 24 beside them), and how many of 2,048 lanes 65,536 registers and 100 KiB of

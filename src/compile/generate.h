@@ -42,8 +42,11 @@ struct GeneratedColliders : Generated {
     std::vector<size_t> materials;
     std::vector<MovingCollider> moving;
     std::optional<size_t> fastestSlot;  // setPoses
-    bool joint = false;                 // all at once: with JOINT_CONTACT
 };
+
+// Whether a vertex has contact with all of them at once, with JOINT_CONTACT: not where there is only one
+// plane or height field that stands still.
+bool respondTogether(const std::vector<Collider>& colliders);
 
 // float clearance(vec3 anchor, vec3 position, float time): m from the nearest surface, negative inside. For
 // one plane or height field that stands still, Contact collideAll(vec3 anchor, vec3 position, vec3 velocity,

@@ -152,7 +152,6 @@ class Joint {
         }
         GeneratedColliders out = std::move(writer_.result);
         out.source = source(out, fastest);
-        out.joint = true;
         return out;
     }
 
@@ -263,11 +262,13 @@ class Joint {
 
 }  // namespace
 
+bool respondTogether(const std::vector<Collider>& colliders) {
+    return colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0])));
+}
+
 GeneratedColliders generateColliders(const std::vector<Collider>& colliders,
                                      std::vector<glm::vec4>& samples) {
-    const bool joint =
-        colliders.size() > 1 || (!colliders.empty() && (colliders[0].path || isSwept(colliders[0])));
-    if (joint) return Joint(colliders, samples).generate();
+    if (respondTogether(colliders)) return Joint(colliders, samples).generate();
     ColliderWriter writer(samples);
     writer.result.materials.resize(colliders.size());
     const size_t before = samples.size();

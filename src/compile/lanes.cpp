@@ -89,13 +89,13 @@ bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& lim
 }
 
 // Error: its code would take a CPU rasteriser too long.
-void checkSeconds(const GroupPlan& group, double seconds, const PathLimits& limits, const char* instead) {
-    if (!limits.software || seconds <= longestSeconds) return;
-    throw Error(
-        group.location,
-        concat("a CPU rasteriser would take about ", std::lround(seconds), " s to compile \"", group.name,
-               "\", ", group.vertexCount, " vertices and ", group.springCount, " springs, with ",
-               name(group.solver), " in one lane; more than ", longestSeconds, " s are refused: ", instead));
+void checkSeconds(const Plan& plan, const GroupPlan& group, const PathLimits& limits, const char* instead) {
+    if (!limits.software || !takesLong(plan, group)) return;
+    throw Error(group.location,
+                concat("a CPU rasteriser would take about ", std::lround(secondsToCompile(plan, group)),
+                       " s to compile \"", group.name, "\", ", group.vertexCount, " vertices and ",
+                       group.springCount, " springs, with ", name(group.solver), " in one lane; more than ",
+                       longestSeconds, " s are refused: ", instead));
 }
 
 }  // namespace
@@ -139,6 +139,10 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group) {
     return start + text * (1 + vertices / crowding);
 }
 
+bool takesLong(const Plan& plan, const GroupPlan& group) {
+    return secondsToCompile(plan, group) > longestSeconds;
+}
+
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
     const bool implicit = solver(group.solver).implicit;
     if (implicit && (wanted == Lanes::vertex || group.vertexCount > FusedLimits::laneVertices))
@@ -161,7 +165,7 @@ Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const 
                                            " vertices cannot be born or die; one of \"", group.name,
                                            "\" has ", group.vertexCount));
     if (implicit) {
-        checkSeconds(group, secondsToCompile(plan, group), limits, "use an explicit solver");
+        checkSeconds(plan, group, limits, "use an explicit solver");
         return Lanes::molecule;
     }
     if (wanted != Lanes::molecule && group.vertexCount > FusedLimits::vertices(limits.maxSharedBytes)) {
@@ -175,8 +179,7 @@ Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const 
     if (wanted == Lanes::molecule && group.vertexCount > FusedLimits::laneVertices)
         throw Error(group.location, concat("a molecule of \"", group.name, "\" has ", group.vertexCount,
                                            " vertices; a lane holds at most ", FusedLimits::laneVertices));
-    if (wanted == Lanes::molecule)
-        checkSeconds(group, secondsToCompile(plan, group), limits, "leave out --lanes molecule");
+    if (wanted == Lanes::molecule) checkSeconds(plan, group, limits, "leave out --lanes molecule");
     return wanted;
 }
 

@@ -46,6 +46,8 @@ WorkgroupShape workgroupShape(int vertices, int sharedBytes);
 // Returns about how long a CPU rasteriser takes to a group's first frame with a lane a molecule and no cache,
 // in seconds of a processor, with compute shaders.
 double secondsToCompile(const Plan& plan, const GroupPlan& group);
+// Whether that is so long that it is refused where there is no other form.
+bool takesLong(const Plan& plan, const GroupPlan& group);
 
 // Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long
 // to compile.

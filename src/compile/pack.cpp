@@ -47,6 +47,8 @@ static void packLives(const Group& source, GroupPlan& group) {
     GroupState& start = group.start;
     const size_t places = size_t(group.count);
     const double grown = source.life->grow;
+    start.lives.reserve(places);
+    start.looks.reserve(places);
     for (const uint32_t seed : group.constants.seeds)
         start.lives.emplace_back(float(grown), float(grown + lifeOf(source.life->life, seed)));
     start.positions.resize(places * size_t(group.vertexCount));

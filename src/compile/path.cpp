@@ -202,6 +202,39 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
     return {Path::pingPong, first.message()};
 }
 
+static int mostVertices(Path wanted, const PathLimits& limits) {
+    const int fused = std::max(FusedLimits::vertices(limits.maxSharedBytes), FusedLimits::laneVertices);
+    // what never moves has no step in fragments, only layers: of 3 floats a vertex, positions and velocities
+    const int fragments = std::max(limits.maxTextureLayers * 4 / 6, FusedLimits::laneVertices);
+    const int pingPong = limits.maxTextureSize;  // a row for each vertex
+    switch (wanted) {
+    case Path::automatic:
+        return std::max({limits.compute ? fused : 0, fragments, pingPong});
+    case Path::fused:
+        return limits.compute ? fused : fragments;
+    case Path::fragments:
+        return fragments;
+    case Path::pingPong:
+        return pingPong;
+    }
+    return 0;
+}
+
+void checkVertices(const Scene& scene, Path wanted, const PathLimits& limits) {
+    const int most = mostVertices(wanted, limits);
+    for (const Group& group : scene.groups) {
+        const size_t vertices = group.molecule.vertices.size();
+        if (vertices > size_t(most))
+            throw Error(
+                group.location,
+                concat("a molecule of \"", group.name.empty() ? group.molecule.name : group.name, "\" has ",
+                       vertices, " vertices; ",
+                       wanted == Path::automatic ? "no path holds"
+                                                 : concat("the path ", name(wanted), " does not hold"),
+                       " more than ", most, " on this device"));
+    }
+}
+
 static size_t layerBytes(const Plan& plan, bool drawn) {
     size_t texels = 0;
     for (const GroupPlan& group : plan.groups) {

@@ -46,6 +46,10 @@ struct PathChoice {
 // a field sampling that the ping-pong path does not have.
 PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits);
 
+// Error, located: a molecule has more vertices than any path holds that is `wanted`. choosePath() says so,
+// too; this follows from the scene alone, whose plan takes long for large molecules.
+void checkVertices(const Scene& scene, Path wanted, const PathLimits& limits);
+
 // Bytes on the device: positions, velocities, records and constants, all sides; normals where something is
 // drawn.
 size_t stateBytes(const Plan& plan, Path path, bool drawn, bool inPlace = false);

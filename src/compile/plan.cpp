@@ -111,8 +111,8 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     return out;
 }
 
-// Placing takes memory here before any device is asked: of a molecule its record and constants, of a vertex
-// its position and velocity.
+// Placing takes memory here before any device is asked: of a molecule its record, constants and life, of a
+// vertex its position and velocity.
 void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     constexpr int64_t most = std::numeric_limits<int>::max();  // vertices, which are counted in int
     int64_t before = 0;
@@ -122,7 +122,8 @@ void checkCount(const Scene& scene, size_t index, const Plan& plan) {
     const int64_t count = placesOf(group);
     if (count < 1) throw Error(group.location, "a group needs at least one molecule");
     const int64_t vertices = int64_t(group.molecule.vertices.size());
-    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13;
+    const int64_t ofLife = group.life ? int64_t(2 * sizeof(glm::vec2) + sizeof(uint32_t)) : 0;
+    const int64_t each = vertices * 2 * int64_t(sizeof(glm::vec3)) + int64_t(sizeof(glm::vec3)) + 13 + ofLife;
     const int64_t available = availableMemory();
     const int64_t fit = (most - before) / vertices, held = available / each;
     const auto refuse = [&](const std::string& why, int64_t fitting) {
@@ -292,6 +293,15 @@ void warnOfCrowds(const Scene& scene, Plan& plan) {
     }
 }
 
+// Computed noise, grids and many waves are long texts.
+bool isLong(const Field& field) {
+    const WavesField* waves = std::get_if<WavesField>(&*field.shape);
+    const GustField* gust = std::get_if<GustField>(&*field.shape);
+    const CurlNoiseField* curl = std::get_if<CurlNoiseField>(&*field.shape);
+    return (waves && waves->trains.size() > 4) || (gust && gust->noise == NoiseForm::computed) ||
+           (curl && curl->noise == NoiseForm::computed) || std::holds_alternative<GridField>(*field.shape);
+}
+
 int tableRows(std::vector<glm::vec4>& table) {
     const int rows = std::max(1, int((table.size() + stateWidth - 1) / stateWidth));
     table.resize(size_t(rows) * stateWidth);
@@ -329,6 +339,10 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.forces = scene.forces;
     plan.fieldSampling = scene.solver.fieldSampling;
     plan.warnings = scene.warnings;
+    plan.fieldCount = scene.fields.size();
+    plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), isLong);
+    plan.colliderCount = scene.colliders.size();
+    plan.jointContact = respondTogether(scene.colliders);
 
     for (size_t i = 0; i < scene.groups.size(); ++i) {
         checkCount(scene, i, plan);
@@ -338,7 +352,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                 {scene.groups[i].location,
                  concat("\"", group.name, "\" has no triangles and so no surface: its drag is the ",
                         "tangent rate in all directions")});
-        chooseSolver(scene, scene.groups[i], group, plan.warnings);
+        chooseSolver(scene, scene.groups[i], plan, group);
         warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
         group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
@@ -366,16 +380,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     };
     GeneratedFields fields;
     GeneratedColliders colliders;
-    plan.fieldCount = scene.fields.size();
-    plan.colliderCount = scene.colliders.size();
-    plan.longFields = std::any_of(scene.fields.begin(), scene.fields.end(), [](const Field& field) {
-        const WavesField* waves = std::get_if<WavesField>(&*field.shape);
-        const GustField* gust = std::get_if<GustField>(&*field.shape);
-        const CurlNoiseField* curl = std::get_if<CurlNoiseField>(&*field.shape);
-        return (waves && waves->trains.size() > 4) || (gust && gust->noise == NoiseForm::computed) ||
-               (curl && curl->noise == NoiseForm::computed) ||
-               std::holds_alternative<GridField>(*field.shape);
-    });
     if (any(&Needs::fields)) {
         fields = generateFields(scene.fields, plan.samples);
         plan.grids = describeGrids(scene.fields, fields.noiseTiles);
@@ -399,7 +403,6 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldClocks = std::move(fields.clocks);
     plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
-    plan.jointContact = colliders.joint;
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide || group.needs.avoids)

@@ -215,10 +215,10 @@ void Program::storage(const char* block, int binding, const Buffer& buffer, size
     buffer.bindStorage(binding, offset, bytes);
 }
 
-void Program::dispatch(int groupsX) const {
+void Program::dispatch(int groupsX, int groupsY) const {
     EXPECTS(inUse() && "use() goes before dispatch()");
-    EXPECTS(groupsX >= 0);
-    glDispatchCompute(static_cast<GLuint>(groupsX), 1, 1);
+    EXPECTS(groupsX >= 0 && groupsY >= 0);
+    glDispatchCompute(static_cast<GLuint>(groupsX), static_cast<GLuint>(groupsY), 1);
 }
 
 void Program::dispatchIndirect(const Buffer& groups, size_t offset) const {

@@ -69,7 +69,7 @@ class Program {
         storage(block, binding, buffer, 0, buffer.bytes());
     }
     // Compute programs, in use (a contract). At most ContextInfo::maxWorkGroupsX; 0 does nothing.
-    void dispatch(int groupsX) const;
+    void dispatch(int groupsX, int groupsY = 1) const;
     // As many workgroups as three words of the buffer say, from `offset` (a multiple of 4).
     void dispatchIndirect(const Buffer& groups, size_t offset) const;
     bool uses(const char* name) const { return locations_.contains(name); }  // the compiler kept it

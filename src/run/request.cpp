@@ -30,10 +30,14 @@ Scene readScene(const std::string& file, const RunRequest& request) {
     return out;
 }
 
+void planScene(Loaded& loaded) {
+    loaded.plan = compile(loaded.scene);
+    tellWarnings(loaded.plan.warnings);
+}
+
 Loaded loadScene(const std::string& file, const RunRequest& request) {
     Loaded out{readScene(file, request), {}};
-    out.plan = compile(out.scene);
-    tellWarnings(out.plan.warnings);
+    planScene(out);
     return out;
 }
 

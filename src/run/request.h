@@ -41,7 +41,9 @@ struct Loaded {
     Scene scene;
     Plan plan;
 };
-// Warnings go to standard error. Error: the reader's or compile's.
+// Makes the plan; warnings go to standard error. Error: compile's.
+void planScene(Loaded& loaded);
+// Error: the reader's or compile's.
 Loaded loadScene(const std::string& file, const RunRequest& request);
 
 }  // namespace shoal

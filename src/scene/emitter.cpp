@@ -111,7 +111,7 @@ const Description& describe(const Burst*) {
         Describe<Burst>("burst", "Many that are born at one moment.")
             .key("time", &Burst::time, {"s", "When they are born.", Range::atLeast(0), {0, 60}})
             .key("count", &Burst::count,
-                 {"", "How many are born.", Range::between(1, maxPlaces), {1, 10000, true}})
+                 {"", "How many are born.", Range::between(1, maxGroupCount), {1, 10000, true}})
             .needed()
             .key("every", &Burst::every,
                  {"s",
@@ -255,8 +255,8 @@ const Description& describe(const Lifecycle*) {
                   {"", "How a newborn finds its place ([how](particles.md#places))."})
             .key("capacity", &L::capacity,
                  {"",
-                  "How many places there are; a context holds as many as fit into one storage block.",
-                  Range::between(1, maxPlaces),
+                  "How many places there are, of which each takes its memory.",
+                  Range::between(1, maxGroupCount),
                   {1, 100000, true}})
             .usually(
                 "what rates, bursts and spans keep alive, and a twentieth more; required where nothing tells")
@@ -282,7 +282,7 @@ bool emitsFromDeaths(const Lifecycle& life) {
 std::optional<int> usualCapacity(int count, const Lifecycle& life) {
     if (life.emitters.empty()) return count;
     const double most = mostAlive(count, life);
-    if (emitsFromDeaths(life) || life.life.y >= longestLife || !(most <= maxPlaces)) return {};
+    if (emitsFromDeaths(life) || life.life.y >= longestLife || !(most <= maxGroupCount)) return {};
     return std::max(1, int(most));
 }
 

@@ -71,8 +71,6 @@ struct GroupContact {
 
 // A group holds at most this many molecules, if memory does.
 constexpr int maxGroupCount = 1 << 30;
-// Where molecules are born or die: single precision counts them one by one no further.
-constexpr int maxPlaces = 1 << 24;
 
 struct Group {
     std::string name;

@@ -10,6 +10,8 @@ namespace shoal {
 
 using gpu::Program;
 
+constexpr int64_t mostScheduled = 1 << 30;  // newborns of a step: none beyond finds a place
+
 static void setPoint(const Program& program, const char* name, const glm::dvec3& point) {
     const SplitPoint split = splitPoint(point);
     const glm::vec4 parts[] = {glm::vec4(glm::vec3(split.lattice), 0), glm::vec4(glm::vec3(split.rest), 0)};
@@ -104,7 +106,7 @@ BirthPasses::Newborns BirthPasses::schedule(Living& living, const Frame& frame) 
     int64_t asked = 0;
     for (const BirthRun& run : out.runs)
         asked += run.count;
-    out.scheduled = int(std::min<int64_t>(asked, 1 << 30));
+    out.scheduled = int(std::min(asked, mostScheduled));
     if (living.onGpu()) {
         out.born = -1;
         return out;
@@ -162,10 +164,11 @@ void BirthPasses::setNumbers(const Program& spawn, const Living& living, const N
     const size_t most = size_t(std::max(1, mostRuns(living.life)));
     std::vector<glm::ivec4> numbers(most);
     std::vector<glm::vec4> times(most);
-    int first = 0;
+    int64_t first = 0;
     for (size_t r = 0; r < newborns.runs.size(); ++r) {
         const BirthRun& run = newborns.runs[r];
-        numbers[r] = {first, run.emitter, int(uint32_t(run.ordinal)), run.random ? 0 : run.each};
+        numbers[r] = {int(std::min(first, mostScheduled)), run.emitter, int(uint32_t(run.ordinal)),
+                      run.random ? 0 : run.each};
         times[r] = glm::vec4(float(run.first - frame.time), float(run.interval), 0, 0);
         first += run.count;
     }
@@ -179,8 +182,7 @@ void BirthPasses::setNumbers(const Program& spawn, const Living& living, const N
     spawn.set("deathRuns", std::span<const glm::ivec4>(deaths));
 }
 
-std::vector<uint32_t> BirthPasses::begin(Living& living, const GroupState& state, double time,
-                                         int stepGroups) {
+std::vector<uint32_t> BirthPasses::begin(Living& living, const GroupState& state, double time) {
     // the whole capacity: the other side of the state is what it was before
     const auto all = uint32_t(living.count());
     std::vector<uint32_t> words(control::words);
@@ -189,9 +191,7 @@ std::vector<uint32_t> BirthPasses::begin(Living& living, const GroupState& state
     words[control::mark] = all;
     words[control::lost] = uint32_t(state.totals[1]);
     words[control::bornEver] = uint32_t(state.totals[0]);
-    words[control::stepGroups] = uint32_t(stepGroups);
-    for (const size_t xyz : {control::birthGroups, control::stepGroups})
-        words[xyz + 1] = words[xyz + 2] = 1;
+    words[control::birthGroups + 1] = words[control::birthGroups + 2] = 1;
     living.markBefore = int(all);
     living.clocks = state.clocks;
     living.clocks.resize(living.life.emitters.size());

@@ -87,9 +87,8 @@ class BirthPasses {
     // For each death run: x the group's first word of control, y births for each of its deaths.
     std::vector<glm::ivec4> deathsOf(const Living& living) const;
 
-    // Begins from a state at a time, s; returns the group's words of control. `stepGroups`: workgroups of a
-    // step of all places.
-    std::vector<uint32_t> begin(Living& living, const GroupState& state, double time, int stepGroups);
+    // Begins from a state at a time, s; returns the group's words of control.
+    std::vector<uint32_t> begin(Living& living, const GroupState& state, double time);
     // These give what is known with the group's words of control.
     void readBooks(const Living& living, const uint32_t* words, GroupState& state) const;
     LifeCounts countsOf(const Living& living, const uint32_t* words) const;

@@ -8,67 +8,93 @@ using gpu::Buffer;
 using gpu::Program;
 using gpu::Traffic;
 
-static void checkPlaces(const gpu::ContextInfo& info, const GroupPlan& group, int together) {
-    const size_t bytes = size_t(group.layout().stateElements()) * sizeof(glm::vec4);
-    const size_t most = std::min(size_t(info.maxStorageBlockBytes) / bytes,
-                                 size_t(info.maxBufferTexels) / size_t(group.layout().stateElements()));
-    const auto lanes = size_t(group.layout().lanes());
-    const size_t reach = std::min(most, size_t(info.maxWorkGroupsX) * size_t(together));
-    if (group.layout().padded(size_t(group.count)) <= reach) return;
+// Emitters read those who died from one part of the state.
+static void checkSource(const gpu::ContextInfo& info, const GroupPlan& group, const GroupBuffers& state) {
+    if (!group.life->feeds || state.parts().size() == 1) return;
     throw Error(group.life->cycle.location,
                 concat("a capacity of ", group.count, " for \"", group.name,
-                       "\" is more than this context holds in one storage block of ",
-                       info.maxStorageBlockBytes >> 20, " MiB and one dispatch of ", info.maxWorkGroupsX,
-                       " workgroups: at most ", reach / lanes * lanes));
+                       "\", from whose deaths others are born, is more than this context holds in one "
+                       "storage block of ",
+                       info.maxStorageBlockBytes >> 20, " MiB: at most ", state.parts().front().count));
 }
 
 // Storage offsets are multiples of so many words on any device.
 constexpr size_t wordsApart = 64;
 
 Births::Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-               const std::vector<int>& together, gpu::ProgramCache* cache)
+               const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords,
+               gpu::ProgramCache* cache)
     : BirthPasses(plan, wordsApart),
       context_(&context),
       tables_(&tables),
       buffers_(plan.groups.size()),
-      lists_(context, shaderRoot, plan.groups.size(), size_t(mostPlaces(plan)), cache) {
+      lists_(context, shaderRoot, plan.groups.size(), size_t(mostPlaces(plan)), cache),
+      listWords_(std::max(listWords / wordsApart, size_t(1)) * wordsApart) {
     for (const auto& living : groups_)
-        if (living) make(*living, shaderRoot, together[living->group], cache);
+        if (living) make(*living, shaderRoot, state[living->group], together[living->group], cache);
+    const auto block = size_t(context.info().maxStorageBlockBytes);
+    if (diedWords_ * sizeof(uint32_t) > block)
+        throw Error(
+            concat("groups from whose deaths others are born have more places than this context "
+                   "lists in one storage block: ",
+                   diedWords_, " instead of at most ", block / sizeof(uint32_t)));
     if (diedWords_ > 0)
         died_ = Buffer(context, Buffer::Use::storage, nullptr, diedWords_ * sizeof(uint32_t), "deaths");
 }
 
-void Births::make(const Living& living, const std::string& shaderRoot, int together,
-                  gpu::ProgramCache* cache) {
+void Births::make(const Living& living, const std::string& shaderRoot, const GroupBuffers& state,
+                  int together, gpu::ProgramCache* cache) {
     const GroupPlan& group = *living.plan;
-    checkPlaces(context_->info(), group, together);
+    checkSource(context_->info(), group, state);
     Buffers& buffers = buffers_[living.group];
-    buffers.set = {group.count, living.group, together};
+    const size_t parts = state.parts().size();
+    buffers.stepGroups =
+        Buffer(*context_, Buffer::Use::storage, nullptr, parts * sizeof(glm::uvec4), "workgroups of a step");
+    buffers.set = {group.count, living.group,       together, state.parts().front().count,
+                   int(parts),  &buffers.stepGroups};
     const size_t bytes = PlaceLists::bytesOf(size_t(group.count));
+    const auto block = size_t(context_->info().maxStorageBlockBytes);
+    if (bytes > block)
+        throw Error(
+            group.life->cycle.location,
+            concat("a capacity of ", group.count, " for \"", group.name,
+                   "\" is more than this context holds bits of in one storage block: at most ", 8 * block));
     buffers.free = Buffer(*context_, Buffer::Use::storage, nullptr, bytes, "free places");
     if (group.life->feeds) {
         const std::vector<uint8_t> none(bytes);
         buffers.died = Buffer(*context_, Buffer::Use::storage, none.data(), bytes, "died");
     }
     if (!living.emits()) return;
+    const auto places = size_t(group.count);
     if (living.listed())
-        buffers.places = Buffer(*context_, Buffer::Use::storage, nullptr,
-                                group.layout().padded(size_t(group.count)) * sizeof(uint32_t), "places");
+        buffers.places =
+            Buffer(*context_, Buffer::Use::storage, nullptr, places * sizeof(uint32_t), "places");
+    for (size_t first = 0; first < places; first += listWords_)
+        buffers.ranges.push_back({first, std::min(listWords_, places - first)});
     buffers.spawn = &makeSpawn(*context_, shaderRoot, living, {}, cache);
 }
 
-void Births::bindStep(const Program& program, size_t group) const {
-    program.storage("FreeBits", 4, buffers_[group].free);
-    if (buffers_[group].died) program.storage("DiedBits", 5, buffers_[group].died);
+void Births::bindStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {
+    const Buffers& own = buffers_[group];
+    const auto bind = [&](const char* block, int binding, const Buffer& bits) {
+        constexpr size_t placesOfByte = 8;
+        const size_t offset = size_t(part.first) / placesOfByte;  // whole words (GroupBuffers)
+        const bool last = part.first + part.count == own.set.places;
+        program.storage(block, binding, bits, offset,
+                        last ? bits.bytes() - offset : size_t(part.count) / placesOfByte);
+    };
+    bind("FreeBits", 4, own.free);
+    if (own.died) bind("DiedBits", 5, own.died);
     setAge(program, *groups_[group]);
 }
 
-void Births::dispatchStep(const Program& program, size_t group) const {
+void Births::dispatchStep(const Program& program, size_t group, const GroupBuffers::Part& part) const {
+    const PlaceSet& set = buffers_[group].set;
     if (groups_[group]->onGpu())
-        return program.dispatchIndirect(lists_.control(),
-                                        (control::of(group) + control::stepGroups) * sizeof(uint32_t));
-    const int together = buffers_[group].set.stepLanes;
-    program.dispatch((reachOf(*groups_[group]) + together - 1) / together);
+        return program.dispatchIndirect(*set.stepGroups,
+                                        size_t(part.first / set.partPlaces) * sizeof(glm::uvec4));
+    const int reach = std::clamp(reachOf(*groups_[group]) - part.first, 0, part.count);
+    program.dispatch((reach + set.stepLanes - 1) / set.stepLanes);
 }
 
 void Births::step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers) {
@@ -92,12 +118,6 @@ void Births::countPlaces(const Living& living, int scheduled, bool allocates) {
 void Births::bindBirths(const Living& living, std::vector<GroupBuffers>& state) const {
     const Buffers& own = buffers_[living.group];
     const Program& program = *own.spawn;
-    const GroupBuffers& buffers = state[living.group];
-    const GroupBuffers::Part& part = buffers.parts().front();
-    store(program, "NewState", 0, buffers.currentState(part));
-    store(program, "NewRecords", 1, buffers.records(part));
-    if (buffers.hasConstants()) store(program, "NewConstants", 2, buffers.constants(part));
-    if (living.listed()) program.storage("Places", 3, own.places);
     program.storage("FreeBits", 4, own.free);
     if (!living.deathRuns.empty()) program.storage("Died", 5, died_);
     program.storage("Control", 6, lists_.control());
@@ -113,13 +133,42 @@ void Births::bindBirths(const Living& living, std::vector<GroupBuffers>& state) 
     }
 }
 
+// In most cases one dispatch: of the list, the state or both there may be more than it can reach.
+void Births::dispatchBirths(const Living& living, int born, const GroupBuffers& state) const {
+    const Buffers& own = buffers_[living.group];
+    const Program& program = *own.spawn;
+    const int groups = (std::max(born, 0) + birthLanes - 1) / birthLanes;
+    const int rows = (groups + control::mostGroups - 1) / control::mostGroups;
+    for (const ListRange& range : own.ranges) {
+        if (born >= 0 && range.first >= size_t(born)) break;
+        if (living.listed())
+            program.storage("Places", 3, own.places, range.first * sizeof(uint32_t),
+                            range.count * sizeof(uint32_t));
+        program.set("firstNewborn", int(range.first));
+        program.set("newbornCount", int(range.count));
+        for (const GroupBuffers::Part& part : state.parts()) {
+            store(program, "NewState", 0, state.currentState(part));
+            store(program, "NewRecords", 1, state.records(part));
+            if (state.hasConstants()) store(program, "NewConstants", 2, state.constants(part));
+            program.set("partFirst", part.first);
+            program.set("partPlaces", part.count);
+            if (living.onGpu())
+                program.dispatchIndirect(
+                    lists_.control(), (control::of(living.group) + control::birthGroups) * sizeof(uint32_t));
+            else
+                program.dispatch((groups + rows - 1) / rows, rows);
+        }
+    }
+    settleBirths();
+}
+
 void Births::spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state) {
     const Newborns newborns = schedule(living, frame);
     Buffers& own = buffers_[living.group];
     if (living.onGpu()) {
         countPlaces(living, newborns.scheduled, true);
         if (newborns.scheduled == 0 && living.deathRuns.empty()) return;
-        lists_.listPlaces(own.set, own.free, own.places);
+        lists_.listPlaces(own.set, own.free, own.places, own.ranges);
     }
     if (newborns.born == 0) return;
     if (!newborns.places.empty())
@@ -128,12 +177,7 @@ void Births::spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>
     own.spawn->use();
     setNumbers(*own.spawn, living, newborns, frame);
     bindBirths(living, state);
-    if (living.onGpu())
-        own.spawn->dispatchIndirect(lists_.control(),
-                                    (control::of(living.group) + control::birthGroups) * sizeof(uint32_t));
-    else
-        own.spawn->dispatch((newborns.born + birthLanes - 1) / birthLanes);
-    settleBirths();
+    dispatchBirths(living, newborns.born, state[living.group]);
 }
 
 void Births::write(size_t group, const GroupState& state, double time) {
@@ -143,9 +187,13 @@ void Births::write(size_t group, const GroupState& state, double time) {
     for (size_t m = 0; m < state.lives.size(); ++m)
         if (!(state.lives[m].y > 0)) bits[m / 32] |= uint32_t(1) << (m % 32);
     own.free.update(Traffic::Kind::state, 0, bits.data(), own.free.bytes());
-    const int together = own.set.stepLanes;
-    const int groups = (living.count() + together - 1) / together;
-    lists_.writeControl(group, begin(living, state, time, groups).data());
+    lists_.writeControl(group, begin(living, state, time).data());
+    std::vector<glm::uvec4> steps;  // of all places
+    for (int p = 0; p < own.set.partCount; ++p) {
+        const int here = std::min(own.set.partPlaces, own.set.places - p * own.set.partPlaces);
+        steps.emplace_back((here + own.set.stepLanes - 1) / own.set.stepLanes, 1, 1, 0);
+    }
+    own.stepGroups.update(Traffic::Kind::state, 0, steps.data(), own.stepGroups.bytes());
 }
 
 void Births::read(size_t group, GroupState& state) const {

@@ -16,14 +16,18 @@ namespace shoal {
 
 class Births : public BirthPasses {
   public:
-    // Borrows all but the strings. `together`: of each group, the molecules that a workgroup of its step
-    // takes. Error, located at the group: more places than the context holds.
+    // Borrows all but the strings and vectors. Of each group: its state, and as `together` the molecules that
+    // a workgroup of its step takes. `listWords`: the words of a list that one dispatch may read. Error,
+    // located at the group: others are born from its deaths, and its state is in several parts; a storage
+    // block does not hold a bit for each of its places.
     Births(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, const Tables& tables,
-           const std::vector<int>& together, gpu::ProgramCache* cache);
+           const std::vector<GroupBuffers>& state, const std::vector<int>& together, size_t listWords,
+           gpu::ProgramCache* cache);
 
-    // The step of a group with life: what growOlder() needs, and as many workgroups as there are lives.
-    void bindStep(const gpu::Program& program, size_t group) const;
-    void dispatchStep(const gpu::Program& program, size_t group) const;
+    // The step of a part of a group with life: what growOlder() needs, and as many workgroups as there are
+    // lives.
+    void bindStep(const gpu::Program& program, size_t group, const GroupBuffers::Part& part) const;
+    void dispatchStep(const gpu::Program& program, size_t group, const GroupBuffers::Part& part) const;
     // After the step of all groups: who is born in it.
     void step(const Frame& frame, std::vector<GroupBuffers>& state, gpu::PassTimers& timers);
 
@@ -37,18 +41,23 @@ class Births : public BirthPasses {
   private:
     struct Buffers {
         gpu::Buffer free, died, places;  // bits, bits, list
+        gpu::Buffer stepGroups;          // of each part
+        std::vector<ListRange> ranges;   // of the list of places
         PlaceSet set;
         const gpu::Program* spawn = nullptr;  // none: nothing is born
     };
-    void make(const Living& living, const std::string& shaderRoot, int together, gpu::ProgramCache* cache);
+    void make(const Living& living, const std::string& shaderRoot, const GroupBuffers& state, int together,
+              gpu::ProgramCache* cache);
     void countPlaces(const Living& living, int scheduled, bool allocates);
     void spawn(Living& living, const Frame& frame, std::vector<GroupBuffers>& state);
     void bindBirths(const Living& living, std::vector<GroupBuffers>& state) const;
+    void dispatchBirths(const Living& living, int born, const GroupBuffers& state) const;
 
     gpu::Context* context_;
     const Tables* tables_;
     std::vector<Buffers> buffers_;  // of the plan's groups
     PlaceLists lists_;
+    size_t listWords_;
     gpu::Buffer died_;  // lists of deaths
 };
 

@@ -33,6 +33,9 @@ struct SimulationOptions {
     // Contact takes the passes that suit a GPU, or a CPU rasteriser, whatever the context is; both give the
     // same bits.
     std::optional<bool> asOnGpu = std::nullopt;
+    // Fused, for tests: a dispatch takes at most so many molecules or newborns, as on a device of small
+    // blocks; 0: as many as this one takes.
+    size_t largestPart = 0;
 };
 
 // Gives tests, benchmarks and reports the results of contact between molecules.

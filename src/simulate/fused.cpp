@@ -35,6 +35,9 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
     if (options.watchdog)
         alarm_ = gpu::Buffer(context, gpu::Buffer::Use::storage, &fine, sizeof fine, "alarm");
     std::vector<int> together;
+    const auto atMost = [&](size_t most) {
+        return options.largestPart > 0 ? std::min(most, options.largestPart) : most;
+    };
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         KernelOptions kernel;
@@ -47,7 +50,7 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.watch = options.watchdog;
         together.push_back(workgroupMolecules(group, kernel));
         state.emplace_back(context, group, options.drawn, options.inPlace,
-                           size_t(info.maxWorkGroupsX) * size_t(together.back()));
+                           atMost(size_t(info.maxWorkGroupsX) * size_t(together.back())));
         kernels_.push_back(
             std::make_unique<GroupKernel>(source, g, kernel, GroupKernel::Steps{std::nullopt}, programs_));
         normals_.push_back(options.drawn && group.needs.normals
@@ -55,7 +58,9 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
                                : nullptr);
     }
     if (plan.hasLife())
-        births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, together, options.cache);
+        births_ = std::make_unique<Births>(context, shaderRoot, plan, tables, state, together,
+                                           atMost(size_t(info.maxStorageBlockBytes) / sizeof(uint32_t)),
+                                           options.cache);
     if (plan.contact.any())
         contact_ = std::make_unique<MoleculeContact>(context, shaderRoot, plan, tables, options);
     if (plan.school.any())
@@ -79,8 +84,8 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
         store(program, "NewNormals", binding::newNormals, buffers.normals(part));
     const int together = workgroupMolecules(group, options);
     if (births_ && births_->has(index) && steps) {
-        births_->bindStep(program, index);
-        return births_->dispatchStep(program, index);
+        births_->bindStep(program, index, part);
+        return births_->dispatchStep(program, index, part);
     }
     program.dispatch((part.count + together - 1) / together);
 }

@@ -17,7 +17,7 @@ namespace {
 
 constexpr double never = -std::numeric_limits<double>::infinity();
 
-constexpr int wordsOfLane = 8, groupLanes = 64, scanLanes = 256;
+constexpr int wordsOfLane = 8, groupLanes = 128, scanLanes = 256;
 
 int lanesOf(size_t places) {
     constexpr size_t placesOfLane = size_t(wordsOfLane) * 32;
@@ -137,6 +137,22 @@ void PlaceLists::setUp(const Program& program, const PlaceSet& set) const {
     program.set("controlBase", int(control::of(set.group)));
 }
 
+void PlaceLists::setReach(const Program& program, const PlaceSet& set) const {
+    program.storage("StepGroups", 4, *set.stepGroups);
+    program.set("stepLanes", set.stepLanes);
+    program.set("partPlaces", set.partPlaces);
+    program.set("partCount", set.partCount);
+}
+
+// `at`: of the range's first word in the buffer.
+void PlaceLists::setList(const Program& program, const Buffer& list, size_t at, const ListRange& range,
+                         bool clears) const {
+    program.storage("List", 3, list, at * sizeof(uint32_t), range.count * sizeof(uint32_t));
+    program.set("listFirst", int(range.first));
+    program.set("listCount", int(range.count));
+    program.set("clears", int(clears));
+}
+
 void PlaceLists::sum(const PlaceSet& set, const Buffer& bits) {
     count_.use();
     count_.storage("Bits", 0, bits);
@@ -154,7 +170,7 @@ void PlaceLists::listDeaths(const PlaceSet& set, const Buffer& bits, const Buffe
     settleBirths();
     setUp(listDeaths_, set);
     listDeaths_.storage("Bits", 0, bits);
-    listDeaths_.storage("List", 3, list, at * sizeof(uint32_t), size_t(set.places) * sizeof(uint32_t));
+    setList(listDeaths_, list, at, {0, size_t(set.places)}, true);
     listDeaths_.dispatch(groupsOf(set));
     settleBirths();
 }
@@ -165,7 +181,7 @@ void PlaceLists::countPlaces(const PlaceSet& set, const Buffer& bits, int schedu
     setUp(scanPlaces_, set);
     scanPlaces_.set("scheduled", scheduled);
     scanPlaces_.set("allocates", int(allocates));
-    scanPlaces_.set("stepLanes", set.stepLanes);
+    setReach(scanPlaces_, set);
     scanPlaces_.set("deathRunCount", int(deaths.size()));
     std::vector<glm::ivec4> runs(deaths.begin(), deaths.end());
     runs.resize(mostDeathRuns);
@@ -174,13 +190,16 @@ void PlaceLists::countPlaces(const PlaceSet& set, const Buffer& bits, int schedu
     settleBirths();
 }
 
-void PlaceLists::listPlaces(const PlaceSet& set, const Buffer& bits, const Buffer& list) {
+void PlaceLists::listPlaces(const PlaceSet& set, const Buffer& bits, const Buffer& list,
+                            std::span<const ListRange> ranges) {
     setUp(listPlaces_, set);
+    setReach(listPlaces_, set);
     listPlaces_.storage("Bits", 0, bits);
-    listPlaces_.storage("List", 3, list);
-    listPlaces_.set("stepLanes", set.stepLanes);
-    listPlaces_.dispatch(groupsOf(set));
-    settleBirths();
+    for (const ListRange& range : ranges) {
+        setList(listPlaces_, list, range.first, range, &range == &ranges.back());
+        listPlaces_.dispatch(groupsOf(set));
+        settleBirths();
+    }
 }
 
 void PlaceLists::readControl(size_t group, uint32_t* words) const {

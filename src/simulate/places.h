@@ -58,17 +58,24 @@ constexpr int words = 32;  // a group
 constexpr size_t of(size_t group) {
     return group * words;
 }
-constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8, stepGroups = 12;
+constexpr int mostGroups = 65535;  // that any device takes in one direction of a dispatch
+constexpr size_t live = 3, mark = 4, lost = 6, bornEver = 7, birthGroups = 8;
 }  // namespace control
 // Emitters from deaths that a group may have: two textures of each, beside four of the group's own, of the
 // 16 that any device has.
 constexpr int mostDeathRuns = 6;
 
-// Whose bits, where its control is, and how many molecules a workgroup of its step takes.
+// Says whose bits these are, where its control is, and how its step goes over the parts of its state.
 struct PlaceSet {
     int places = 0;
     size_t group = 0;
-    int stepLanes = 64;
+    int stepLanes = 64;  // molecules that a workgroup of the step takes
+    int partPlaces = 0, partCount = 1;
+    const gpu::Buffer* stepGroups = nullptr;  // workgroups of the step of each part, x y z and one unused
+};
+// A range of a list, in words.
+struct ListRange {
+    size_t first = 0, count = 0;
 };
 
 // Sets of places as bits on the GPU, and lists of them in ascending order: the same for the same bits. Three
@@ -90,8 +97,10 @@ class PlaceLists {
     // group's first word of control, y: births for each of its deaths). Only counts unless it `allocates`.
     void countPlaces(const PlaceSet& set, const gpu::Buffer& bits, int scheduled,
                      std::span<const glm::ivec4> deaths, bool allocates);
-    // After countPlaces: the first of them, as many as are born; their bits are cleared.
-    void listPlaces(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list);
+    // After countPlaces: the first of them, as many as are born; their bits are cleared. `ranges`: of the
+    // list, one after another, as long as a storage block holds.
+    void listPlaces(const PlaceSet& set, const gpu::Buffer& bits, const gpu::Buffer& list,
+                    std::span<const ListRange> ranges);
 
     const gpu::Buffer& control() const { return control_; }
     void readControl(size_t group, uint32_t* words) const;
@@ -100,6 +109,9 @@ class PlaceLists {
   private:
     void sum(const PlaceSet& set, const gpu::Buffer& bits);
     void setUp(const gpu::Program& program, const PlaceSet& set) const;
+    void setReach(const gpu::Program& program, const PlaceSet& set) const;
+    void setList(const gpu::Program& program, const gpu::Buffer& list, size_t at, const ListRange& range,
+                 bool clears) const;
 
     gpu::Program count_, scanDeaths_, scanPlaces_, listDeaths_, listPlaces_;
     gpu::Buffer control_, sums_;

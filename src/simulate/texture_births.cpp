@@ -144,7 +144,7 @@ void TextureBirths::spawn(Living& living, const Frame& frame, std::vector<GroupL
 }
 
 void TextureBirths::write(size_t group, const GroupState& state, double time) {
-    places_.writeControl(group, begin(*groups_[group], state, time, 0));
+    places_.writeControl(group, begin(*groups_[group], state, time));
 }
 
 void TextureBirths::read(size_t group, GroupState& state) const {

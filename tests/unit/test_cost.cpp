@@ -34,9 +34,13 @@ TEST_CASE("a kernel's bytes and operations are those that its molecule and solve
     CHECK(costOfBench(one, bench::cloth(2)).operations > 3 * quad.operations);
     one.solver = SolverKind::euler;
     one.wind = bench::Wind::gusts;
-    CHECK(costOfBench(one, bench::cloth(2)).operations > 10 * quad.operations);
+    const KernelCost gusts = costOfBench(one, bench::cloth(2));
+    CHECK(gusts.operations > 2 * quad.operations);
+    CHECK(gusts.operations < 5 * quad.operations);
+    const double readings = 4 * 4;
+    CHECK(gusts.tableFetches == readings * 3);  // a gust 1, curl noise 2
     one.sampling = FieldSampling::moleculeFrame;
-    CHECK(costOfBench(one, bench::cloth(2)).operations < 10 * quad.operations);
+    CHECK(costOfBench(one, bench::cloth(2)).operations < 2 * quad.operations);
 }
 
 TEST_CASE("large molecules want more registers than a lane has, or shared memory", "[cost]") {
@@ -55,10 +59,27 @@ TEST_CASE("large molecules want more registers than a lane has, or shared memory
 TEST_CASE("every kind of field and collider has a cost", "[cost]") {
     for (const Field& field : test::everyField())
         CHECK(costOf(*field.shape).operations > 0);
-    CurlNoiseField noise;
-    const double one = costOf(FieldShape{noise}).operations;
-    noise.octaves = 3;
-    CHECK(costOf(FieldShape{noise}).operations == Approx(3 * one));
     CHECK(costOf(ColliderShape{DistanceFieldCollider{}}).fetches > 0);
     CHECK(costOf(ColliderShape{PlaneCollider{}}).fetches == 0);
+}
+
+TEST_CASE("noise by table costs the same for any octaves, computed noise what its octaves cost", "[cost]") {
+    CurlNoiseField noise;
+    const auto cost = [&](NoiseForm form, int octaves) {
+        noise.noise = form;
+        noise.octaves = octaves;
+        return costOf(FieldShape{noise});
+    };
+    const ReadingCost table = cost(NoiseForm::table, 1), computed = cost(NoiseForm::computed, 1);
+    CHECK(cost(NoiseForm::table, 3).operations == table.operations);
+    CHECK(table.fetches == 2);
+    CHECK(computed.fetches == 0);
+    CHECK(computed.operations > 20 * table.operations);
+    CHECK(cost(NoiseForm::computed, 3).operations == Approx(3 * computed.operations));
+    GustField gust;
+    CHECK(costOf(FieldShape{gust}).fetches == 1);
+    const double gustByTable = costOf(FieldShape{gust}).operations;
+    gust.noise = NoiseForm::computed;
+    CHECK(costOf(FieldShape{gust}).fetches == 0);
+    CHECK(costOf(FieldShape{gust}).operations > 10 * gustByTable);
 }

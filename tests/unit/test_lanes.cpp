@@ -87,6 +87,65 @@ TEST_CASE("what a CPU rasteriser would compile for long is refused where a lane 
     CHECK_NOTHROW(checkLane(stiff, stiff.groups[0], limits));
 }
 
+TEST_CASE("auto takes no implicit solver that a CPU rasteriser would refuse to compile", "[lanes][solvers]") {
+    Scene scene;
+    Group group;
+    group.name = "cloth";
+    group.molecule = bench::cloth(8);
+    group.count = 1;
+    scene.groups.push_back(group);
+    const auto choice = [&](double stiffer) {
+        scene.groups[0].stiffness = stiffer;
+        return compile(scene);
+    };
+    // stable at rest, not for every shape that the molecule may take
+    double stiffer = 1;
+    while (choice(stiffer).groups[0].solverWhy.starts_with("the substep resolves"))
+        stiffer *= 1.05;
+    const Plan plan = choice(stiffer);
+    CHECK(plan.groups[0].solver == SolverKind::leapfrog);
+    CHECK_THAT(plan.groups[0].solverWhy, Catch::StartsWith("a CPU rasteriser would take too long"));
+    CHECK_NOTHROW(chosen(plan, true));
+    // a smaller cloth compiles in time
+    scene.groups[0].molecule = bench::cloth(4);
+    stiffer = 1;
+    while (choice(stiffer).groups[0].solver == SolverKind::leapfrog)
+        stiffer *= 1.05;
+    CHECK(chosen(choice(stiffer), true) == Lanes::molecule);
+    // no explicit solver is stable: a GPU runs it
+    scene.groups[0].molecule = bench::cloth(8);
+    const Plan stiff = choice(1e5);
+    CHECK(stiff.groups[0].solver == SolverKind::bdf2Xpbd);
+    CHECK(chosen(stiff, false) == Lanes::molecule);
+    CHECK_THROWS_AS(chosen(stiff, true), Error);
+}
+
+TEST_CASE("molecules that no path holds are refused by their vertices alone, as their plan is", "[lanes]") {
+    PathLimits limits;
+    limits.maxTextureSize = 2048;
+    const auto scene = [](int vertices) {
+        Scene out;
+        Group group;
+        group.name = "long";
+        group.molecule = row(vertices, false);
+        group.count = 1;
+        out.groups.push_back(group);
+        return out;
+    };
+    for (const auto& [path, most] : {std::pair(Path::automatic, 2048), std::pair(Path::pingPong, 2048),
+                                     std::pair(Path::fused, 1365), std::pair(Path::fragments, 170)}) {
+        INFO(name(path));
+        CHECK_NOTHROW(checkVertices(scene(most), path, limits));
+        CHECK_THAT(messageOf([&] { checkVertices(scene(most + 1), path, limits); }),
+                   Catch::Contains(concat("\"long\" has ", most + 1, " vertices")) &&
+                       Catch::Contains(concat("more than ", most, " on this device")));
+        CHECK_THROWS_AS(choosePath(compile(scene(most + 1)), path, limits), Error);
+    }
+    CHECK_NOTHROW(choosePath(compile(scene(2048)), Path::automatic, limits));
+    limits.compute = false;
+    CHECK_THROWS_AS(checkVertices(scene(171), Path::fused, limits), Error);
+}
+
 TEST_CASE("every scene that ships takes a lane a molecule on a CPU rasteriser, and runs in fragments",
           "[lanes]") {
     int groups = 0;

@@ -111,7 +111,7 @@ void deriveCapacity(const Group& group, Lifecycle& life, const Where& where) {
     throw Error(where.here(), "expected a \"capacity\" in \"life\": ",
                 emitsFromDeaths(life) ? "what dies elsewhere sets how many are born"
                 : tooMany ? concat("rate times span is ", mostAlive(group.count, life), ", more than the ",
-                                   maxPlaces, " that a group may have")
+                                   maxGroupCount, " that a group may have")
                           : "without a \"span\" nothing says how many may be alive");
 }
 
@@ -123,9 +123,6 @@ void checkLife(const Group& group, const Where& where) {
             throw Error(own.at(key), "\"", key, "\" is of newborn molecules, and this group has a particle");
     if (own.given("allocator") && life.emitters.empty())
         throw Error(own.at("allocator"), "nothing is born here: an allocator needs \"emitters\"");
-    if (group.count > maxPlaces)
-        throw Error(where.at("count"), "expected at most ", maxPlaces, " molecules that can die, found ",
-                    group.count);
     if (life.capacity < group.count)
         throw Error(own.at("capacity"), "expected a capacity of at least the count at the start, ",
                     group.count, ", found ", life.capacity);
