@@ -215,8 +215,8 @@ const Mistake mistakes[] = {
      [](Scene& s) {
          s.groups[3].life->life = {0, 0};
      }},
-    {"'span': 2, 'capacity': 100", "'span': 2, 'capacity': 16777217",
-     [](Scene& s) { s.groups[3].life->capacity = 16777217; }},
+    {"'span': 2, 'capacity': 100", "'span': 2, 'capacity': 1073741825",
+     [](Scene& s) { s.groups[3].life->capacity = 1073741825; }},
     {"'outside': {'low': [0, 0, 0]", "'outside': {'low': [2, 0, 0]",
      [](Scene& s) { s.groups[3].life->within->low.x = 2; }},
     {"'from': 'sphere', 'radius': 0.5", "'from': 'sphere', 'radius': 0",
