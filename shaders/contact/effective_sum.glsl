@@ -30,6 +30,20 @@ void add(inout NormalSum sum, int sphere)
     sum.beside += more.beside;
 }
 
+#ifdef RIGID
+// All contacts of the molecule act on it.
+float effectiveSum(int moleculeSphere, int k)
+{
+    NormalSum sum = NormalSum(vec3(0.0), vec3(0.0));
+    float turning = 0.0;
+    for (int j = 0; j < SPHERES; ++j) {
+        add(sum, moleculeSphere + j);
+        int slot = int(fetch(slots, moleculeSphere + j).x);
+        if (fetch(counts, slot).x > 0u) turning += texelFetch(normals, 2 * slot).w;
+    }
+    return largestEigenvalue(sum) + turning;
+}
+#else
 float countOf(int vertex, int moleculeSphere)
 {
     vec4 shape = shapeOf(vertex);
@@ -47,3 +61,4 @@ float effectiveSum(int moleculeSphere, int k)
     if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));
     return most;
 }
+#endif

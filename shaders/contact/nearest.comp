@@ -9,7 +9,7 @@ void main()
 {
     int taken = touchingSlot();
     int slot = max(taken, 0);
-    Nearest response = respondToNearest(slot, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
+    Nearest response = respondToNearest(slot, taken < 0 ? 0 : listedOf(slot));
     if (taken >= 0) {
         newImpulses[slot] = vec4(response.impulse, 0.0);
         shifts[slot] = vec4(response.shift, 0.0);

@@ -24,13 +24,6 @@ Sphere sphereAt(int slot)
                   uintBitsToFloat(fetch(cells, slot).w));
 }
 
-// Seen from `a`; the same to the bit from either side. `side`: 1 for one of the two, -1 for the other.
-PairContact contactOf(Sphere a, Sphere b, float side)
-{
-    return pairContact(localDifference(a.place, b.place, cell), a.velocity - b.velocity, a.radius + b.radius, stepTime,
-                       restSpeed, side);
-}
-
 vec2 materialOf(Sphere a, Sphere b)
 {
     return fetch(materials, int(a.label >> 26u) * groupCount + int(b.label >> 26u)).xy;
@@ -39,7 +32,7 @@ vec2 materialOf(Sphere a, Sphere b)
 // Whether the list of a slot holds another: one that is full may not, and then neither takes the contact.
 bool holds(int slot, int other)
 {
-    int listed = int(fetch(counts, slot).x);
+    int listed = int(fetch(counts, slot).x & CONTACTS);
     bool found = listed <= LIST;
     int e = found ? LIST : 0;
     while (e < LIST) {

@@ -56,6 +56,31 @@ StateSphere sphereOfState(int molecule, int k)
     return own;
 }
 
+#ifdef RIGID
+#include "contact/body.glsl"
+
+BodySphere bodySphereOf(int molecule, int k)
+{
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    float mass = 0.0;
+    vec3 centre = vec3(0.0);
+    for (int v = 0; v < VERTICES; ++v) {
+        float own = 1.0 / shapeOf(v).x;
+        mass += own;
+        centre += packedVertex(oldState, first, 0, v) * own;
+    }
+    centre /= mass;
+    mat3 inertia = mat3(0.0);
+    for (int v = 0; v < VERTICES; ++v) {
+        vec3 arm = packedVertex(oldState, first, 0, v) - centre;
+        inertia += (mat3(dot(arm, arm)) - outerProduct(arm, arm)) * (1.0 / shapeOf(v).x);
+    }
+    // a rod has none about its axis
+    float most = max(max(inertia[0][0], inertia[1][1]), max(inertia[2][2], 1e-30));
+    return BodySphere(packedVertex(oldState, first, 0, k) - centre, 1.0 / mass, inverse(inertia + mat3(1e-5 * most)));
+}
+#endif
+
 CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 {
     CellPlace place = cellPlace(own.anchor, own.position + shift, cell);
@@ -65,24 +90,38 @@ CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 
 #ifdef WALLS
 #include "generated/colliders.glsl"
-#include "step/wall.glsl"
 
 uniform float wallTime;   // s, since the frame's start
 uniform float wallStep;   // s, of a contact step
-uniform float wallNudge;  // m
 
-// The nearest collider: xyz unit normal, w the centre's distance from its surface, m; 1e30: none is near.
-vec4 nearWall(StateSphere own)
+struct Wall {
+    vec3 normal;     // unit
+    float gap;       // m, from the sphere's centre to where it would rest; 1e30: none is near
+    vec3 velocity;   // m/s, of the surface
+    float friction;
+};
+
+const int MOST_WALLS = 3;
+
+// The colliders that the sphere may press on within the step, the nearest first.
+Wall[MOST_WALLS] nearWalls(StateSphere own)
 {
-    float distance = clearance(own.anchor, own.position, wallTime);
-    vec4 wall = vec4(0.0, 1.0, 0.0, 1e30);
-    bool near = distance < 0.25 * own.radius + length(own.velocity) * wallStep;
-    while (near) {
-        vec3 slope = wallSlope(own.anchor, own.position, wallTime, wallNudge, distance);
-        float steep = length(slope);
-        if (steep > 0.1 * wallNudge && steep < 1e20) wall = vec4(slope / steep, max(distance, 0.0));
-        near = false;
+    Wall walls[MOST_WALLS];
+    float near = 0.25 * own.radius + length(own.velocity) * wallStep;
+#ifdef JOINT_CONTACT
+    ivec3 skip = ivec3(-1);
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        Touch t = survey(own.anchor, own.position, own.velocity, wallTime, skip).swept;
+        bool is = t.which >= 0 && t.distance < near;
+        walls[k] = Wall(t.normal, is ? max(t.distance, 0.0) : 1e30, t.velocity, materialOf(t).y);
+        skip = ivec3(skip.y, t.which, -1);
     }
-    return wall;
+#else
+    vec4 surface = surfaceAt(own.anchor, own.position);
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        walls[k] = Wall(surface.xyz, k == 0 && surface.w < near ? max(surface.w, 0.0) : 1e30, vec3(0.0), colliderParameters[0].y);
+    }
+#endif
+    return walls;
 }
 #endif

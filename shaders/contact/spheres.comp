@@ -15,9 +15,13 @@ uniform int keys;  // of the table of cells
 #endif
 layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
+layout(std430, binding = 6) writeonly buffer Loads { vec4 newLoads[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
 #ifdef WALLS
 layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
+#endif
+#ifdef RIGID
+layout(std430, binding = 7) writeonly buffer Bodies { vec4 newBodies[]; };
 #endif
 
 void main()
@@ -37,10 +41,23 @@ void main()
     pairs[sphere] = uvec2(key, uint(sphere));
 #endif
     if (onlyKeys) return;
+    newLoads[sphere] = vec4(0.0);  // contact/apply.comp
+#ifdef RIGID
+    BodySphere at = bodySphereOf(molecule, lane - molecule * SPHERES);
+    own.weight = at.perMass;
+    mat3 turn = at.perInertia;
+    newBodies[3 * sphere] = vec4(at.arm, at.perMass);
+    newBodies[3 * sphere + 1] = vec4(turn[0][0], turn[1][1], turn[2][2], 0.0);
+    newBodies[3 * sphere + 2] = vec4(turn[1][2], turn[0][2], turn[0][1], 0.0);
+#endif
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), floatBitsToUint(own.weight));
     newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(own.radius));
 #ifdef WALLS
-    newWalls[sphere] = nearWall(own);
+    Wall walls[MOST_WALLS] = nearWalls(own);
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        newWalls[6 * sphere + 2 * k] = vec4(walls[k].normal, walls[k].gap);
+        newWalls[6 * sphere + 2 * k + 1] = vec4(walls[k].velocity, walls[k].friction);
+    }
 #endif
 }

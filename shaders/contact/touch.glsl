@@ -6,6 +6,10 @@ layout(std430, binding = 0) buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
 #include "contact/touching.glsl"
+#include "contact/count.glsl"
+
+uniform usamplerBuffer oldSlots;   // of a sphere, in the last step
+uniform usamplerBuffer oldCounts;  // by slot of the last step
 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
@@ -82,7 +86,7 @@ void take(int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float limit = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    float limit = (ownRadius + uintBitsToFloat(fetch(cells, slot).w)) * NEAR;
     bool touches = dot(d, d) < limit * limit;
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
@@ -96,8 +100,9 @@ void meet(int slot)
 #ifndef TEXTURES
 void finish(int slot)
 {
-    counts[slot] = uint(found);
-    bool touches = last && found > 0;
+    bool touched = (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & CONTACTS) > 0u;
+    bool touches = last && (found > 0 || touched);
+    counts[slot] = uint(found) | (touches ? RESPONDS : 0u);
     while (touches) {
         addTouching(slot);
         if (found > LIST) atomicAdd(dropped, uint(found - LIST));

@@ -1,17 +1,23 @@
-// The collider nearest to a slot's sphere: xyz unit normal, w the centre's distance from its surface, m; 1e30: none is near.
-// `walls`: by sphere, or with TEXTURES by slot.
+// The colliders near a slot's sphere (contact/sphere.glsl), nearest first.
+struct Wall {
+    vec3 normal;    // unit
+    float gap;      // m; 1e30: none is near
+    vec3 velocity;  // m/s
+    float friction;
+};
+const int MOST_WALLS = 3;
+
 uniform FLOATS walls;
 
-vec4 wallOf(int slot)
+Wall wallOf(int slot, int k)
 {
-#ifdef TEXTURES
-    return fetch(walls, slot);
-#else
-    return fetch(walls, sphereOf(slot));
-#endif
+    int at = 6 * sphereOf(slot) + 2 * k;
+    vec4 place = fetch(walls, at);
+    vec4 more = fetch(walls, at + 1);
+    return Wall(place.xyz, place.w, more.xyz, more.w);
 }
 
-bool isNear(vec4 wall)
+bool isNear(Wall wall)
 {
-    return wall.w < 1e20;
+    return wall.gap < 1e20;
 }

@@ -90,7 +90,7 @@ void resolveContacts(int done)
     for (int n = 0; n < VERTICES; ++n) {
         if (!isHeld(pinned[n]) &&
             margin(anchor, touchPosition[n], driftedBy[n], substep, contactTime(done)) < 0.0) {
-            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(anchor, touchPosition[n]),
+            Contact c = collideAll(anchor, touchPosition[n], touchVelocity[n], driftedBy[n], fallAt(anchor, touchPosition[n]) + LOAD(n),
                                    Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z), contactTime(done));
             changed = changed || c.position != touchPosition[n] || c.velocity != touchVelocity[n];
             touchPosition[n] = c.position;
@@ -109,7 +109,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]),
+            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]) + LOAD(k),
                                  Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z));
             touchPosition[k] = c.position;
             touchVelocity[k] = c.velocity;

@@ -27,6 +27,11 @@ void main()
 #ifdef STEERED
     loadSteering(molecule);
 #endif
+#ifdef TOUCHES
+    for (int i = 0; i < VERTICES; ++i) {
+        load[i] = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i)).xyz;
+    }
+#endif
     bool wasReleased = released;
     bool moved = false;
 #ifdef RECORDS

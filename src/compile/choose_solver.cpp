@@ -127,7 +127,7 @@ void chooseSolver(const Scene& scene, const Group& group, GroupPlan& out, std::v
                                analysis.highestFrequency * step);
     }
     out.stableStep = stableStep(analysis, out.solver);
-    out.rigid = out.needs.collide && isRigid(analysis, step) && shoal::solver(out.solver).implicit;
+    out.rigid = isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
     const std::string hasty = hastyForce(scene.forces, out, step);
     if (hasty.empty()) return;

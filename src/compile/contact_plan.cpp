@@ -144,7 +144,7 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     if (!out.any()) return out;
     out.spheres = int(spheres);
     // two diameters, and a little more so that rounding loses nothing
-    const double needed = 4 * out.largestRadius * (1 + 1e-5);
+    const double needed = 4 * 1.02 * out.largestRadius * (1 + 1e-5);
     if (scene.contact.cell && *scene.contact.cell < needed)
         throw Error(scene.contact.location,
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",

@@ -88,10 +88,4 @@ ContactGap largestGap(const Molecule& molecule, const GroupContact& contact);
 // cell given does not hold.
 ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups);
 
-// Returns the generated file of contact/respond.comp and contact/respond.frag for a stage, a file of
-// shaders/contact.
-inline std::map<std::string, std::string> responseStage(const char* stage) {
-    return {{"generated/stage.glsl", concat("#include \"contact/", stage, ".glsl\"\n")}};
-}
-
 }  // namespace shoal

@@ -65,13 +65,12 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
-    if (options.work == Work::touched) {
-        const auto contact =
-            std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
-                         [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
-        EXPECTS(contact != plan.contact.groups.end());
-        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits()),
-                               concat("SPHERES ", contact->spheresOf)});
+    const auto contact = std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
+                                      [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+    if (contact != plan.contact.groups.end() && (options.work == Work::touched || options.work == Work::frame)) {
+        out.insert(out.end(), {"TOUCHES", concat("SPHERES ", contact->spheresOf)});
+        if (options.fragments)
+            out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
         if (contact->triangles) out.emplace_back("TRIANGLES");
     }
     define(needs.records, "RECORDS");
@@ -90,7 +89,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.steers, "STEERED");
     define(needs.collide, "COLLIDE");
-    define(group.rigid && perLane, "RIGID_IMPACT");
+    define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (needs.life) defineLife(*group.life, births, out);
     return out;

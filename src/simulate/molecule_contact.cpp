@@ -41,7 +41,7 @@ void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
 // Words of an entry of the largest array of lists.
 static size_t entryWords(const ContactPlan& contact) {
     const bool pushes = contact.settings.response == ContactResponse::simultaneous;
-    return wordsOf(pushes ? Texel::uint2 : Texel::uint1);
+    return wordsOf(pushes ? Texel::float4 : Texel::uint1);
 }
 
 // Entries of all lists together.
@@ -79,8 +79,10 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
       listLength_(int(
           std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
+    bool rigid = false;
     for (const ContactGroup& group : contact_->groups) {
-        triangles_ |= group.triangles;
+        rigid |= plan.groups[group.group].rigid;
+        spreads_ |= group.triangles || plan.groups[group.group].rigid;
         self_ |= group.self;
         walls_ |= plan.groups[group.group].needs.collide;
     }
@@ -101,30 +103,43 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
         arrivals_ = array(padded_, Texel::uint2, "spheres on their way to cells");
         members_ = array(padded_, Texel::uint1, "spheres of cells");
     }
-    if (staggered_.buffer || triangles_) slots_ = array(padded_, Texel::uint1, "slots");
-    counts_ = array(padded_, Texel::uint1, "contacts");
-    lists_ = array(padded_ * size_t(listLength_), Texel::uint1, "contact lists");
-    shifts_ = array(padded_, Texel::float4, "contact shifts");
-    for (Array& impulses : impulses_)
-        impulses = array(padded_, Texel::float4, "contact impulses");
-    if (contact_->settings.response == ContactResponse::simultaneous)
-        pushed_ = array(padded_ * size_t(listLength_), Texel::uint2, "contact pushes");
-    if (contact_->settings.response == ContactResponse::simultaneous)
-        effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
-    if (walls_) {
-        // groups that do not collide leave theirs as they are now
-        const std::vector<glm::vec4> none(padded_, glm::vec4(0, 1, 0, 1e30f));
-        nearWalls_ = Array(context, padded_, Texel::float4, "walls", none.data());
-        wallPushed_ = array(padded_, Texel::uint2, "wall pushes");
-    }
-    if (triangles_) {
-        normals_ = array(2 * padded_, Texel::float4, "contact normals");
-        velocities_ = array(padded_, Texel::float4, "contact velocities");
-    }
     const auto zeros = [&](size_t words, const char* label) {
         const std::vector<uint32_t> none(words);
         return gpu::Buffer(context, gpu::Buffer::Use::storage, std::span<const uint32_t>(none), label);
     };
+    const std::vector<uint32_t> none(padded_);
+    for (size_t side : {0, 1}) {
+        known_[side] = array(padded_, Texel::float4, "contact memory of spheres");
+        slots_[side] = Array(context, padded_, Texel::uint1, "slots", none.data());
+        counts_[side] = Array(context, padded_, Texel::uint1, "contacts", none.data());
+    }
+    for (Array& parted : parted_)
+        parted = array(padded_, Texel::float4, "contact parts");
+    parts_ = array(padded_ * size_t(listLength_), Texel::uint2, "contact parts");
+    moves_ = array(padded_, Texel::float4, "contact moves");
+    for (Array& impulses : impulses_)
+        impulses = array(padded_, Texel::float4, "contact impulses");
+    shifts_ = array(padded_, Texel::float4, "contact shifts");
+    const std::vector<glm::vec4> still(padded_);
+    loads_ = Array(context, padded_, Texel::float4, "contact loads", still.data());
+    lists_ = array(padded_ * size_t(listLength_), Texel::uint1, "contact lists");
+    if (contact_->settings.response == ContactResponse::simultaneous) {
+        effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
+        for (Array* entries : {&pushes_[0], &pushes_[1], &anchors_[0], &anchors_[1]})
+            *entries = array(padded_ * size_t(listLength_), Texel::float4, "contact memory");
+    }
+    if (walls_) {
+        // groups that do not collide leave theirs as they are now
+        const std::vector<glm::vec4> far(6 * padded_, glm::vec4(0, 1, 0, 1e30f));
+        nearWalls_ = Array(context, 6 * padded_, Texel::float4, "walls", far.data());
+        wallNormals_ = array(3 * padded_, Texel::float4, "wall normals");
+        wallPushes_ = array(6 * padded_, Texel::float4, "wall pushes");
+    }
+    if (rigid) bodies_ = array(3 * padded_, Texel::float4, "bodies");
+    if (spreads_) {
+        normals_ = array(2 * padded_, Texel::float4, "contact normals");
+        velocities_ = array(padded_, Texel::float4, "contact velocities");
+    }
     if (counted_) cellCounts_ = zeros(countWords(cells), "spheres in cells");
     touching_ = zeros(1 + padded_, "in contact");
     touchingGroups_ = zeros(3, "workgroups in contact");
@@ -138,9 +153,10 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
     std::vector<std::string> common = {concat("LIST ", listLength_),
-                                       concat("NEIGHBORS ", contact_->settings.neighbors)};
+                                       concat("NEIGHBORS ", contact_->settings.neighbors),
+                                       "NEAR 1.02"};
     if (self_) common.push_back("SELF");
-    if (triangles_) common.push_back("TRIANGLES");
+    if (spreads_) common.push_back("SPREAD");
     if (walls_) common.push_back("WALLS");
     gpu::ProgramOptions options;
     options.cache = cache;
@@ -158,9 +174,9 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
     } else {
         sort_.emplace(*context_, shaderRoot, padded_, cache);
     }
-    order_ = make("order", slots_.buffer ? "SLOTS" : nullptr);
+    order_ = make("order");
     if (staggered_.buffer) findStaggered_ = make("neighbors", "STAGGERED");
-    makeStages(options, make);
+    makeStages(make);
 }
 
 void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& shaderRoot,
@@ -169,6 +185,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     std::vector<std::string> common = plan.layout().defines();
     common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf)});
     if (group.triangles) common.push_back("TRIANGLES");
+    if (plan.rigid) common.push_back("RIGID");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
     if (counted_) common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile)});
     const auto make = [&](const char* file, const char* define = nullptr) {
@@ -184,7 +201,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     GroupPrograms& out = groups_.emplace_back();
     out.spheres = make("spheres", plan.needs.collide ? "WALLS" : nullptr);
     out.apply = make("apply");
-    if (triangles_) {
+    if (spreads_) {
         out.effectiveSum = make("effective_sum");
         out.spread = make("spread");
     }
@@ -234,8 +251,16 @@ void MoleculeContact::setWalls(const Program& program, const ContactGroup& group
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
     program.set("wallTime", float(frame.parameters.frameTime));
     program.set("wallStep", float(frame.parameters.frameTime));
-    program.set("wallNudge", float(0.05 * group.radius));
     program.storage("Walls", 4, nearWalls_.buffer);
+}
+
+void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
+                                const GroupBuffers::Part& part) const {
+    for (const ContactGroup& contact : contact_->groups) {
+        if (contact.group != group) continue;
+        program.set("firstSphere", contact.firstSphere + part.first * contact.spheresOf);
+        program.texture("contactLoads", unit, loads_.texture);
+    }
 }
 
 void MoleculeContact::useTouching(const Program& program) const {
@@ -267,6 +292,8 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         program.storage("Places", 1, spherePlaces_.buffer);
         program.storage("Motions", 2, motions_.buffer);
         program.storage("Cells", 3, sphereCells_.buffer);
+        program.storage("Loads", 6, loads_.buffer);
+        if (plan_->groups[group.group].rigid) program.storage("Bodies", 7, bodies_.buffer);
         dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
@@ -312,7 +339,7 @@ void MoleculeContact::order(bool staggered) {
     order_.set("count", contact_->spheres);
     order_.storage("Places", 1, places_.buffer);
     order_.storage("Cells", 4, cells_.buffer);
-    if (slots_.buffer) order_.storage("Slots", 2, slots_.buffer);
+    order_.storage("Slots", 2, slots_[memory_].buffer);
     useTouching(order_);
     dispatch(order_, size_t(contact_->spheres));
     settled();
@@ -320,6 +347,7 @@ void MoleculeContact::order(bool staggered) {
 
 void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
     dispatches_ = 0;
+    memory_ = 1 - memory_;
     for (const bool staggered : {true, false}) {
         if (staggered && !staggered_.buffer) continue;
         makeKeys(staggered, frame, state);
@@ -332,19 +360,20 @@ void MoleculeContact::find(const Program& program) {
     Textures textures(program);
     textures.add("places", places_.texture).add("cells", cells_.texture).add("sorted", pairs_.texture);
     if (&program == &findStaggered_)
-        textures.add("staggered", staggered_.texture).add("slots", slots_.texture);
+        textures.add("staggered", staggered_.texture).add("slots", slots_[memory_].texture);
     if (contact_->settings.search == ContactSearch::exact) {
         textures.add("starts", cellStarts_.texture);
-        program.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
+        program.set("reach", float(2 * contact_->largestRadius * 1.02 * (1 + 1e-6)));
         program.set("keyMask", keyMask());
     }
+    textures.add("oldSlots", slots_[1 - memory_].texture).add("oldCounts", counts_[1 - memory_].texture);
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
     program.set("count", contact_->spheres);
     program.set("cell", float(contact_->cell));
     program.set("listStride", int(padded_));
     program.set("last", int(!findStaggered_ || &program == &findStaggered_));
     program.storage("Lists", 0, lists_.buffer);
-    program.storage("Counts", 1, counts_.buffer);
+    program.storage("Counts", 1, counts_[memory_].buffer);
     program.storage("Dropped", 2, dropped_);
     useTouching(program);
     dispatch(program, size_t(contact_->spheres));
@@ -368,10 +397,10 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
         array.buffer.download(gpu::Traffic::Kind::state, 0, out.data(), array.buffer.bytes());
         return out;
     };
-    const std::vector<uint32_t> counts = read(counts_), lists = read(lists_), sorted = read(pairs_);
+    const std::vector<uint32_t> counts = read(counts_[memory_]), lists = read(lists_), sorted = read(pairs_);
     std::vector<std::pair<int, int>> out;
     for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot) {
-        const size_t listed = std::min(size_t(counts[slot]), size_t(listLength_));
+        const size_t listed = std::min(size_t(counts[slot] & ~(1u << 31)), size_t(listLength_));
         for (size_t e = 0; e < listed; ++e) {
             const size_t other = lists[e * padded_ + slot];
             out.emplace_back(std::minmax(int(sorted[2 * slot + 1]), int(sorted[2 * other + 1])));
@@ -383,11 +412,12 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 size_t MoleculeContact::bytes() const {
     size_t out = 0;
     for (const Array* array :
-         {&arrivals_,    &cellStarts_,      &members_,     &pairs_,        &staggered_,   &slots_,
-          &lists_,       &counts_,          &pushed_,      &shifts_,       &velocities_,  &normals_,
-          &nearWalls_,   &effectiveCounts_, &wallPushed_,  &apart_,        &groupsOf_,    &materials_,
-          &impulses_[0], &impulses_[1],     &impulses_[2], &spherePlaces_, &sphereCells_, &motions_,
-          &cells_,       &places_})
+         {&arrivals_,        &cellStarts_,  &members_,      &pairs_,       &staggered_,  &slots_[0],
+          &slots_[1],        &lists_,       &counts_[0],    &counts_[1],   &pushes_[0],  &pushes_[1],
+          &anchors_[0],      &anchors_[1],  &shifts_, &known_[0], &known_[1], &loads_, &bodies_,  &velocities_, &normals_,
+          &effectiveCounts_, &nearWalls_,   &wallPushes_,   &apart_,       &groupsOf_,   &materials_,
+          &impulses_[0],     &impulses_[1], &impulses_[2], &spherePlaces_, &sphereCells_, &motions_,    &cells_,
+          &places_})
         out += array->buffer ? array->buffer.bytes() : 0;
     return out + touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
 }

@@ -41,6 +41,9 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Spheres that a context holds, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
+    // Binds what contacts remember to the step of a group of the plan, if it has contact.
+    void bindLoads(const gpu::Program& program, int unit, size_t group, const GroupBuffers::Part& part) const;
+
     uint32_t dropped() const override;
     int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
@@ -92,12 +95,13 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
                       int first) const;
     Textures bindResponse(const gpu::Program& program, const Times& times) const;
-    void runNearest(Buffers& state, const Times& times, const Totals& totals) override;
-    void runEffective(Buffers& state, const Times& times) override;
-    void runStage(Buffers& state, const gpu::Program& program, const Times& times,
-                  const Totals& totals) override;
-    void spread(Buffers& state, const Totals& totals) override;
-    void apply(Buffers& state, size_t impulses) override;
+    void bindWalls(const gpu::Program& program, Textures& textures) const;
+    void runNearest(Buffers& state, const Times& times) override;
+    void prepare(Buffers& state, const Times& times) override;
+    void relax(Buffers& state, const Times& times, float momentum) override;
+    void settle(Buffers& state, const Times& times) override;
+    void spread(Buffers& state, float momentum);
+    void apply(Buffers& state, const Times& times) override;
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {
@@ -115,19 +119,26 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     mutable int dispatches_ = 0;
     bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
-    bool triangles_ = false, self_ = false, walls_ = false;
+    bool spreads_ = false;  // an impulse on one sphere moves others
+    bool self_ = false, walls_ = false;
     std::vector<GroupPrograms> groups_;
     gpu::Program starts_, collect_, order_, findStaggered_;
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
     Array arrivals_, members_;       // where they are counted
     gpu::Buffer cellCounts_;         // shaders/contact/cell_counts.glsl
-    Array pairs_, staggered_, cellStarts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_,
-        normals_, velocities_;
+    Array pairs_, staggered_, cellStarts_, lists_, effectiveCounts_, normals_, velocities_;
     Array apart_, groupsOf_, materials_;
+    // What contacts remember lies where the last step found them, and moves to where this one does.
+    size_t memory_ = 0;  // of this step
+    std::array<Array, 2> slots_, counts_, pushes_, anchors_, known_;
+    size_t pushed_ = 0;              // where the last stage has left them in pushes_
+    std::array<size_t, 3> sides_ = {0, 1, 2};  // of impulses_: the last stage's, those before, the next
     std::array<Array, 3> impulses_;
+    std::array<Array, 3> parted_;
+    Array shifts_, loads_, bodies_, parts_, moves_;
     Array spherePlaces_, motions_, sphereCells_, cells_, places_;
-    Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
+    Array nearWalls_, wallPushes_, wallNormals_, wallFriction_;  // where colliders are
     gpu::Buffer touching_, touchingGroups_;        // shaders/contact/touching.glsl
     gpu::Buffer dropped_;                          // contacts that no list had room for, so far
 };
