@@ -4,6 +4,7 @@
 #include <set>
 
 #include "gl/births.h"
+#include "gl/feature_scenes.h"
 #include "scene/collider_kinds.h"
 #include "scene/field_kinds.h"
 #include "simulate/fused.h"
@@ -454,10 +455,20 @@ TEST_CASE("numbers of an emitter change while it runs; another kind asks for ano
 
 TEST_CASE("a group in parts spawns and loses the same molecules as one that is whole", "[births]") {
     if (!testContext().info().computeShaders || testPath() == Path::pingPong) return;
-    for (const Allocator allocator : allocators) {
-        INFO(name(allocator));
+    for (const auto& [allocator, leaves] :
+         {std::pair(Allocator::gpu, false), std::pair(Allocator::gpu, true),
+          std::pair(Allocator::ring, false), std::pair(Allocator::stack, false),
+          std::pair(Allocator::heap, false)}) {
+        INFO(name(allocator) << (leaves ? ", leaves with contact" : ", points"));
         // some 500 are born in a frame: more than a list of 256, in parts of so many places
         Scene scene = flowing(allocator, 30000, {0.02, 0.1}, 2000);
+        if (leaves) {
+            scene.groups[0].molecule = shippedMolecule("leaf");
+            scene.groups[0].life->scale = {0.5, 1};
+            scene.groups[0].contact = GroupContact{};
+            scene.groups[0].contact->radius = 0.002;
+            scene.solver.substeps = 8;
+        }
         scene.groups[0].count = 700;
         scene.groups[0].place.kind = Placement::Kind::volume;
         scene.groups[0].place.box = {{-1, 0, -1}, {1, 1, 1}};
