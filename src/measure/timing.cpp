@@ -48,7 +48,8 @@ VisitPlan planVisits(const std::vector<double>& cost, const Schedule& schedule) 
     const double share = schedule.seconds / double(std::max<size_t>(1, cost.size()));
     for (const double one : cost) {
         const double fit = std::min(double(schedule.mostSamples), share / std::max(one, 1e-9));
-        out.samples.push_back(std::max(schedule.leastSamples, int(fit)));
+        const double least = std::min(double(schedule.leastSamples), schedule.patience / std::max(one, 1e-9));
+        out.samples.push_back(int(std::max(least, fit)));
         out.rounds = std::max(out.rounds, out.samples.back());
         out.seconds += one * out.samples.back();
     }

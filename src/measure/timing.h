@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,9 @@ bool losesAgain(double& challenger, double& best, const std::function<double()>&
 struct Schedule {
     double seconds = 15;  // of frames and restarts, a group
     int leastSamples = 3, mostSamples = 100;
+    // s, that the least samples of a case may take: fewer are taken of what takes longer, none beyond the
+    // warm-up where a visit alone does.
+    double patience = std::numeric_limits<double>::infinity();
 };
 
 // How a group is spread over rounds.

@@ -136,6 +136,18 @@ TEST_CASE("slow cases sit out rounds, evenly, and never too often", "[bench]") {
     }
 }
 
+TEST_CASE("with patience what is slow is visited less often, or not at all", "[bench]") {
+    measure::Schedule schedule;
+    schedule.seconds = 0.3;
+    schedule.patience = 1;
+    const measure::VisitPlan plan = measure::planVisits({0.001, 0.2, 0.4, 5}, schedule);
+    CHECK(plan.samples == std::vector<int>{75, 3, 2, 0});
+    CHECK(plan.rounds == 75);
+    int visits = 0;
+    measure::takeTurns(plan, [&](size_t i) { visits += i == 3; });
+    CHECK(visits == 0);
+}
+
 TEST_CASE("ratios compare a case with its own group", "[bench]") {
     std::vector<BenchResult> all = someResults();
     const Ratios fused = ratiosOf(all[0], all);
