@@ -7,7 +7,8 @@ namespace shoal {
 
 std::string Where::path() const {
     if (parent_ == nullptr) return reader_ ? reader_->path() : "$";
-    std::string out = parent_->path();  // without concat(), which takes its time: there is one for each spring
+    std::string out =
+        parent_->path();  // without concat(), which takes its time: there is one for each spring
     if (*key_) out.append(".").append(key_);
     if (index_ != none) out.append("[").append(std::to_string(index_)).append("]");
     return out;
