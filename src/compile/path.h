@@ -3,8 +3,7 @@
 //   fused       a compute kernel a group: each molecule is read once a frame, runs all its substeps in
 //               registers and is written once. OpenGL 4.3.
 //   fragments   the same kernels as fragment shaders, which write to several textures at once. OpenGL 3.3;
-//               this is what "fused" means where there is no 4.3. No births, schools and contact between
-//               molecules yet.
+//               this is what "fused" means where there is no 4.3.
 //   ping-pong   fragment passes over textures, several a substep. OpenGL 3.3; for old hardware, and as an
 //               independent check of the other.
 #pragma once
