@@ -65,7 +65,7 @@ void beginAnswers()
     }
 }
 
-// What contact has made of them.
+// Takes over the vertices as contact has left them.
 void acceptAnswers(float time)
 {
 #ifdef HISTORY
@@ -178,6 +178,17 @@ Contact follow(Contact c, vec3 drifted, Drift drift, int done)
 }
 #endif
 
+// Keeps the answer of a vertex.
+void take(int k, Contact c)
+{
+    touchPosition[k] = c.position;
+    touchVelocity[k] = c.velocity;
+#ifdef RIGID_IMPACT
+    struck[k] = struckLast;
+    struckSurface[k] = struckVelocity;
+#endif
+}
+
 // Resolves the contacts of all vertices. One that does not touch changes only where the molecule answers as a
 // rigid body (RIGID_IMPACT).
 void resolveContacts(int done)
@@ -213,26 +224,13 @@ void resolveContacts(int done)
         for (int i = 0; i < VERTICES; ++i) {
             if (next == i) {
                 walks[i] = false;
-                touchPosition[i] = c.position;
-                touchVelocity[i] = c.velocity;
-#ifdef RIGID_IMPACT
-                struck[i] = struckLast;
-                struckSurface[i] = struckVelocity;
-#endif
+                take(i, c);
             }
         }
     }
 #else
     for (int n = 0; n < VERTICES; ++n) {
-        if (walks[n]) {
-            Contact c = follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], DRIFT_OF(n), done);
-            touchPosition[n] = c.position;
-            touchVelocity[n] = c.velocity;
-#ifdef RIGID_IMPACT
-            struck[n] = struckLast;
-            struckSurface[n] = struckVelocity;
-#endif
-        }
+        if (walks[n]) take(n, follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], DRIFT_OF(n), done));
     }
 #endif
 #else
@@ -243,13 +241,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            Contact c = answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
-            touchPosition[k] = c.position;
-            touchVelocity[k] = c.velocity;
-#ifdef RIGID_IMPACT
-            struck[k] = struckLast;
-            struckSurface[k] = struckVelocity;
-#endif
+            take(k, answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k)));
         }
     }
 #endif

@@ -24,7 +24,7 @@ struct Drift {
 #endif
 };
 
-// What the acceleration has added to the way of a vertex that began the substep at the surface's velocity, m. v: m/s,
+// Returns how much the acceleration has added to the way of a vertex that began the substep at the surface's velocity, m. v: m/s,
 // relative to the surface.
 vec3 wayGained(vec3 v, Drift drift)
 {
@@ -54,8 +54,8 @@ const float pushSpeed = 1.0f;
 // Without branches: what does not apply is chosen away at the end, because a rasteriser on a CPU runs every branch of
 // its lanes anyway, and then pays for the bookkeeping of the branches as well.
 // `inside`: whether the vertex was deep inside when its drift began, where that is known.
-Contact respondFrom(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
-                    Drift drift)
+Contact respond(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
+                Drift drift)
 {
     float depth = max(-distance, 0.0f);
     float vn = dot(v, n);
@@ -108,11 +108,6 @@ Contact respondFrom(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gr
     return Contact(outside ? x : position, outside ? v : velocity);
 }
 
-Contact respond(vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction, Drift drift)
-{
-    return respondFrom(false, x, v, distance, n, gravity, restitution, friction, drift);
-}
-
 // Contact as a constraint on the position [Jakobsen 2001], [Latta 2004, section 3.4.3], for verlet: the vertex is moved
 // out of the surface, and its velocity is what that leaves of the substep's way, v + moved / h = (x' - x_before) / h.
 // Nothing bounces. Friction takes back the way along the surface, by at most mu times the depth (Coulomb: a depth of h^2 g
@@ -144,7 +139,7 @@ vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
     return answered != v + kick ? answered - kick : v;
 }
 
-// What is left, m/s^2, of the acceleration of a vertex at rest on a surface of normal n: none while the surface holds it,
+// Returns the rest, m/s^2, of the acceleration of a vertex at rest on a surface of normal n: none while the surface holds it,
 // by a friction within mu of the pressure (Coulomb). Negative friction: it rests on nothing.
 vec3 heldBy(vec3 n, float friction, vec3 acceleration)
 {
@@ -155,14 +150,14 @@ vec3 heldBy(vec3 n, float friction, vec3 acceleration)
     return holds ? vec3(0.0f) : acceleration;
 }
 
-// Contact as the solver takes it; `inside` as for respondFrom.
+// Contact as the solver takes it; `inside` as for respond.
 Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
                Drift drift)
 {
 #ifdef VERLET
     return constrain(inside, x, v, distance, n, friction, drift.step);
 #else
-    return respondFrom(inside, x, v, distance, n, gravity, restitution, friction, drift);
+    return respond(inside, x, v, distance, n, gravity, restitution, friction, drift);
 #endif
 }
 

@@ -1,6 +1,6 @@
 // rk4: the classical Runge-Kutta method, order 4; four evaluations of everything a substep, drag among it.
-// What begins a substep at rest on a collider is held by it in every stage: if it fell in the stages and were put back by
-// contact after them, the springs would have felt that, and the rest of its molecule would never lie still.
+// A vertex that begins a substep at rest on a collider is held by it in every stage: if it fell in the stages and were put
+// back by contact after them, the springs would have felt that, and the rest of its molecule would never lie still.
 
 vec3 startPosition[VERTICES];
 vec3 startVelocity[VERTICES];

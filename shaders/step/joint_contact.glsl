@@ -229,7 +229,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     return c;
 }
 
-// What a vertex at rest rests on, if that stands still: xyz the surface's normal, w its friction; w negative: none.
+// The surface that a vertex at rest rests on, if that stands still: xyz the surface's normal, w its friction; w negative: none.
 vec4 footing(vec3 anchor, vec3 position, float time)
 {
     Touch t = nearest(anchor, position, time).touch;

@@ -79,7 +79,7 @@ void meetShort(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
     meetSolid(s, t, velocity, skip);
 }
 
-// What is nearest to a vertex.
+// The surface nearest to a vertex.
 struct Nearest {
     Touch touch;
     bool atEnd;    // whether the end of the way alone tells of it: a solid one, or a field that a short way does not cross

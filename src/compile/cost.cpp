@@ -13,8 +13,9 @@ namespace {
 // Hand counts of shaders/physics/noise.glsl, for noise that is computed: a corner of the lattice hashes (28),
 // makes a gradient and weighs it.
 constexpr double gradientNoiseOperations = 8 * 57, curlNoiseOperations = 16 * 145;
-// Of shaders/physics/field.glsl and state/noise_tile.glsl, for noise by table: the place of a gust (40) and
-// its wind (6); two moments of curl noise (62) and their blend (20). A filtered read of a tile is one fetch.
+// Hand counts of shaders/physics/field.glsl and state/noise_tile.glsl, for noise by table: the place of a
+// gust (40) and its wind (6); two moments of curl noise (62) and their blend (20). A filtered read of a tile
+// is one fetch.
 constexpr ReadingCost gustFromTile = {46, 1}, curlNoiseFromTile = {82, 2};
 constexpr double undampedSpring = 24, muscle = 9, directionalDrag = 25;
 constexpr double triangle = 18, vertexNormal = 8;  // of normals

@@ -123,7 +123,7 @@ void shaderStep(const Molecule& molecule, vec3* x, vec3* v, const BaselineStep& 
         x[i] += v[i] * step.h;
         const float above = glm::dot(x[i] - step.planePoint, step.planeNormal) - step.thickness;
         const shader::Contact contact =
-            shader::respond(x[i], v[i], above, step.planeNormal, step.gravity, step.restitution,
+            shader::respond(false, x[i], v[i], above, step.planeNormal, step.gravity, step.restitution,
                             step.friction, {step.h, step.h, step.h / 2});
         x[i] = contact.position;
         v[i] = contact.velocity;
