@@ -1,17 +1,20 @@
-// The collider nearest to a slot's sphere: xyz unit normal, w the centre's distance from its surface, m; 1e30: none is near.
-// `walls`: by sphere, or with TEXTURES by slot.
-uniform FLOATS walls;
-
-vec4 wallOf(int slot)
-{
-#ifdef TEXTURES
-    return fetch(walls, slot);
-#else
-    return fetch(walls, sphereOf(slot));
+// The colliders near a sphere, nearest first, two texels each, or with TEXTURES two layers: xyz unit normal, w the gap; xyz
+// the surface's velocity, w friction.
+#ifndef MOST_WALLS
+#define MOST_WALLS 3
 #endif
-}
 
-bool isNear(vec4 wall)
-{
-    return wall.w < 1e20;
-}
+struct Wall {
+    vec3 normal;    // unit
+    float gap;      // m, from the sphere's centre to where it would rest; 1e30: none is near
+    vec3 velocity;  // m/s, of the surface
+    float friction;
+};
+
+#ifdef TEXTURES
+#define WALL_RECORDS sampler2DArray
+#define wallTexel(values, i, k) texelFetch(values, ivec3(texelOf(i), k), 0)
+#else
+#define WALL_RECORDS samplerBuffer
+#define wallTexel(values, i, k) texelFetch(values, 2 * MOST_WALLS * (i) + (k))
+#endif

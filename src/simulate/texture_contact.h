@@ -85,12 +85,11 @@ class TextureContact : public ContactPasses<ContactState> {
     void buildGrid(const Frame& frame, ContactState& state) override;
     void search(ContactState& state) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
-    void runNearest(ContactState& state, const Times& times, const Totals& totals) override;
-    void runEffective(ContactState& state, const Times& times) override;
-    void spread(ContactState& state, const Totals& totals) override;
-    void runStage(ContactState& state, const gpu::Program& program, const Times& times,
-                  const Totals& totals) override;
-    void apply(ContactState& state, size_t impulses) override;
+    void runNearest(ContactState& state, const Times& times) override;
+    void prepare(ContactState& state, const Times& times) override;
+    void relax(ContactState& state, const Times& times, float momentum) override;
+    void settle(ContactState& state, const Times& times) override;
+    void apply(ContactState& state, const Times& times) override;
 
     void draw(const Into& into, int firstRow, int rows);
     void drawAll(const Into& into);  // the rows of all spheres
