@@ -4,8 +4,7 @@
 #include "contact/shape.glsl"
 #include "contact/spread.glsl"
 
-uniform float stepTime;   // s, of a contact step
-uniform float restSpeed;  // m/s
+uniform float stepTime;  // s, of a contact step
 
 layout(std430, binding = 0) buffer State { float state[]; };
 layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere
@@ -23,8 +22,8 @@ void change(int molecule, int vertex, Total by)
     loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
 #endif
 #ifdef HISTORY
-    // The same word for all vertices of a molecule: its next step starts anew (fused/bdf2.glsl). What rests goes on.
-    if (length(by.impulse) > 0.02 * restSpeed) state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 0)] = NO_HISTORY;
+    // the same word for all vertices of a molecule: its next step starts anew (fused/bdf2.glsl)
+    state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 0)] = NO_HISTORY;
 #endif
 }
 

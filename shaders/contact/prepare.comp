@@ -30,7 +30,7 @@ void main()
         int other = entryOf(slot, e);
         Entry known = prepare(slot, other);
         Meeting with = meetingAs(slot, other, known.anchor);
-        if (with.meets) count(with.contact.normal);
+        if (with.meets) countIn(with.contact.normal);
         impulse += known.push.xyz;
         pushes[e * listStride + slot] = known.push;
         anchors[e * listStride + slot] = known.anchor;
@@ -43,7 +43,7 @@ void main()
         Wall wall = wallOf(slot, k);
         vec3 push = vec3(0.0);
         if (pressesOn(wall) && listed > 0) {
-            count(wall.normal);
+            countIn(wall.normal);
             for (int o = 0; o < MOST_WALLS; ++o) {
                 bool same = oldListed > 0 && dot(wallTexel(oldWalls, sphere, 2 * o).xyz, wall.normal) > 0.9;
                 push = same ? withinFriction(old[o].xyz, wall.normal, wall.friction) : push;

@@ -58,7 +58,7 @@ Entry prepare(int slot, int other)
 NormalSum normals = NormalSum(vec3(0.0), vec3(0.0));
 float turning = 0.0;  // of its body, in contacts
 
-void count(vec3 normal)
+void countIn(vec3 normal)
 {
     float part = turningPart(normal);
     normals = withNormal(normals, normal * sqrt(1.0 - part));

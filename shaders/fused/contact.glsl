@@ -172,10 +172,10 @@ bool findContacts(int done)
 }
 
 #ifdef JOINT_CONTACT
-// `load`: m/s^2, beside gravity and forces.
-Contact follow(Contact c, vec3 drifted, vec3 load, Drift drift, int done)
+// `pressed`: m/s^2, beside gravity and forces.
+Contact follow(Contact c, vec3 drifted, vec3 pressed, Drift drift, int done)
 {
-    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position) + load, drift, contactTime(done));
+    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position) + pressed, drift, contactTime(done));
 }
 #endif
 
@@ -210,20 +210,20 @@ void resolveContacts(int done)
         Contact c = Contact(vec3(0.0), vec3(0.0));
         vec3 drifted = vec3(0.0);
         vec3 beyond = vec3(0.0);
-        vec3 load = vec3(0.0);
+        vec3 pressed = vec3(0.0);
         next = -1;
         for (int i = 0; i < VERTICES; ++i) {
             if (walks[i]) {
                 next = i;
                 c = Contact(touchPosition[i], touchVelocity[i]);
                 drifted = driftedBy[i];
-                load = LOAD(i);
+                pressed = LOAD(i);
 #ifdef HISTORY
                 beyond = beyondBy[i];
 #endif
             }
         }
-        if (next >= 0) c = follow(c, drifted, load, DRIFT(beyond), done);
+        if (next >= 0) c = follow(c, drifted, pressed, DRIFT(beyond), done);
         for (int i = 0; i < VERTICES; ++i) {
             if (next == i) {
                 walks[i] = false;

@@ -332,7 +332,7 @@ struct ContactBaseline::Data {
                 const float grip =
                     alone ? std::min(std::max(step.friction * contact.pushed - spent, 0.0f),
                                      slip * contact.mass)
-                          : std::min(step.friction * contact.pushed / ContactPlan::frictionRounds,
+                          : std::min(step.friction * contact.pushed / 4,
                                      1.5f * slip * contact.mass / float(number));
                 const vec3 change = along * (-grip / std::max(slip, 1e-30f));
                 sum += change;
@@ -388,7 +388,7 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
         data.earlierImpulses.swap(data.impulses);
         data.impulses.swap(data.newImpulses);
     }
-    for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
+    for (int i = 0; i < 4; ++i) {
         data.each([&](int, Piece& piece) { data.addFriction(piece, step); });
         data.impulses.swap(data.newImpulses);
     }

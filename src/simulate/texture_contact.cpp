@@ -91,14 +91,10 @@ Texture TextureContact::table(gpu::Context& context, Format format, size_t texel
 }
 
 void TextureContact::makeTables(gpu::Context& context) {
-    std::vector<glm::vec4> materials, friction;
+    std::vector<glm::vec4> materials;
     for (const glm::vec2& pair : contact_->pairs)
         materials.emplace_back(pair, 0, 0);
     materials_ = table(context, Format::rgba32f, materials.size(), materials.data(), "contact materials");
-    for (const double mu : contact_->wallFriction)
-        friction.emplace_back(float(mu), 0, 0, 0);
-    if (walls_)
-        wallFriction_ = table(context, Format::rgba32f, friction.size(), friction.data(), "wall friction");
     if (!self_) return;
     const ContactPlan::Exclusions exclusions = contact_->exclusions();
     apart_ =
@@ -132,7 +128,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     keys_ = make("keys");
     order_ = make("order");
     slots_ = make("slots");
-    makeStages(options, make);
+    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
 }
 
 TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
@@ -306,86 +302,11 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
     return 6;
 }
 
-void TextureContact::runStage(ContactState&, const Program& program, const Times& times,
-                              const Totals& totals) {
-    const int unit = bindResponse(program, times);
-    // without momentum the earlier ones do not count, and nobody may have written them yet
-    const size_t earlier = totals.momentum == 0 ? totals.last : totals.earlier;
-    program.texture("effectiveCounts", unit, effectiveCounts_);
-    program.texture("impulses", unit + 1, impulses_[totals.last]);
-    program.texture("earlier", unit + 2, impulses_[earlier]);
-    program.texture("pushed", unit + 3, pushes_[totals.pushes.value_or(totals.last)]);
-    program.texture("pushedBefore", unit + 4, pushes_[earlier]);
-    if (walls_) {
-        program.texture("walls", unit + 6, nearWalls_);
-        program.texture("wallFriction", unit + 7, wallFriction_);
-    }
-    if (triangles_) program.texture("velocities", unit + 8, velocities_);
-    program.set("momentum", totals.momentum);
-    program.set("frictionShare", 1.0f / ContactPlan::frictionRounds);
-    const Texture* impulses = &impulses_[totals.next];
-    if (&program == &correction_) {
-        program.texture("kept", unit + 5, shifts_);
-        drawAll({impulses});
-    } else if (&program == &friction_) {
-        drawAll({impulses, &shifts_});
-    } else {
-        drawAll({impulses, &pushes_[totals.next]});
-    }
-}
-
-void TextureContact::spread(ContactState& state, const Totals& totals) {
-    if (!triangles_) return;
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const Program& program = useGroup(groups_[g].spread, g);
-        state.bind(program, contact_->groups[g].group);
-        program.texture("sorted", 3, sort_.pairs());
-        program.texture("shapes", 4, groups_[g].shapes);
-        program.texture("slots", 5, slotsOf_);
-        program.texture("counts", 6, counts_[countsSide_]);
-        program.texture("motions", 7, motions_);
-        program.texture("impulses", 8, impulses_[totals.last]);
-        program.texture("earlier", 9, impulses_[totals.momentum == 0 ? totals.last : totals.earlier]);
-        program.set("momentum", totals.momentum);
-        program.set("count", contact_->spheres);
-        drawAll({&velocities_});
-    }
-}
-
-void TextureContact::apply(ContactState& state, size_t impulses) {
-    for (size_t g = 0; g < groups_.size(); ++g)
-        state.apply(contact_->groups[g].group, [&](const Program& program, int firstUnit) {
-            program.set("firstSphere", contact_->groups[g].firstSphere);
-            if (program.uses("shapes")) program.texture("shapes", firstUnit + 4, groups_[g].shapes);
-            program.texture("slots", firstUnit, slotsOf_);
-            program.texture("counts", firstUnit + 1, counts_[countsSide_]);
-            program.texture("impulses", firstUnit + 2, impulses_[impulses]);
-            program.texture("shifts", firstUnit + 3, shifts_);
-        });
-}
-
-void TextureContact::runNearest(ContactState&, const Times& times, const Totals& totals) {
-    bindResponse(nearest_, times);
-    drawAll({&impulses_[totals.next], &shifts_});
-}
-
-void TextureContact::runEffective(ContactState&, const Times& times) {
-    const int unit = bindResponse(effective_, times);
-    if (walls_) effective_.texture("walls", unit, nearWalls_);
-    if (!triangles_) return drawAll({&effectiveCounts_});
-    drawAll({&diagonals_, &besides_});
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const Program& program = useGroup(groups_[g].effectiveSum, g);
-        program.texture("sorted", 0, sort_.pairs());
-        program.texture("shapes", 1, groups_[g].shapes);
-        program.texture("slots", 2, slotsOf_);
-        program.texture("counts", 3, counts_[countsSide_]);
-        program.texture("diagonals", 4, diagonals_);
-        program.texture("besides", 5, besides_);
-        program.set("count", contact_->spheres);
-        drawAll({&effectiveCounts_});
-    }
-}
+void TextureContact::prepare(ContactState&, const Times&) {}
+void TextureContact::relax(ContactState&, const Times&, float) {}
+void TextureContact::settle(ContactState&, const Times&) {}
+void TextureContact::apply(ContactState&, const Times&) {}
+void TextureContact::runNearest(ContactState&, const Times&) {}
 
 static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
     std::vector<uint32_t> out(size_t(texture.width()) * size_t(texture.height()) *

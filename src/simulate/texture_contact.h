@@ -98,7 +98,7 @@ class TextureContact : public ContactPasses<ContactState> {
     int rowBits_;
     bool triangles_ = false, self_ = false, walls_ = false;
     std::vector<OfGroup> groups_;  // with contact
-    gpu::Program keys_, starts_, order_, slots_;
+    gpu::Program keys_, starts_, order_, slots_, find_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
