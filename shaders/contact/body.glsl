@@ -23,3 +23,11 @@ vec3 motionAt(BodySphere at, BodyMotion motion)
 {
     return motion.shift + cross(motion.turn, at.arm);
 }
+
+// How a sphere's body is kept, in three 4-vectors.
+vec4[3] packedBody(BodySphere at)
+{
+    mat3 t = at.perInertia;
+    return vec4[3](vec4(at.arm, at.perMass), vec4(t[0][0], t[1][1], t[2][2], 0.0), vec4(t[1][2], t[0][2], t[0][1], 0.0));
+}
+

@@ -1,13 +1,19 @@
 // What impulses on the spheres of rigid bodies do.
 #include "contact/body.glsl"
 
-uniform FLOATS bodies;  // three texels a sphere
+#ifdef TEXTURES
+uniform sampler2DArray bodies;  // by sphere, three layers
+#define bodyTexel(sphere, k) texelFetch(bodies, ivec3(texelOf(sphere), k), 0)
+#else
+uniform samplerBuffer bodies;   // three texels a sphere
+#define bodyTexel(sphere, k) texelFetch(bodies, 3 * (sphere) + (k))
+#endif
 
 BodySphere bodySphereAt(int sphere)
 {
-    vec4 arm = fetch(bodies, 3 * sphere);
-    vec3 d = fetch(bodies, 3 * sphere + 1).xyz;
-    vec3 o = fetch(bodies, 3 * sphere + 2).xyz;
+    vec4 arm = bodyTexel(sphere, 0);
+    vec3 d = bodyTexel(sphere, 1).xyz;
+    vec3 o = bodyTexel(sphere, 2).xyz;
     return BodySphere(arm.xyz, arm.w, mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z));
 }
 

@@ -2,10 +2,6 @@
 #include "contact/touching.glsl"
 #include "contact/prepare.glsl"
 #ifdef WALLS
-#include "contact/near_walls.glsl"
-
-uniform WALL_RECORDS oldWalls;
-
 layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // by sphere, each now and an iteration before
 #endif
 
@@ -36,20 +32,12 @@ void main()
         anchors[e * listStride + slot] = known.anchor;
     }
 #ifdef WALLS
-    int sphere = sphereOf(slot);
-    vec4 old[MOST_WALLS];
-    for (int k = 0; k < MOST_WALLS; ++k) old[k] = vec4(wallPushes[2 * MOST_WALLS * sphere + 2 * k].xyz, 0.0);
+    int first = 2 * MOST_WALLS * sphereOf(slot);
+    vec3 old[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k) old[k] = wallPushes[first + 2 * k].xyz;
     for (int k = 0; k < MOST_WALLS; ++k) {
-        Wall wall = wallOf(slot, k);
-        vec3 push = vec3(0.0);
-        if (pressesOn(wall) && listed > 0) {
-            countIn(wall.normal);
-            for (int o = 0; o < MOST_WALLS; ++o) {
-                bool same = oldListed > 0 && dot(wallTexel(oldWalls, sphere, 2 * o).xyz, wall.normal) > 0.9;
-                push = same ? withinFriction(old[o].xyz, wall.normal, wall.friction) : push;
-            }
-        }
-        wallPushes[2 * MOST_WALLS * sphere + 2 * k] = vec4(push, 0.0);
+        vec3 push = prepareWall(slot, wallOf(slot, k), listed, old);
+        wallPushes[first + 2 * k] = vec4(push, 0.0);
         impulse += push;
     }
 #endif

@@ -64,3 +64,23 @@ void countIn(vec3 normal)
     normals = withNormal(normals, normal * sqrt(1.0 - part));
     turning += part;
 }
+
+#ifdef WALLS
+#include "contact/near_walls.glsl"
+
+uniform WALL_RECORDS oldWalls;  // by sphere, of the last step
+
+// Returns what the contact with a collider remembers, N s: that of the one in the last step whose normal was nearly the same.
+// `old`: what those had, N s. Of a sphere that touches no other, its own step answers the collider.
+vec3 prepareWall(int slot, Wall wall, int listed, vec3 old[MOST_WALLS])
+{
+    vec3 push = vec3(0.0);
+    if (!pressesOn(wall) || listed == 0) return push;
+    countIn(wall.normal);
+    for (int o = 0; o < MOST_WALLS; ++o) {
+        bool same = oldListed > 0 && dot(wallTexel(oldWalls, sphereOf(slot), 2 * o).xyz, wall.normal) > 0.9;
+        push = same ? withinFriction(old[o], wall.normal, wall.friction) : push;
+    }
+    return push;
+}
+#endif

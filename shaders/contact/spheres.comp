@@ -49,10 +49,8 @@ void main()
 #ifdef RIGID
     BodySphere at = bodySphereOf(molecule, own.position);
     own.weight = at.perMass;
-    mat3 turn = at.perInertia;
-    newBodies[3 * sphere] = vec4(at.arm, at.perMass);
-    newBodies[3 * sphere + 1] = vec4(turn[0][0], turn[1][1], turn[2][2], 0.0);
-    newBodies[3 * sphere + 2] = vec4(turn[1][2], turn[0][2], turn[0][1], 0.0);
+    vec4[3] body = packedBody(at);
+    for (int i = 0; i < 3; ++i) newBodies[3 * sphere + i] = body[i];
 #endif
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), weightBits(own));

@@ -1,9 +1,5 @@
-// The colliders near a sphere, nearest first, two texels each, or with TEXTURES two layers: xyz unit normal, w the gap; xyz
+// The colliders near a sphere, nearest first (MOST_WALLS, set by C++), two texels each, or with TEXTURES two layers: xyz unit normal, w the gap; xyz
 // the surface's velocity, w friction.
-#ifndef MOST_WALLS
-#define MOST_WALLS 3
-#endif
-
 struct Wall {
     vec3 normal;    // unit
     float gap;      // m, from the sphere's centre to where it would rest; 1e30: none is near

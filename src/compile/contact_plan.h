@@ -8,8 +8,8 @@
 //   sphere k of molecule m of group g:   g.firstSphere + m * g.spheresOf + k
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -57,6 +57,11 @@ struct ContactPlan {
     std::vector<glm::vec2> pairs;
 
     bool any() const { return !groups.empty(); }
+    // Whether a group of the plan has contact.
+    bool has(size_t group) const {
+        return std::any_of(groups.begin(), groups.end(),
+                           [&](const ContactGroup& each) { return each.group == group; });
+    }
     // Whether contacts are remembered from step to step.
     bool remembers() const { return settings.response == ContactResponse::simultaneous; }
     // The ping-pong path's textures have rows of 2^rowBits texels, so that the table of cells is a square or

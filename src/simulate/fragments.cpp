@@ -112,6 +112,7 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
                 program.texture("steering", kernel_unit::steering, state[g].steering());
                 program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
             }
+            if (contact_) contact_->bindLoads(program, kernel_unit::loads, g);
             const int vertices = lives ? births_->bindStep(program, g) : 3;
             draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count(), vertices);
         }

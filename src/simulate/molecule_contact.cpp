@@ -155,7 +155,8 @@ void MoleculeContact::makeMemory() {
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
     std::vector<std::string> common = {concat("LIST ", listLength_),
                                        concat("NEIGHBORS ", contact_->settings.neighbors),
-                                       concat("NEAR ", ContactPlan::near)};
+                                       concat("NEAR ", ContactPlan::near),
+                                       concat("MOST_WALLS ", ContactPlan::mostWalls)};
     if (self_) common.push_back("SELF");
     if (spreads_) common.push_back("SPREAD");
     if (walls_) common.push_back("WALLS");
@@ -192,7 +193,8 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
                                 gpu::ProgramCache* cache) {
     const GroupPlan& plan = plan_->groups[group.group];
     std::vector<std::string> common = plan.layout().defines();
-    common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf)});
+    common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf),
+                                concat("MOST_WALLS ", ContactPlan::mostWalls)});
     if (group.triangles) common.push_back("TRIANGLES");
     if (contact_->remembers()) common.push_back("REMEMBERS");
     const bool rigid = plan.rigid && contact_->remembers();

@@ -74,7 +74,7 @@ class PingPong : public ExecutionPath {
                     double predictTime);
     void setColliders(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
-    using Targets = std::vector<const gpu::Texture*>;
+    using Targets = std::vector<gpu::ColorTarget>;
     void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);
     void drawState(const GroupPlan& group, const Targets& targets);
     void drawVelocity(const GroupPlan& group, size_t index);  // into the other side, the current one then
