@@ -401,15 +401,73 @@ uint32_t MoleculeContact::dropped() const {
     return out;
 }
 
+// Reads back so many texels.
+template <typename T>
+static std::vector<T> readBack(const gpu::Buffer& buffer, size_t count) {
+    std::vector<T> out(count);
+    if (count > 0) buffer.download(gpu::Traffic::Kind::state, 0, out.data(), count * sizeof(T));
+    return out;
+}
+
+template <typename T>
+static void write(gpu::Buffer& buffer, const std::vector<T>& values) {
+    if (!values.empty())
+        buffer.update(gpu::Traffic::Kind::state, 0, values.data(), values.size() * sizeof values[0]);
+}
+
+ContactMemory MoleculeContact::memory() const {
+    if (!contact_->remembers()) return {};
+    const size_t spheres = size_t(contact_->spheres), entries = padded_ * size_t(listLength_);
+    ContactSlots out;
+    out.stride = padded_;
+    out.slots = readBack<uint32_t>(slots_[now_].buffer, spheres);
+    out.counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
+    for (uint32_t& count : out.counts)
+        count = std::min(count & contactsMask, uint32_t(listLength_));
+    if (std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; })) return {};
+    out.lists = readBack<uint32_t>(lists_[now_].buffer, entries);
+    out.pushes = readBack<glm::vec4>(pushes_[pushed_].buffer, entries);
+    out.anchors = readBack<glm::vec4>(anchors_[now_].buffer, entries);
+    out.known = readBack<glm::vec4>(known_[now_].buffer, padded_);
+    out.loads = readBack<glm::vec4>(loads_.buffer, spheres);
+    if (!walls_) return bySphere(out);
+    out.walls = readBack<glm::vec4>(nearWalls_[now_].buffer, 2 * ContactPlan::mostWalls * spheres);
+    // each has the one before it behind it
+    const auto pushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
+    for (size_t i = 0; i < pushes.size(); i += 2)
+        out.wallPushes.push_back(pushes[i]);
+    return bySphere(out);
+}
+
+void MoleculeContact::remember(const ContactMemory& memory) {
+    if (!contact_->remembers()) return;
+    if (memory.counts.size() != size_t(contact_->spheres)) {
+        write(counts_[now_].buffer, std::vector<uint32_t>(padded_));
+        return write(loads_.buffer, std::vector<glm::vec4>(padded_));
+    }
+    const ContactSlots in = bySlot(memory, padded_, size_t(listLength_));
+    write(slots_[now_].buffer, in.slots);
+    write(counts_[now_].buffer, in.counts);
+    write(lists_[now_].buffer, in.lists);
+    write(pushes_[pushed_].buffer, in.pushes);
+    write(anchors_[now_].buffer, in.anchors);
+    write(known_[now_].buffer, in.known);
+    write(loads_.buffer, in.loads);
+    if (!walls_ || in.walls.empty()) return;
+    write(nearWalls_[now_].buffer, in.walls);
+    std::vector<glm::vec4> pushes;
+    for (const glm::vec4& push : in.wallPushes)
+        pushes.insert(pushes.end(), {push, push});
+    write(wallPushes_.buffer, pushes);
+}
+
 std::vector<std::pair<int, int>> MoleculeContact::found() const {
-    const auto read = [](const Array& array) {
-        std::vector<uint32_t> out(array.buffer.bytes() / sizeof(uint32_t));
-        array.buffer.download(gpu::Traffic::Kind::state, 0, out.data(), array.buffer.bytes());
-        return out;
-    };
-    const std::vector<uint32_t> counts = read(counts_[now_]), lists = read(list()), sorted = read(pairs_);
+    const size_t spheres = size_t(contact_->spheres);
+    const auto counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
+    const auto lists = readBack<uint32_t>(list().buffer, padded_ * size_t(listLength_));
+    const auto sorted = readBack<uint32_t>(pairs_.buffer, 2 * padded_);
     std::vector<std::pair<int, int>> out;
-    for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot) {
+    for (size_t slot = 0; slot < spheres; ++slot) {
         const size_t listed = std::min(size_t(counts[slot] & contactsMask), size_t(listLength_));
         for (size_t e = 0; e < listed; ++e) {
             const size_t other = lists[e * padded_ + slot];

@@ -48,6 +48,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     uint32_t dropped() const override;
     int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
+    ContactMemory memory() const override;
+    void remember(const ContactMemory& memory);
     size_t bytes() const override;
     int dispatches() const override { return dispatches_; }
 

@@ -46,6 +46,9 @@ class PingPong : public ExecutionPath {
         if (query_) query_->disarm();
     }
     const ContactResult* contact() const override { return contact_.get(); }
+    void remember(const ContactMemory& memory) override {
+        if (contact_) contact_->remember(memory);
+    }
 
     TextureState state;
 

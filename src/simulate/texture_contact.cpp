@@ -354,6 +354,103 @@ uint32_t TextureContact::dropped() const {
     return out;
 }
 
+// Texels by number, of each layer after the other.
+template <typename T>
+static std::vector<T> readLayers(const Texture& texture) {
+    const size_t texels = size_t(texture.width()) * size_t(texture.height());
+    const int layers = std::max(texture.layers(), 1);
+    std::vector<T> out(texels * size_t(layers));
+    for (int layer = 0; layer < layers; ++layer)
+        texture.download(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
+                         out.data() + texels * size_t(layer), texels * sizeof(T), layer);
+    return out;
+}
+
+template <typename T>
+static void writeLayers(Texture& texture, std::vector<T> values) {
+    const size_t texels = size_t(texture.width()) * size_t(texture.height());
+    const int layers = std::max(texture.layers(), 1);
+    values.resize(texels * size_t(layers));
+    for (int layer = 0; layer < layers; ++layer)
+        texture.upload(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
+                       values.data() + texels * size_t(layer), texels * sizeof(T), layer);
+}
+
+// What lies in layers, of each number after the other, and back.
+static std::vector<glm::vec4> together(const std::vector<glm::vec4>& layered, size_t stride, size_t count) {
+    std::vector<glm::vec4> out;
+    for (size_t i = 0; i < count; ++i)
+        for (size_t at = i; at < layered.size(); at += stride)
+            out.push_back(layered[at]);
+    return out;
+}
+
+static std::vector<glm::vec4> apart(const std::vector<glm::vec4>& of, size_t stride, size_t count) {
+    std::vector<glm::vec4> out(count > 0 ? of.size() / count * stride : 0);
+    for (size_t i = 0; i < of.size(); ++i)
+        out[i % (of.size() / count) * stride + i / (of.size() / count)] = of[i];
+    return out;
+}
+
+ContactMemory TextureContact::memory() const {
+    if (!contact_->remembers()) return {};
+    const size_t spheres = size_t(contact_->spheres);
+    ContactSlots out;
+    out.stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
+    out.slots = readLayers<uint32_t>(slots_[now_]);
+    out.slots.resize(spheres);
+    bool any = false;
+    for (const glm::uvec2& counts : readLayers<glm::uvec2>(counts_[now_])) {
+        out.counts.push_back(std::min(counts.x & contactsMask, uint32_t(longestList)));
+        any = any || out.counts.back() > 0;
+    }
+    if (!any) return {};
+    const auto lists = readLayers<glm::uvec4>(lists_[now_]);
+    for (int e = 0; e < longestList; ++e)
+        for (size_t slot = 0; slot < out.stride; ++slot)
+            out.lists.push_back(lists[size_t(e / 4) * out.stride + slot][e % 4]);
+    out.pushes = readLayers<glm::vec4>(pushes_[0]);
+    out.anchors = readLayers<glm::vec4>(anchors_[now_]);
+    out.known = readLayers<glm::vec4>(known_[now_]);
+    out.loads = readLayers<glm::vec4>(loads_);
+    out.loads.resize(spheres);
+    if (!walls_) return bySphere(out);
+    out.walls = together(readLayers<glm::vec4>(nearWalls_[now_]), out.stride, spheres);
+    const auto pushes = readLayers<glm::vec4>(wallPushes_[0]);  // by slot
+    for (const uint32_t slot : out.slots)
+        for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
+            out.wallPushes.push_back(pushes[k * out.stride + slot]);
+    return bySphere(out);
+}
+
+void TextureContact::remember(const ContactMemory& memory) {
+    if (!contact_->remembers()) return;
+    const size_t spheres = size_t(contact_->spheres);
+    if (memory.counts.size() != spheres) {
+        writeLayers<glm::uvec2>(counts_[now_], {});
+        return writeLayers<glm::vec4>(loads_, {});
+    }
+    const size_t stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
+    const ContactSlots in = bySlot(memory, stride, size_t(longestList));
+    std::vector<glm::uvec2> counts;
+    for (const uint32_t count : in.counts)
+        counts.emplace_back(count, 0);
+    std::vector<glm::uvec4> lists(stride * size_t(listLayers));
+    for (size_t e = 0; e < size_t(longestList); ++e)
+        for (size_t slot = 0; slot < stride; ++slot)
+            lists[e / 4 * stride + slot][int(e % 4)] = in.lists[e * stride + slot];
+    writeLayers(slots_[now_], in.slots);
+    writeLayers(counts_[now_], counts);
+    writeLayers(lists_[now_], lists);
+    writeLayers(pushes_[0], in.pushes);
+    writeLayers(anchors_[now_], in.anchors);
+    writeLayers(known_[now_], in.known);
+    writeLayers(loads_, in.loads);
+    if (!walls_ || in.walls.empty()) return;
+    writeLayers(nearWalls_[now_], apart(in.walls, stride, spheres));
+    writeLayers(wallPushes_[0], apart(in.wallPushes, stride, spheres));
+}
+
 std::vector<std::pair<int, int>> TextureContact::found() const {
     const std::vector<uint32_t> counts = readBack(counts_[now_], Traffic::Kind::state);
     const std::vector<KeyIndex> sorted = sort_.download();

@@ -66,6 +66,8 @@ class TextureContact : public ContactPasses<ContactState> {
     uint32_t dropped() const override;
     int listLength() const override { return longestList; }
     std::vector<std::pair<int, int>> found() const override;
+    ContactMemory memory() const override;
+    void remember(const ContactMemory& memory);
     size_t bytes() const override;
 
   private:
