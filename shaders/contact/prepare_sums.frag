@@ -15,8 +15,10 @@ layout(location = 3) out vec4 newNormals[2];  // contact/effective_sum.glsl
 #else
 layout(location = 3) out uvec4 newEffectiveCount;
 #endif
-#ifdef WALLS
+#if defined(WALLS) && defined(SPREAD)
 layout(location = 5) out vec4 newWallPushes[MOST_WALLS];
+#elif defined(WALLS)
+layout(location = 4) out vec4 newWallPushes[MOST_WALLS];
 #endif
 
 void main()

@@ -15,7 +15,7 @@ struct Entry {
                   // N s; 0: it is an impact; negative: it takes no part
 };
 
-#ifdef SPREAD
+#ifdef BODIES
 #include "contact/body_sums.glsl"
 
 uniform int rigidGroups;  // a bit each
@@ -49,20 +49,20 @@ struct Meeting {
     PairContact contact;
     bool meets;     // both lists hold it, and one of the spheres is free
     vec2 material;  // x restitution, y friction
-#ifdef SPREAD
+#ifdef BODIES
     BodySphere body;
 #endif
 };
 
 Sphere own;
-#ifdef SPREAD
+#ifdef BODIES
 BodySphere ownBody;
 #endif
 
 void loadSphere(int slot)
 {
     own = sphereAt(slot);
-#ifdef SPREAD
+#ifdef BODIES
     ownBody = bodyOf(slot, own);
 #endif
 }
@@ -70,7 +70,7 @@ void loadSphere(int slot)
 // What an impulse of 1 N s along the unit vector n changes of this sphere's velocity along it, 1/kg.
 float ownWeightAlong(vec3 n)
 {
-#ifdef SPREAD
+#ifdef BODIES
     return own.weight + turningOf(ownBody, n);
 #else
     return own.weight;
@@ -81,7 +81,7 @@ float ownWeightAlong(vec3 n)
 float weightAlong(Meeting with, vec3 n, vec2 shares)
 {
     float other = with.sphere.weight;
-#ifdef SPREAD
+#ifdef BODIES
     other += turningOf(with.body, n);
 #endif
     return ownWeightAlong(n) * shares.x + other * shares.y;
@@ -90,7 +90,7 @@ float weightAlong(Meeting with, vec3 n, vec2 shares)
 // Of what this sphere gives way, the part that is the turning of its body.
 float turningPart(vec3 n)
 {
-#ifdef SPREAD
+#ifdef BODIES
     float turning = turningOf(ownBody, n);
     return turning / max(own.weight + turning, 1e-30);
 #else
@@ -108,7 +108,7 @@ Meeting meetingOf(int slot, int other, float bounceFrom)
                                bounceFrom, slot < other ? 1.0 : -1.0);
     with.meets = own.weight + with.sphere.weight > 0.0 && holds(other, slot);
     with.material = materialOf(own, with.sphere);
-#ifdef SPREAD
+#ifdef BODIES
     with.body = bodyOf(other, with.sphere);
 #endif
     return with;

@@ -27,7 +27,7 @@ class Fragments::Touched : public ContactState {
     void bind(const Program& program, size_t group) override {
         const GroupLayers& layers = path_->state[group];
         if (program.uses("oldState")) program.texture("oldState", 0, layers.state());
-        program.texture("oldRecords", 1, layers.records());
+        if (program.uses("oldRecords")) program.texture("oldRecords", 1, layers.records());
         if (program.uses("constants")) program.texture("constants", 2, layers.constants());
     }
     void apply(size_t group, const Gains& gains) override {

@@ -159,6 +159,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
                                        concat("MOST_WALLS ", ContactPlan::mostWalls)};
     if (self_) common.push_back("SELF");
     if (spreads_) common.push_back("SPREAD");
+    if (rigid_) common.push_back("BODIES");
     if (walls_) common.push_back("WALLS");
     if (contact_->remembers()) common.push_back("REMEMBERS");
     gpu::ProgramOptions options;

@@ -135,6 +135,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     define(bool(staggered_), "STAGGERED");
     define(self_, "SELF");
     define(spreads_, "SPREAD");
+    define(rigid_, "BODIES");
     define(walls_, "WALLS");
     define(contact_->remembers(), "REMEMBERS");
     options.cache = cache;

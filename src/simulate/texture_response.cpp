@@ -168,7 +168,7 @@ void TextureContact::spread(ContactState& state, const Texture& earlier, float m
 
 // Binds what tells of the totals of the spheres of a group, up to unit 7.
 void TextureContact::bindGroup(const Program& program, ContactState& state, size_t group) const {
-    if (groups_[group].many || spreads_) state.bind(program, contact_->groups[group].group);
+    if (spreads_) state.bind(program, contact_->groups[group].group);
     program.texture("slots", 3, slots_[now_]);
     program.texture("counts", 4, counts_[now_]);
     program.texture("totals", 5, totals_[0]);
