@@ -13,7 +13,7 @@ uniform TOTALS earlier;         // the same an iteration before
 
 // Of several contacts at once an iteration takes a larger step than one that is certainly stable, and across the normals a
 // smaller one; a contact alone has its impulse at once.
-const float overRelaxed = 1.6;
+const float overRelaxed = 1.3;
 const float frictionStep = 0.4;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
 
