@@ -4,10 +4,18 @@
 #include "contact/shape.glsl"
 #include "contact/spread.glsl"
 
-uniform float stepTime;  // s, of a contact step
+uniform float stepTime;   // s, of a contact step
+uniform float restSpeed;  // m/s
 
 layout(std430, binding = 0) buffer State { float state[]; };
 layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere
+
+#ifdef HISTORY
+bool isImpact(vec3 change, float rest)
+{
+    return length(change) > 0.1 * rest;
+}
+#endif
 
 void change(int molecule, int vertex, Total by)
 {
@@ -22,8 +30,13 @@ void change(int molecule, int vertex, Total by)
     loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
 #endif
 #ifdef HISTORY
-    // the same word for all vertices of a molecule: its next step starts anew (fused/bdf2.glsl)
-    state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 0)] = NO_HISTORY;
+    // What goes on nearly as it began has this for a part of its last substep; after an impact the next starts anew
+    // (fused/bdf2.glsl).
+    for (int c = 0; c < 3; ++c) {
+        state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] += by.shift[c];
+        state[floatIndex(first + 3 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] += by.impulse[c];
+    }
+    if (isImpact(by.impulse, restSpeed)) state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex)] = NO_HISTORY;
 #endif
 }
 

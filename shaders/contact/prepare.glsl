@@ -35,7 +35,9 @@ Entry prepare(int slot, int other)
     Meeting with = meetingOf(slot, other, isOld ? 1e30 : restSpeed);
     PairContact contact = with.contact;
     float reach = own.radius + with.sphere.radius;
-    Entry known = Entry(vec4(0.0), vec4(contact.impact ? contact.normal * reach : with.apart, 0.0));
+    // a little along the normal as well, which is then known where centres coincide
+    vec3 place = (contact.impact ? vec3(0.0) : with.apart) + contact.normal * ((contact.impact ? 1.0 : 1e-6) * reach);
+    Entry known = Entry(vec4(0.0), vec4(place, 0.0));
     if (contact.impact) return known;
     // what has not touched yet and comes fast will be an impact
     bool comes = !isOld && contact.depth <= 0.0 && contact.speed < -restSpeed;

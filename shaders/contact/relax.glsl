@@ -59,10 +59,10 @@ void loadOwn(int slot)
     ownMove = moveOf(slot, own);
 }
 
-// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps by more than 1 %.
+// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps by more than half a percent.
 float partingSpeed(float depth, float reach)
 {
-    return (min(depth, 0.0) + clamp(0.1 * (depth - 0.01 * reach), 0.0, 0.1 * stepTime)) / stepTime;
+    return (min(depth, 0.0) + clamp(0.1 * (depth - 0.005 * reach), 0.0, 0.1 * stepTime)) / stepTime;
 }
 
 // 1/kg, of the normal impulse and of friction: by what the step is divided. `count`: of the contacts that are answered at once.

@@ -155,6 +155,7 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
             .add("shapes", groups_[g].shapes.texture);
         if (rigid) textures.add("bodies", bodies_.texture);
         program.set("stepTime", float(times.step));
+        program.set("restSpeed", float(times.restSpeed));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
         setSpheres(program, g, part, first);
         store(program, "State", 0, buffers.currentState(part));
