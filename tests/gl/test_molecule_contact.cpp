@@ -96,10 +96,10 @@ Pairs missing(const Pairs& all, const Pairs& some) {
     return out;
 }
 
-// Whether the two overlap, or miss one another, by so little that rounding may tell otherwise.
+// Whether the two are in contact, or miss it, by so little that rounding may tell otherwise.
 bool isClose(const std::vector<reference::Sphere>& spheres, const std::pair<int, int>& pair) {
     const reference::Sphere &a = spheres[size_t(pair.first)], &b = spheres[size_t(pair.second)];
-    return std::abs(glm::distance(a.position, b.position) - a.radius - b.radius) <
+    return std::abs(glm::distance(a.position, b.position) - ContactPlan::near * (a.radius + b.radius)) <
            1e-6 * (a.radius + b.radius);
 }
 
@@ -272,7 +272,8 @@ Cloud cloud(int count, double side, vec2 material) {
     settings.stepTime = cloudStep;
     settings.restitution = double(material.x);
     settings.friction = double(material.y);
-    reference::respond(out.expected, out.contacts, settings);
+    reference::ContactMemory memory;
+    reference::respond(out.expected, out.contacts, settings, memory);
     return out;
 }
 
