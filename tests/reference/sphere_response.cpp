@@ -18,20 +18,20 @@ struct Answer {
 
 struct Meeting {
     size_t a = 0, b = 0;
-    double reach = 0;         // m
-    dvec3 between{0};         // m, from b to a
-    dvec3 normal{0, 1, 0};    // from b to a
-    double depth = 0;         // m
-    double speed = 0;         // m/s, along the normal
-    double since = 0;         // s, since the impact
-    bool impact = false;      // else the two rest on one another, or nearly touch
-    bool takesPart = true;    // else it is listed and does nothing
-    dvec3 anchor{0};          // m
-    double held = 0;          // N s, what it remembers of the last step
-    double weight = 0;        // 1/kg, of both spheres, each times the contacts that share it
-    bool alone = false;       // neither sphere has another contact
-    bool sticks = false;      // friction can hold all that it was asked to
-    Answer now, before;       // after this iteration and the last
+    double reach = 0;       // m
+    dvec3 between{0};       // m, from b to a
+    dvec3 normal{0, 1, 0};  // from b to a
+    double depth = 0;       // m
+    double speed = 0;       // m/s, along the normal
+    double since = 0;       // s, since the impact
+    bool impact = false;    // else the two rest on one another, or nearly touch
+    bool takesPart = true;  // else it is listed and does nothing
+    dvec3 anchor{0};        // m
+    double held = 0;        // N s, what it remembers of the last step
+    double weight = 0;      // 1/kg, of both spheres, each times the contacts that share it
+    bool alone = false;     // neither sphere has another contact
+    bool sticks = false;    // friction can hold all that it was asked to
+    Answer now, before;     // after this iteration and the last
 };
 
 // An impulse within Coulomb's cone about the normal.
@@ -129,6 +129,7 @@ class Response {
         // what has not touched yet and comes fast will be an impact
         const bool comes = !isKnown && m.depth <= 0 && m.speed < -settings_.restSpeed;
         m.takesPart = !comes && sphere(m.a).weight + sphere(m.b).weight > 0;
+        if (m.impact) m.anchor = m.reach * m.normal;
         if (m.impact || !m.takesPart) return;
         // where they are deep in one another, they leave as they came in
         const bool deep = m.depth > 0.25 * m.reach;
@@ -158,8 +159,7 @@ class Response {
         if (m.impact) return -settings_.restitution * m.speed;
         // it may close what is open, and lets go a tenth of what overlaps by more than 1 %
         const double much = 0.1 * (m.depth - 0.01 * m.reach);
-        return std::min(m.depth, 0.0) / settings_.stepTime +
-               std::clamp(much / settings_.stepTime, 0.0, 0.1);
+        return std::min(m.depth, 0.0) / settings_.stepTime + std::clamp(much / settings_.stepTime, 0.0, 0.1);
     }
 
     void relax(double momentum) {
@@ -189,8 +189,7 @@ class Response {
         m.now.impulse = withinCone(wanted, m.normal, settings_.friction);
         m.sticks = m.now.impulse == wanted;
         if (m.impact) return;
-        const double lacks =
-            std::min(m.depth, fastest * settings_.stepTime) - glm::dot(moved, m.normal);
+        const double lacks = std::min(m.depth, fastest * settings_.stepTime) - glm::dot(moved, m.normal);
         m.now.apart = std::max(m.now.apart + lacks * normalStep / m.weight, 0.0);
     }
 

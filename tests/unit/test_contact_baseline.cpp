@@ -81,7 +81,8 @@ TEST_CASE("the baseline of contact responds as the reference", "[contact baselin
         settings.restitution = double(step.restitution);
         settings.friction = double(step.friction);
         settings.iterations = step.iterations;
-        reference::respond(expected, contacts, settings);
+        reference::ContactMemory memory;
+        reference::respond(expected, contacts, settings, memory);
         ContactBaseline baseline(weights, 500, radius, threads);
         baseline.set(s.state);
         baseline.step(step);
