@@ -297,7 +297,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         validator.addBoth(std::string("contact/") + file + ".frag", set);
     };
     for (const char* file :
-         {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "effective", "apply"})
+         {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "apply"})
         contact(file);
     const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
                            "STATE_ELEMENTS 6", "VERTICES 4",       "SPHERES 6"};
@@ -310,14 +310,6 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     }
     for (const char* file : {"effective_sum", "spread"})
         contact(file, sizes);
-    for (const char* stage : {"guess", "relax", "friction", "correction"}) {
-        validator.generated.merge(responseStage(stage));
-        for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
-            contact("respond", set);
-        validator.generated.erase("generated/stage.glsl");
-    }
-    for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
-        contact("effective", set);
     contact("order", {"WALLS"});
     for (const char* file : {"find", "neighbors"})
         contact(file, {"SELF"});
