@@ -3,21 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bench/baseline_threads.h"
+#include "bench/contact_baseline_grid.h"
 #include "compile/contact_plan.h"
 
 namespace shoal::bench {
 
-using glm::ivec3;
 using glm::vec3;
 
 namespace {
-
-// By slot: a place in the order of the cells.
-struct Place {
-    vec3 position;  // m, of the world
-    int molecule;
-};
 
 struct Motion {
     vec3 velocity;
@@ -74,68 +67,38 @@ struct Active {
 
 // The part of one thread: what it found among its slots, and works on.
 struct Piece {
-    std::vector<uint32_t> next;  // of each cell: how many spheres of the piece, then the slot of the next one
-    std::vector<Contact> contacts;
+    std::vector<int> found;         // slots that others touch, those of one behind one another
+    std::vector<Contact> contacts;  // with them
     std::vector<Active> active;
     std::vector<Kept> kept;
-    uint32_t sum = 0;  // of all pieces' spheres in this piece's cells
 };
-
-ivec3 cellAt(const vec3& scaled) {
-    const ivec3 cut(scaled);
-    return cut - ivec3(scaled.x < float(cut.x), scaled.y < float(cut.y), scaled.z < float(cut.z));
-}
-
-// Cells of a row along x follow one another.
-uint32_t rowKey(int y, int z) {
-    uint32_t h = uint32_t(y) * 0x9E3779B1u ^ uint32_t(z) * 0x85EBCA77u;
-    h = (h ^ (h >> 15)) * 0x2C1B3C6Du;
-    return h ^ (h >> 13);
-}
 
 }  // namespace
 
 struct ContactBaseline::Data {
     Data(std::vector<float> given, int count, float r, int threadCount)
         : weights(std::move(given)),
-          vertices(int(weights.size())),
-          molecules(count),
           spheres(size_t(count) * weights.size()),
           reach(2 * r),
-          near(float(ContactPlan::near) * reach),
-          scale(1 / (2.01f * near)),  // a little wider than needed, so that rounding loses nothing
           threads(threadCount),
-          pieces(size_t(threadCount)) {
-        while (mask + 1 < spheres)
-            mask = 2 * mask + 1;
-        for (Piece& piece : pieces)
-            piece.next.resize(size_t(mask) + 1);
-        starts.resize(size_t(mask) + 2);
-        keys.resize(spheres);
-        places.resize(spheres);
-        motions.resize(spheres);
-        sphereOf.resize(spheres);
-        memory.resize(spheres);
-        counts.resize(spheres);
-        going.resize(spheres);
-        newGoing.resize(spheres);
-    }
+          grid(int(weights.size()), count, float(ContactPlan::near) * reach, threads),
+          pieces(size_t(threadCount)),
+          memory(spheres),
+          motions(spheres),
+          counts(spheres),
+          going(spheres),
+          newGoing(spheres) {}
 
     std::vector<float> weights;
-    int vertices, molecules;
     size_t spheres;
-    float reach, near, scale;  // m; m, below which two are in contact; cells a metre
-    uint32_t mask = 15;
+    float reach;  // m
     PinnedThreads threads;
+    SphereGrid grid;
     std::vector<Piece> pieces;
 
     GroupState state;
-    uint32_t number = 1;           // of the step
-    std::vector<uint32_t> keys;    // by sphere
-    std::vector<Memory> memory;    // by sphere
-    std::vector<uint32_t> starts;  // of the cells, in slots
-    std::vector<int> sphereOf;     // by slot
-    std::vector<Place> places;
+    uint32_t number = 1;         // of the step
+    std::vector<Memory> memory;  // by sphere
     // By slot, set where it takes part.
     std::vector<Motion> motions;
     std::vector<float> counts;  // of contacts, as they act on it together
@@ -146,106 +109,6 @@ struct ContactBaseline::Data {
         threads.run([this, &work](int thread) { work(thread, pieces[size_t(thread)]); });
     }
 
-    // Calls work(sphere, position, molecule) for the spheres of a thread.
-    template <typename Work>
-    void forSpheres(int thread, const Work& work) {
-        const auto [first, last] = threads.part(size_t(molecules), thread);
-        for (size_t m = first; m < last; ++m)
-            for (size_t s = m * size_t(vertices); s < (m + 1) * size_t(vertices); ++s)
-                work(s, state.anchors[m] + state.positions[s], int(m));
-    }
-
-    void count(int thread, Piece& piece) {
-        std::fill(piece.next.begin(), piece.next.end(), 0u);
-        forSpheres(thread, [&](size_t s, const vec3& position, int) {
-            const ivec3 cell = cellAt(position * scale);
-            keys[s] = (rowKey(cell.y, cell.z) + uint32_t(cell.x)) & mask;
-            ++piece.next[keys[s]];
-        });
-    }
-
-    void sumUp(int thread, Piece& piece) {
-        const auto [first, last] = threads.part(size_t(mask) + 1, thread);
-        piece.sum = 0;
-        for (const Piece& other : pieces)
-            for (size_t k = first; k < last; ++k)
-                piece.sum += other.next[k];
-    }
-
-    void begin(int thread) {
-        uint32_t slot = 0;
-        for (int before = 0; before < thread; ++before)
-            slot += pieces[size_t(before)].sum;
-        const auto [first, last] = threads.part(size_t(mask) + 1, thread);
-        for (size_t k = first; k < last; ++k) {
-            starts[k] = slot;
-            for (Piece& piece : pieces)
-                slot += std::exchange(piece.next[k], slot);
-        }
-        if (last == size_t(mask) + 1) starts[last] = slot;
-    }
-
-    void scatter(int thread, Piece& piece) {
-        forSpheres(thread, [&](size_t s, const vec3& position, int molecule) {
-            const uint32_t slot = piece.next[keys[s]]++;
-            places[slot] = {position, molecule};
-            sphereOf[slot] = int(s);
-        });
-    }
-
-    void buildGrid() {
-        each([this](int thread, Piece& piece) { count(thread, piece); });
-        each([this](int thread, Piece& piece) { sumUp(thread, piece); });
-        each([this](int thread, Piece&) { begin(thread); });
-        each([this](int thread, Piece& piece) { scatter(thread, piece); });
-    }
-
-    void meet(const Place& own, uint32_t from, uint32_t end, Piece& piece) const {
-        for (uint32_t slot = from; slot < end; ++slot) {
-            const Place& other = places[slot];
-            const vec3 d = own.position - other.position;
-            if (glm::dot(d, d) < near * near && own.molecule != other.molecule)
-                piece.contacts.emplace_back().other = int(slot);
-        }
-    }
-
-    // Cells are two diameters wide: only the eight on a sphere's side can hold one that it touches, four rows
-    // of two.
-    void look(int slot, Piece& piece) const {
-        const Place& own = places[size_t(slot)];
-        const vec3 scaled = own.position * scale;
-        const ivec3 cell = cellAt(scaled);
-        const vec3 inCell = scaled - vec3(cell);
-        const int x = cell.x - (inCell.x < 0.5f);
-        const int y[] = {cell.y, cell.y + (inCell.y < 0.5f ? -1 : 1)};
-        const int z[] = {cell.z, cell.z + (inCell.z < 0.5f ? -1 : 1)};
-        uint32_t seen[4];
-        for (int r = 0; r < 4; ++r) {
-            const uint32_t key = (rowKey(y[r & 1], z[r >> 1]) + uint32_t(x)) & mask;
-            seen[r] = key;
-            const size_t before = piece.contacts.size();
-            if (key < mask) {
-                meet(own, starts[key], starts[key + 2], piece);
-            } else {
-                meet(own, starts[key], starts[key + 1], piece);
-                meet(own, starts[0], starts[1], piece);
-            }
-            // rows whose keys are next to each other share cells: what an earlier one has found is there
-            // twice
-            for (int q = 0; q < r && piece.contacts.size() > before; ++q) {
-                if (((key - seen[q] + 1) & mask) > 2) continue;
-                const auto has = [&](const Contact& c) {
-                    return std::any_of(piece.contacts.begin() + ptrdiff_t(piece.active.back().begin),
-                                       piece.contacts.begin() + ptrdiff_t(before),
-                                       [&](const Contact& known) { return known.other == c.other; });
-                };
-                piece.contacts.erase(
-                    std::remove_if(piece.contacts.begin() + ptrdiff_t(before), piece.contacts.end(), has),
-                    piece.contacts.end());
-            }
-        }
-    }
-
     // Returns what the last step has left of a sphere.
     Memory remembered(size_t sphere) const {
         const Memory& known = memory[sphere];
@@ -253,24 +116,21 @@ struct ContactBaseline::Data {
     }
 
     void find(int thread, Piece& piece) {
-        piece.contacts.clear();
+        piece.found.clear();
         piece.active.clear();
         const auto [first, last] = threads.part(spheres, thread);
         for (size_t slot = first; slot < last; ++slot) {
-            const int begin = int(piece.contacts.size());
-            piece.active.push_back({int(slot), begin, begin, vec3(0), vec3(0), vec3(0)});
-            look(int(slot), piece);
-            Active& active = piece.active.back();
-            active.end = int(piece.contacts.size());
-            const auto sphere = size_t(sphereOf[slot]);
+            const int begin = int(piece.found.size());
+            grid.look(int(slot), piece.found);
+            const int end = int(piece.found.size());
+            const auto sphere = size_t(grid.sphereOf(int(slot)));
             const Memory known = remembered(sphere);
-            active.acted = known.load;
             // what is remembered has to be taken back, even where nothing is touched any more
-            if (active.begin == active.end && known.begin == known.end)
-                piece.active.pop_back();
-            else
-                motions[slot] = {state.velocities[sphere], weights[sphere % size_t(vertices)]};
+            if (begin == end && known.begin == known.end) continue;
+            piece.active.push_back({int(slot), begin, end, known.load, vec3(0), vec3(0)});
+            motions[slot] = {state.velocities[sphere], weights[sphere % weights.size()]};
         }
+        piece.contacts.resize(piece.found.size());
     }
 
     // Sets the place, or the impact that has been since the last step: of one that is not known.
@@ -307,8 +167,8 @@ struct ContactBaseline::Data {
         const auto a = size_t(slot), b = size_t(other);
         Contact out;
         out.other = other;
-        const Kept* known = keptOf(memoryOfOwn, sphereOf[b]);
-        const vec3 d = places[a].position - places[b].position;
+        const Kept* known = keptOf(memoryOfOwn, grid.sphereOf(other));
+        const vec3 d = grid.position(slot) - grid.position(other);
         meet(out, d, motions[a].velocity - motions[b].velocity, known != nullptr, slot < other, step);
         out.stepAlong = motions[a].weight;
         out.stepAcross = motions[b].weight;
@@ -341,12 +201,12 @@ struct ContactBaseline::Data {
     void prepare(Piece& piece, const ContactBaselineStep& step) {
         for (Active& active : piece.active) {
             const auto slot = size_t(active.slot);
-            const Memory known = remembered(size_t(sphereOf[slot]));
+            const Memory known = remembered(size_t(grid.sphereOf(active.slot)));
             vec3 squares(0), mixed(0);
             active.total = -active.acted;
             for (int c = active.begin; c < active.end; ++c) {
                 Contact& contact = piece.contacts[size_t(c)];
-                contact = contactOf(active.slot, contact.other, known, step);
+                contact = contactOf(active.slot, piece.found[size_t(c)], known, step);
                 active.total += contact.impulse;
                 const vec3 n = contact.takesPart ? contact.normal : vec3(0);
                 squares += n * n;
@@ -420,7 +280,7 @@ struct ContactBaseline::Data {
     void apply(int thread, Piece& piece) {
         piece.kept.clear();
         for (const Active& active : piece.active) {
-            const auto slot = size_t(active.slot), sphere = size_t(sphereOf[slot]);
+            const auto slot = size_t(active.slot), sphere = size_t(grid.sphereOf(active.slot));
             Memory& known = memory[sphere];
             known = {number, thread, int(piece.kept.size()), 0, vec3(0)};
             vec3 shift = active.shift;
@@ -441,13 +301,13 @@ struct ContactBaseline::Data {
     vec3 settle(int slot, const Contact& contact) const {
         if (contact.since > 0) return contact.impulse * contact.since;
         if (!contact.sticks) return vec3(0);
-        vec3 slip = places[size_t(slot)].position - places[size_t(contact.other)].position - contact.anchor;
+        vec3 slip = grid.position(slot) - grid.position(contact.other) - contact.anchor;
         slip -= contact.normal * glm::dot(slip, contact.normal);
         return slip * (-contact.mass * std::min(1.0f, 0.002f * reach / std::max(glm::length(slip), 1e-30f)));
     }
 
     Kept keptOf(const Contact& contact) const {
-        const int other = sphereOf[size_t(contact.other)];
+        const int other = grid.sphereOf(contact.other);
         if (contact.since > 0) return {other, false, vec3(0), contact.anchor};
         // memory takes in a half of what an impulse has grown by
         const float now = glm::length(contact.impulse), grown = std::max(now - contact.held, 0.0f);
@@ -472,7 +332,7 @@ void ContactBaseline::get(GroupState& state) const {
 
 void ContactBaseline::step(const ContactBaselineStep& step) {
     Data& data = *data_;
-    data.buildGrid();
+    data.grid.build(data.state);
     data.each([&](int thread, Piece& piece) { data.find(thread, piece); });
     data.each([&](int, Piece& piece) { data.prepare(piece, step); });
     data.each([&](int, Piece& piece) { data.share(piece); });
@@ -489,9 +349,9 @@ std::vector<std::pair<int, int>> ContactBaseline::found() const {
     std::vector<std::pair<int, int>> out;
     for (const Piece& piece : data_->pieces) {
         for (const Active& active : piece.active) {
-            const int own = data_->sphereOf[size_t(active.slot)];
+            const int own = data_->grid.sphereOf(active.slot);
             for (int c = active.begin; c < active.end; ++c) {
-                const int other = data_->sphereOf[size_t(piece.contacts[size_t(c)].other)];
+                const int other = data_->grid.sphereOf(piece.found[size_t(c)]);
                 if (own < other) out.emplace_back(own, other);
             }
         }
