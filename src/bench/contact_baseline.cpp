@@ -183,7 +183,7 @@ struct ContactBaseline::Data {
         if (known) out.impulse = withinFriction(known->impulse, out.normal, step.friction, out.sticks);
         out.earlier = out.impulse;
         out.held = glm::length(out.impulse);
-        const float letGo = std::clamp(0.1f * (out.lacks - 0.01f * reach), 0.0f, 0.1f * step.stepTime);
+        const float letGo = std::clamp(0.1f * (out.lacks - 0.005f * reach), 0.0f, 0.1f * step.stepTime);
         out.target = (std::min(out.lacks, 0.0f) + letGo) / step.stepTime;
         out.lacks = std::min(out.lacks, step.stepTime);  // at 1 m/s
         return out;
@@ -237,8 +237,8 @@ struct ContactBaseline::Data {
                 const float weight = contact.stepAlong * own + contact.stepAcross * other;
                 const bool alone = std::max(own, other) < 1.003f;
                 contact.mass = contact.takesPart ? 1 / weight : 0;
-                contact.stepAlong = contact.mass * (alone ? 1 : 1.6f);
-                contact.stepAcross = contact.mass * (alone ? 1 : 1.6f * 0.4f);
+                contact.stepAlong = contact.mass * (alone ? 1 : 1.3f);
+                contact.stepAcross = contact.mass * (alone ? 1 : 1.3f * 0.4f);
             }
         }
     }

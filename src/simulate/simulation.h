@@ -35,10 +35,10 @@ struct SavedState {
     double time = 0;  // s
     int frames = 0;
     std::vector<GroupState> groups;
-    ContactMemory contacts;
     // s, of the last substep; 0: none, or forces have jumped since. A solver with history goes on only with
     // the same.
     double step = 0;
+    ContactMemory contacts;
 };
 
 class Simulation {

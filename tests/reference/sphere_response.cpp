@@ -158,7 +158,7 @@ class Response {
     double target(const Meeting& m) const {
         if (m.impact) return -settings_.restitution * m.speed;
         // it may close what is open, and lets go a tenth of what overlaps by more than 1 %
-        const double much = 0.1 * (m.depth - 0.01 * m.reach);
+        const double much = 0.1 * (m.depth - 0.005 * m.reach);
         return std::min(m.depth, 0.0) / settings_.stepTime + std::clamp(much / settings_.stepTime, 0.0, 0.1);
     }
 
@@ -181,7 +181,7 @@ class Response {
 
     // u, moved: m/s and m, of the first sphere relative to the second, as all contacts make it.
     void improve(Meeting& m, const dvec3& u, const dvec3& moved) const {
-        constexpr double larger = 1.6, ofFriction = 0.4, fastest = 1;  // the last in m/s
+        constexpr double larger = 1.3, ofFriction = 0.4, fastest = 1;  // the last in m/s
         const double along = glm::dot(u, m.normal);
         const double normalStep = m.alone ? 1 : larger, acrossStep = m.alone ? 1 : larger * ofFriction;
         const dvec3 wanted = m.now.impulse + m.normal * (target(m) - along) * (normalStep / m.weight) -
