@@ -6,37 +6,32 @@
 
 uniform float stepTime;   // s, of a contact step
 uniform float restSpeed;  // m/s
+uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
 layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere
 
-#ifdef HISTORY
-bool isImpact(vec3 change, float rest)
-{
-    return length(change) > 0.1 * rest;
-}
-#endif
-
 void change(int molecule, int vertex, Total by)
 {
     int first = firstElement(molecule, STATE_ELEMENTS);
+    vec3 v;
     for (int c = 0; c < 3; ++c) {
         int place = floatIndex(first, 3 * vertex + c);
         state[place] += by.shift[c];
         place = floatIndex(first + POSITION_ELEMENTS * BLOCK, 3 * vertex + c);
-        state[place] += by.impulse[c];
+        v[c] = state[place] + by.impulse[c];
+        state[place] = v[c];
     }
 #ifdef REMEMBERS
     loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
 #endif
 #ifdef HISTORY
-    // What goes on nearly as it began has this for a part of its last substep; after an impact the next starts anew
-    // (fused/bdf2.glsl).
+    // What is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl).
+    bool slow = length(v) < restSpeed;
     for (int c = 0; c < 3; ++c) {
-        state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] += by.shift[c];
-        state[floatIndex(first + 3 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] += by.impulse[c];
+        state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = slow ? v[c] * substepTime : NO_HISTORY;
+        state[floatIndex(first + 3 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = 0.0;
     }
-    if (isImpact(by.impulse, restSpeed)) state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex)] = NO_HISTORY;
 #endif
 }
 

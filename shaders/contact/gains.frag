@@ -1,5 +1,5 @@
-// gains: a texel a sphere, of one group: what contact adds to the velocity (m/s) and place (m) of its vertex, and what acts on it
-// over the next step (m/s^2). With MANY the contacts of several spheres act on a vertex (contact/spread.glsl).
+// gains: a texel a sphere, of one group: what contact adds to the velocity (m/s; w 1: it does) and place (m) of its vertex, and what
+// acts on it over the next step (m/s^2). With MANY the contacts of several spheres act on a vertex (contact/spread.glsl).
 #include "state/numbered.glsl"
 #ifdef MANY
 #include "contact/shape.glsl"
@@ -31,16 +31,18 @@ void main()
     int vertex = number - molecule * SPHERES;
     Total by = noTotal();
     if (vertex < VERTICES) by = changeOf(molecule, vertex);
-    newGains[0] = vec4(by.impulse, 0.0);
+    bool any = by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0);
+    newGains[0] = vec4(by.impulse, any ? 1.0 : 0.0);
     newGains[1] = vec4(by.shift, 0.0);
     newLoad = vec4(by.load / stepTime, 0.0);
 #else
     int slot = int(fetch(slots, sphere).x);
-    float weight = fetch(counts, slot).x == 0u ? 0.0 : uintBitsToFloat(fetch(motions, slot).w & ~FRESH);
-    newGains = vec4[2](vec4(0.0), vec4(0.0));
+    bool any = fetch(counts, slot).x != 0u;
+    float weight = any ? uintBitsToFloat(fetch(motions, slot).w & ~FRESH) : 0.0;
+    newGains = vec4[2](vec4(0.0, 0.0, 0.0, any ? 1.0 : 0.0), vec4(0.0));
     newLoad = vec4(0.0);
     if (weight > 0.0) {
-        newGains[0] = vec4(firstTotal(totals, slot) * weight, 0.0);
+        newGains[0] = vec4(firstTotal(totals, slot) * weight, 1.0);
         newGains[1] = vec4(secondTotal(totals, slot) * weight, 0.0);
         newLoad = vec4(fetch(known, slot).xyz * (weight / stepTime), 0.0);
     }

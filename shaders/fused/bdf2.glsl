@@ -45,14 +45,20 @@ vec3 wayBeyond(vec3 moved, vec3 gained, vec3 ended)
 }
 
 // Takes into a vertex's history how contact has changed its place (m) and velocity v (m/s). Returns whether that was an
-// impact: what goes on as it began, at rest mostly, within the roundings below, has none.
+// impact: what goes on as it began, at rest mostly, within the roundings below, has none. What contact leaves slower than
+// gravity makes it in two substeps goes on as if it had moved so before, or what jitters would begin anew for ever.
 bool changeHistory(vec3 shift, vec3 change, inout vec3 displacement, inout vec3 gained, vec3 ended)
 {
     gained += change;
     vec3 along = (ended + change - gained) * substep;
     vec3 off = displacement + shift - along;
     displacement = along;  // what rests leaves no rounding of a way
-    return dot(gained, gained) > 1e-10 || dot(off, off) > 1e-12;
+    if (dot(gained, gained) <= 1e-10 && dot(off, off) <= 1e-12) return false;
+    vec3 now = ended + change;
+    if (dot(now, now) > 4.0 * dot(gravity, gravity) * substep * substep) return true;
+    gained = vec3(0.0);
+    displacement = now * substep;
+    return false;
 }
 
 void endHistory()

@@ -4,6 +4,8 @@
 uniform sampler2DArray gains;
 uniform int firstSphere;  // of the group
 uniform int groupMolecules;
+uniform float restSpeed;    // m/s
+uniform float substepTime;  // s
 
 void main()
 {
@@ -11,16 +13,18 @@ void main()
     loadState(molecule);
     loadRecord(molecule);
     int sphere = firstSphere + min(molecule, groupMolecules - 1) * SPHERES;  // texels past the last do what it does
-    bool touched = false;
     for (int i = 0; i < VERTICES; ++i) {
         vec3 velocity = texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).xyz;
         vec3 shift = texelFetch(gains, ivec3(texelOf(sphere + i), 1), 0).xyz;
-        touched = touched || velocity != vec3(0.0) || shift != vec3(0.0);
         x[i] += shift;
         v[i] += velocity;
-    }
 #ifdef HISTORY
-    if (touched) dx[0].x = NO_HISTORY;  // its next step starts anew (fused/bdf2.glsl)
+        if (texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).w > 0.0) {
+            // what is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl)
+            dx[i] = length(v[i]) < restSpeed ? v[i] * substepTime : vec3(NO_HISTORY);
+            dv[i] = vec3(0.0);
+        }
 #endif
+    }
     storeState(molecule);
 }

@@ -34,13 +34,14 @@ class ContactPasses : public ContactResult {
         const auto timer = timers.time("contact response");
         const double stepTime = frame.parameters.frameTime;
         // what gravity adds in two steps is no bounce
-        respond(state, {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime});
+        respond(state, {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h});
     }
 
   protected:
     struct Times {
         double step;       // s
         double restSpeed;  // m/s
+        double substep;    // s
     };
     ContactPasses(const Plan& plan, const Tables& tables)
         : plan_(&plan), contact_(&plan.contact), tables_(&tables) {}

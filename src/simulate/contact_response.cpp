@@ -156,6 +156,7 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
         if (rigid) textures.add("bodies", bodies_.texture);
         program.set("stepTime", float(times.step));
         program.set("restSpeed", float(times.restSpeed));
+        program.set("substepTime", float(times.substep));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
         setSpheres(program, g, part, first);
         store(program, "State", 0, buffers.currentState(part));

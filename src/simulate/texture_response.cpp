@@ -207,6 +207,9 @@ void TextureContact::apply(ContactState& state, const Times& times) {
         state.apply(group.group, [&](const Program& applies, int firstUnit) {
             applies.set("firstSphere", group.firstSphere);
             applies.texture("gains", firstUnit, gains_);
+            if (!applies.uses("restSpeed")) return;  // it has no history
+            applies.set("restSpeed", float(times.restSpeed));
+            applies.set("substepTime", float(times.substep));
         });
     }
 }
