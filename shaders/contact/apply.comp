@@ -1,65 +1,48 @@
-// Adds the impulses and shifts of contact to the vertices of one group in the state.
-//   without TRIANGLES: one lane per slot in contact, which is that of a vertex, and nothing else acts on it
-//   TRIANGLES: one lane per vertex, on which the spheres of the triangles around it act as well
+// Adds what contact does to the vertices of one group in the state, and leaves what acts on them over the next step.
+//   MANY: a lane a vertex, on which the contacts of several spheres act (contact/spread.glsl)
+//   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
 #include "contact/shape.glsl"
+#include "contact/spread.glsl"
 
-uniform usamplerBuffer counts;
-uniform samplerBuffer impulses;  // kg m/s
-uniform samplerBuffer shifts;    // kg m
-uniform samplerBuffer oldRecords;
+uniform float stepTime;   // s, of a contact step
+uniform float restSpeed;  // m/s
+uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
+layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere
 
-void change(int molecule, int vertex, vec3 impulse, vec3 shift)
+void change(int molecule, int vertex, Total by)
 {
-    float weight = weightOf(shapeOf(vertex), texelFetch(oldRecords, molecule).w < 0.0);
     int first = firstElement(molecule, STATE_ELEMENTS);
+    vec3 v;
     for (int c = 0; c < 3; ++c) {
         int place = floatIndex(first, 3 * vertex + c);
-        state[place] += shift[c] * weight;
+        state[place] += by.shift[c];
         place = floatIndex(first + POSITION_ELEMENTS * BLOCK, 3 * vertex + c);
-        state[place] += impulse[c] * weight;
+        v[c] = state[place] + by.impulse[c];
+        state[place] = v[c];
     }
+#ifdef REMEMBERS
+    loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
+#endif
 #ifdef HISTORY
-    // the same word for all vertices of a molecule: its next step starts anew (fused/bdf2.glsl)
-    state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 0)] = NO_HISTORY;
+    // What is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl).
+    bool slow = length(v) < restSpeed;
+    for (int c = 0; c < 3; ++c) {
+        state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = slow ? v[c] * substepTime : NO_HISTORY;
+        state[floatIndex(first + 3 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = 0.0;
+    }
 #endif
 }
 
-#ifdef TRIANGLES
-uniform usamplerBuffer slots;  // of a sphere
-
+#ifdef MANY
 void main()
 {
-    int vertices = partSpheres / SPHERES * VERTICES;
-    int lane = min(int(gl_GlobalInvocationID.x), vertices - 1);
-    bool inside = int(gl_GlobalInvocationID.x) < vertices;
+    int lane = int(gl_GlobalInvocationID.x);
     int molecule = lane / VERTICES;
-    int vertex = lane - molecule * VERTICES;
-    int sphere = firstSphere + molecule * SPHERES;
-    vec4 shape = shapeOf(vertex);
-    vec3 impulse = vec3(0.0);
-    vec3 shift = vec3(0.0);
-    bool touched = false;
-    int slot = int(texelFetch(slots, sphere + vertex).x);
-    if (inside && texelFetch(counts, slot).x > 0u) {
-        touched = true;
-        impulse = texelFetch(impulses, slot).xyz;
-        shift = texelFetch(shifts, slot).xyz;
-    }
-    int left = inside ? int(shape.w) : 0;
-    for (int i = 0; i < left; ++i) {
-        slot = int(texelFetch(slots, sphere + int(shapeOf(int(shape.z) + i).x)).x);
-        if (texelFetch(counts, slot).x > 0u) {
-            touched = true;
-            impulse += texelFetch(impulses, slot).xyz / 3.0;
-            shift += texelFetch(shifts, slot).xyz / 3.0;
-        }
-    }
-    while (touched) {
-        change(molecule, vertex, impulse, shift);
-        touched = false;
-    }
+    if (molecule * SPHERES >= partSpheres) return;
+    Total by = changeOf(molecule, lane - molecule * VERTICES);
+    if (by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0)) change(molecule, lane - molecule * VERTICES, by);
 }
 #else
 #include "contact/touching.glsl"
@@ -70,11 +53,11 @@ void main()
 {
     int slot = touchingSlot();
     int lane = slot < 0 ? -1 : int(texelFetch(sorted, slot).y) - firstSphere;
-    bool touched = lane >= 0 && lane < partSpheres;
-    while (touched) {
-        int molecule = lane / SPHERES;
-        change(molecule, lane - molecule * SPHERES, texelFetch(impulses, slot).xyz, texelFetch(shifts, slot).xyz);
-        touched = false;
-    }
+    if (lane < 0 || lane >= partSpheres) return;
+    int molecule = lane / SPHERES;
+    Total by = noTotal();
+    add(by, Total(firstTotal(totals, slot), secondTotal(totals, slot), texelFetch(known, slot).xyz),
+        weightOf(shapeOf(lane - molecule * SPHERES), texelFetch(oldRecords, molecule).w < 0.0));
+    change(molecule, lane - molecule * SPHERES, by);
 }
 #endif

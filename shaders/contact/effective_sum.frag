@@ -3,7 +3,7 @@
 #include "contact/effective_sum.glsl"
 #include "contact/own_sphere.glsl"
 
-layout(location = 0) out uvec4 effectiveCount;
+layout(location = 0) out uvec4 newEffectiveCount;
 
 void main()
 {
@@ -11,5 +11,5 @@ void main()
     if (lane < 0 || lane >= partSpheres) discard;
     int molecule = lane / SPHERES;
     float sum = effectiveSum(firstSphere + molecule * SPHERES, lane - molecule * SPHERES);
-    effectiveCount = uvec4(floatBitsToUint(sum), 0u, 0u, 0u);
+    newEffectiveCount = uvec4(floatBitsToUint(sum), 0u, 0u, 0u);
 }

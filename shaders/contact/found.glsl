@@ -1,5 +1,7 @@
 // A texel a slot: the list of the spheres that search() finds (contact/touch.glsl).
+#ifndef REMEMBERS
 uniform UINTS oldCounts;
+#endif
 
 layout(location = 0) out uvec4 newCounts;  // x contacts; y those left out so far, of whatever had this slot
 layout(location = 1) out uvec4 newLists[LIST / 4];
@@ -11,6 +13,6 @@ void main()
     for (int i = 0; i < LIST / 4; ++i) entries[i] = uvec4(0u);
     search(slot);
     uint before = fetch(oldCounts, slot).y;
-    newCounts = uvec4(uint(found), before + uint(max(found - LIST, 0)), 0u, 0u);
+    newCounts = uvec4(countFound(slot), before + uint(max(found - LIST, 0)), 0u, 0u);
     newLists = entries;
 }

@@ -1,20 +1,39 @@
-// The list of a slot's contacts, of which it holds LIST at most (set by C++): entry e of slot s is lists[e * listStride + s],
-// or with TEXTURES one of four numbers of layer e / 4. `counts` may be more than a list holds.
+// The list of a slot's contacts, of which it holds LIST at most (set by C++). `counts`: how many a slot has, which may be more
+// than its list holds, and RESPONDS. What is kept of an entry lies at e * listStride + slot, or with TEXTURES in layer e; the
+// lists themselves lie there four entries to a texel.
 uniform UINTS counts;
 
 #ifdef TEXTURES
-uniform usampler2DArray lists;
+#define LISTS usampler2DArray
+#define ENTRIES sampler2DArray
+#define entry(values, slot, e) texelFetch(values, ivec3(texelOf(slot), e), 0)
 
-int entryOf(int slot, int e)
+int entryIn(LISTS entries, int slot, int e)
 {
-    return int(texelFetch(lists, ivec3(texelOf(slot), e >> 2), 0)[e & 3]);
+    return int(texelFetch(entries, ivec3(texelOf(slot), e >> 2), 0)[e & 3]);
 }
 #else
-uniform usamplerBuffer lists;
+#define LISTS usamplerBuffer
+#define ENTRIES samplerBuffer
+#define entry(values, slot, e) texelFetch(values, (e) * listStride + (slot))
+
 uniform int listStride;
+
+int entryIn(LISTS entries, int slot, int e)
+{
+    return int(texelFetch(entries, e * listStride + slot).x);
+}
+#endif
+
+uniform LISTS lists;
 
 int entryOf(int slot, int e)
 {
-    return int(texelFetch(lists, e * listStride + slot).x);
+    return entryIn(lists, slot, e);
 }
-#endif
+
+// Of the spheres that a slot touches, how many its list holds.
+int listedOf(int slot)
+{
+    return min(int(fetch(counts, slot).x & CONTACTS), LIST);
+}

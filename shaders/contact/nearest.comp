@@ -2,16 +2,15 @@
 #include "contact/touching.glsl"
 #include "contact/nearest.glsl"
 
-layout(std430, binding = 0) writeonly buffer NewImpulses { vec4 newImpulses[]; };
-layout(std430, binding = 2) writeonly buffer Shifts { vec4 shifts[]; };
+layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 
 void main()
 {
     int taken = touchingSlot();
     int slot = max(taken, 0);
-    Nearest response = respondToNearest(slot, taken < 0 ? 0 : min(int(texelFetch(counts, slot).x), LIST));
+    Nearest response = respondToNearest(slot, taken < 0 ? 0 : listedOf(slot));
     if (taken >= 0) {
-        newImpulses[slot] = vec4(response.impulse, 0.0);
-        shifts[slot] = vec4(response.shift, 0.0);
+        newTotals[2 * slot] = vec4(response.impulse, 0.0);
+        newTotals[2 * slot + 1] = vec4(response.shift, 0.0);
     }
 }

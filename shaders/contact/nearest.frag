@@ -7,7 +7,7 @@ layout(location = 1) out vec4 newShift;
 void main()
 {
     int slot = ownNumber();
-    int listed = slot < count ? min(int(fetch(counts, slot).x), LIST) : 0;
+    int listed = slot < count ? listedOf(slot) : 0;
     if (listed == 0) discard;
     Nearest response = respondToNearest(slot, listed);
     newImpulse = vec4(response.impulse, 0.0);

@@ -23,14 +23,12 @@ Nearest respondToNearest(int slot, int listed)
     Sphere other = sphereAt(nearest);
     vec3 u = own.velocity - other.velocity;
     float w = own.weight + other.weight;
-    PairContact contact = contactOf(own, other, slot < nearest ? 1.0 : -1.0);
+    PairContact contact = pairContact(localDifference(own.place, other.place, cell), u, own.radius + other.radius, stepTime,
+                                      restSpeed, slot < nearest ? 1.0 : -1.0);
     vec2 material = materialOf(own, other);
     float target = contact.impact ? -material.x * contact.speed : max(contact.speed, 0.0);
-    float total = w > 0.0 ? pairImpulse(contact.speed, target, 0.0, w, 1.0) : 0.0;
-    vec3 impulse = contact.normal * total;
-    vec3 along = u - contact.normal * contact.speed;
-    float slip = length(along);
-    impulse -= along * (w > 0.0 ? min(material.y * total, slip / w) / max(slip, 1e-30) : 0.0);
+    vec3 impulse = w > 0.0 ? pairImpulse(u, contact.normal, target, vec3(0.0), vec2(w)) : vec3(0.0);
+    impulse = withinFriction(impulse, contact.normal, material.y);
     vec3 apart = contact.normal * (w > 0.0 ? contact.depth / w : 0.0);
     return Nearest(impulse, contact.impact ? impulse * contact.since : apart);
 }

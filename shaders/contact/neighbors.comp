@@ -32,7 +32,7 @@ void main()
     int slot = slotAt(place);
     loadOwn(slot);
 #ifdef STAGGERED
-    found = int(counts[slot]);
+    found = int(counts[slot] & CONTACTS);
 #endif
     for (int k = -NEIGHBORS; k <= NEIGHBORS; ++k) {
         int at = place + k;

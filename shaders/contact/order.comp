@@ -19,9 +19,7 @@ uniform int keyMask;
 layout(std430, binding = 1) writeonly buffer Places { dvec2 newPlaces[]; };
 layout(std430, binding = 4) writeonly buffer Cells { dvec2 newCells[]; };
 #endif
-#ifdef SLOTS
 layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
-#endif
 #include "contact/touching.glsl"
 
 layout(local_size_x = 64) in;
@@ -53,8 +51,6 @@ void main()
     newCells[slot] = dvec2(packDouble2x32(cell.xy), packDouble2x32(cell.zw));
     writeStarts(slot, pair.x, count, keyMask + 1);
 #endif
-#ifdef SLOTS
     slots[sphere] = uint(slot);
-#endif
     if (gl_GlobalInvocationID.x == 0u) noneTouches();
 }

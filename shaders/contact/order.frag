@@ -7,16 +7,10 @@ uniform UINTS spherePlaces;
 uniform UINTS sphereMotions;
 uniform UINTS sphereCells;
 uniform int count;
-#ifdef WALLS
-uniform sampler2D sphereWalls;
-#endif
 
 layout(location = 0) out uvec4 newPlace;
 layout(location = 1) out uvec4 newMotion;
 layout(location = 2) out uvec4 newCell;
-#ifdef WALLS
-layout(location = 3) out vec4 newWall;
-#endif
 
 void main()
 {
@@ -26,7 +20,4 @@ void main()
     newPlace = fetch(spherePlaces, sphere);
     newMotion = fetch(sphereMotions, sphere);
     newCell = fetch(sphereCells, sphere);
-#ifdef WALLS
-    newWall = fetch(sphereWalls, sphere);
-#endif
 }

@@ -3,12 +3,10 @@
 //   places   by slot: xyz local position as bits (physics/cells.glsl), w label: group * 2^26 + molecule
 //   sorted   by slot: y its sphere
 //   cells    by slot: xyz cell, w radius as bits
-//   motions  by sphere: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held
-//
-// With TEXTURES motions are by slot as well; contact within a molecule (SELF) and the staggered search need the spheres'
-// numbers.
+//   motions  by sphere, or with TEXTURES by slot: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held, and FRESH
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
+#include "contact/flags.glsl"
 
 uniform int count;     // spheres
 uniform int keyMask;   // of the table of cells
@@ -18,20 +16,20 @@ uniform UINTS motions;
 uniform UINTS cells;
 
 #ifdef TEXTURES
-// Where the motion of a slot is.
-int motionOf(int slot)
-{
-    return slot;
-}
 #include "sort/pairs.glsl"
-#if defined(SELF) || defined(STAGGERED)
+
 uniform usampler2D sorted;
 
 int sphereOf(int slot)
 {
     return int(pairAt(sorted, slot).y);
 }
-#endif
+
+// Where the motion of a slot is.
+int motionOf(int slot)
+{
+    return slot;
+}
 #else
 layout(local_size_x = 64) in;
 

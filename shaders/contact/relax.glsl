@@ -1,43 +1,119 @@
-// The stage of contact/respond.glsl that is repeated until contacts have their speeds, or nearly.
+// The stage of contact/respond.glsl that is repeated.
 #include "contact/respond.glsl"
+#include "contact/totals.glsl"
 
-vec3 impulseAhead(int slot)
+uniform UINTS effectiveCounts;  // by slot, as bits (contact/prepare.glsl)
+uniform float momentum;         // Nesterov's: by how much of its last change an iteration goes on first
+#ifdef SPREAD
+uniform TOTALS motionsNow;      // contact/spread.glsl
+#else
+uniform TOTALS totals;
+uniform TOTALS earlier;         // the same an iteration before
+#endif
+
+// Of several contacts at once an iteration takes a larger step than one that is certainly stable, and across the normals a
+// smaller one; a contact alone has its impulse at once.
+const float overRelaxed = 1.3;
+const float frictionStep = 0.4;
+const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
+
+float ownCount;
+vec3 ownVelocity;
+vec3 ownMove;
+
+vec3 ahead(vec3 now, vec3 before)
 {
-    vec3 now = impulseOf(slot);
-    return now + (now - fetch(earlier, slot).xyz) * momentum;
+    return momentum == 0.0 ? now : now + (now - before) * momentum;  // nobody may have written what was before
 }
 
-void respond(int slot, int listed)
+// m/s, as the impulses make it.
+vec3 velocityOf(int slot, Sphere sphere)
 {
-    loadOwn(slot);
-    impulse = impulseAhead(slot);
-    ownVelocity = velocityOf(slot, own, impulse);
-    for (int e = 0; e < listed; ++e) {
-        int other = entryOf(slot, e);
-        Meeting with = meetingOf(slot, other);
-        PairContact contact = with.contact;
-        float speed = dot(ownVelocity - velocityOf(other, with.sphere, impulseAhead(other)), contact.normal);
-        vec2 pushes = pushesOf(slot, e);
-        float before = max(pushes.x + (pushes.x - pushes.y) * momentum, -1e30);
-        float restitution = materialOf(own, with.sphere).x;
-        float target = contact.impact ? -restitution * contact.speed : max(contact.speed, 0.0);
-        float change = with.meets ? pairImpulse(speed, target, before, with.weight, with.share) : 0.0;
-        storePushes(slot, e, vec2(before + change, pushes.x));
-        impulse += contact.normal * change;
-    }
+#ifdef SPREAD
+    return firstTotal(motionsNow, slot);
+#else
+    return sphere.velocity + ahead(firstTotal(totals, slot), firstTotal(earlier, slot)) * sphere.weight;
+#endif
 }
 
-void storeMore(int slot)
+// m, by which shifts move the sphere.
+vec3 moveOf(int slot, Sphere sphere)
 {
+#ifdef SPREAD
+    return secondTotal(motionsNow, slot);
+#else
+    return ahead(secondTotal(totals, slot), secondTotal(earlier, slot)) * sphere.weight;
+#endif
+}
+
+float countOf(int slot)
+{
+    return uintBitsToFloat(fetch(effectiveCounts, slot).x);
+}
+
+void loadOwn(int slot)
+{
+    loadSphere(slot);
+    ownCount = countOf(slot);
+    ownVelocity = velocityOf(slot, own);
+    ownMove = moveOf(slot, own);
+}
+
+// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps by more than half a percent.
+float partingSpeed(float depth, float reach)
+{
+    return (min(depth, 0.0) + clamp(0.1 * (depth - 0.005 * reach), 0.0, 0.1 * stepTime)) / stepTime;
+}
+
+// 1/kg, of the normal impulse and of friction: by what the step is divided. `count`: of the contacts that are answered at once.
+vec2 stepWeights(float alongNormal, float alongSlip, float count)
+{
+    vec2 weights = vec2(alongNormal, alongSlip);
+    return isAlone(count) ? weights : weights / vec2(overRelaxed, overRelaxed * frictionStep);
+}
+
+// kg m, how far a contact pushes apart what still lacks so much, m.
+float pushedApart(float now, float before, float lacks, float weight)
+{
+    return max(ahead(vec3(now), vec3(before)).x + lacks / weight, 0.0);
+}
+
+// Returns an entry's push after the iteration, from the last two. `n`: the contact's normal.
+vec4 relax(int slot, int other, vec4 push, vec4 before, vec4 anchor, out vec3 n)
+{
+    Meeting with = meetingAs(slot, other, anchor);
+    PairContact contact = with.contact;
+    n = contact.normal;
+    if (!with.meets) return vec4(0.0);
+    vec2 shares = vec2(ownCount, countOf(other));
+    vec3 u = ownVelocity - velocityOf(other, with.sphere);
+    float target = contact.impact ? -with.material.x * contact.speed
+                                  : partingSpeed(contact.depth, own.radius + with.sphere.radius);
+    vec3 across = u - n * dot(u, n);
+    vec2 weights = stepWeights(weightAlong(with, n, shares),
+                               max(weightAlong(with, across / max(length(across), 1e-30), shares),
+                                   dot(vec2(own.weight, with.sphere.weight), shares)),
+                               max(shares.x, shares.y));
+    vec3 wanted = pairImpulse(u, n, target, ahead(push.xyz, before.xyz), weights);
+    vec3 taken = withinFriction(wanted, n, with.material.y);
+    float lacks = min(contact.depth, pushSpeed * stepTime) - dot(ownMove - moveOf(other, with.sphere), n);
+    float apart = contact.impact ? 0.0 : pushedApart(abs(push.w), abs(before.w), lacks, weights.x);
+    return vec4(taken, taken == wanted ? apart : -max(apart, 1e-30));
 }
 
 #ifdef WALLS
-void respondToWall(int slot, vec4 wall)
+#include "contact/near_walls.glsl"
+
+// The same of a collider, a body of infinite mass, which does not ask whether it slides.
+vec4 relaxWall(Wall wall, vec4 push, vec4 before)
 {
-    vec2 pushes = wallPushesOf(slot);
-    float before = pushes.x + (pushes.x - pushes.y) * momentum;
-    float change = pairImpulse(dot(ownVelocity, wall.xyz), -wall.w / stepTime, before, own.weight, 1.0 / ownCount);
-    storeWallPush(slot, vec2(before + change, pushes.x));
-    impulse += wall.xyz * change;
+    vec3 n = wall.normal;
+    vec3 u = ownVelocity - wall.velocity;
+    vec3 across = u - n * dot(u, n);
+    vec2 weights = stepWeights(ownWeightAlong(n) * ownCount,
+                               max(ownWeightAlong(across / max(length(across), 1e-30)), own.weight) * ownCount, ownCount);
+    vec3 wanted = pairImpulse(u, n, -wall.gap / stepTime, ahead(push.xyz, before.xyz), weights);
+    float apart = pushedApart(push.w, before.w, -wall.gap - dot(ownMove, n), weights.x);
+    return vec4(withinFriction(wanted, n, wall.friction), apart);
 }
 #endif

@@ -1,130 +1,140 @@
 // The impulses of all contacts of a slot at once (docs/contact.md), in stages, each a file:
 //
-//   guess       where spheres rest on one another, a first guess from how far they overlap
-//   relax       one Jacobi iteration towards each contact's speed after it: -e times that of the impact, or none
-//   friction    Coulomb friction, in a few rounds, and how far all of it moves the spheres
-//   correction  spheres that are pushed apart while they sink keep that as velocity, so that a pile does not fall for ever
+//   prepare   what each contact remembers of the last step, and how many contacts act together
+//   relax     one Jacobi iteration of all impulses, friction among them, and of what pushes overlaps apart
+//   settle    how far the contacts move the spheres, and what they remember for the next step
 //
-// A stage defines respond(), storeMore() for what it leaves beside its impulses and, with WALLS, respondToWall(), as to a
-// contact with a body of infinite mass.
-//
-// Only gathers: both spheres of a contact compute its impulse, to the same bit, from the same numbers. `impulses` are
-// totals; what a slot without contact has there is undefined and never read.
+// What contacts remember acts as a force over the step that follows (contact/apply.comp), so that what rests is at rest for any
+// solver; the response finds only what is missing. A contact is an entry of both spheres' lists. Both work out the same for it,
+// to the bit, from the same numbers: only gathers.
 #include "contact/response.glsl"
 
-uniform UINTS effectiveCounts;  // by slot, as bits (contact/effective.glsl)
-#ifdef TRIANGLES
-uniform FLOATS velocities;      // written by contact/spread.comp
-#endif
-uniform FLOATS impulses;        // N s, of the last stage
-uniform FLOATS earlier;         // of the one before
-uniform float momentum;         // Nesterov's, the share of the last change by which an iteration extrapolates
-uniform float frictionShare;    // of what friction may do, in one of several rounds
-#ifdef WALLS
-#include "contact/walls.glsl"
+struct Entry {
+    vec4 push;    // xyz impulse on this slot's sphere, N s; w how far it pushes the two apart, kg m, negative where it slides
+    vec4 anchor;  // xyz from the other's centre to this one's when they began to stick, m; w the impulse that it may remember,
+                  // N s; 0: it is an impact; negative: it takes no part
+};
 
-uniform FLOATS wallFriction;  // x friction, by group
-#ifdef TEXTURES
-float wallPush = 0.0;  // N s, what the stage leaves: the w of its impulses
+#ifdef BODIES
+#include "contact/body_sums.glsl"
 
-vec2 wallPushesOf(int slot)
+uniform int rigidGroups;  // a bit each
+
+BodySphere bodyOf(int slot, Sphere sphere)
 {
-    return vec2(fetch(impulses, slot).w, fetch(earlier, slot).w);
+    if ((rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0));
+    return bodySphereAt(sphereOf(slot));
 }
 
-void storeWallPush(int slot, vec2 pushes)
+// What an impulse of 1 N s along the unit vector n changes of the sphere's velocity along it by turning its body, 1/kg.
+float turningOf(BodySphere body, vec3 n)
 {
-    wallPush = pushes.x;
-}
-#else
-layout(std430, binding = 4) buffer WallPushed { vec2 wallPushed[]; };
-
-// N s: x now, y an iteration before.
-vec2 wallPushesOf(int slot)
-{
-    return wallPushed[slot];
-}
-
-void storeWallPush(int slot, vec2 pushes)
-{
-    wallPushed[slot] = pushes;
-}
-#endif
-#endif
-
-// N s, of each entry of the lists: x now, y an iteration before.
-#ifdef TEXTURES
-uniform sampler2DArray pushed;
-uniform sampler2DArray pushedBefore;
-vec4 stored[LIST / 4];  // what the stage leaves beside its impulses
-
-vec2 pushesOf(int slot, int e)
-{
-    ivec3 entry = ivec3(texelOf(slot), e >> 2);
-    return vec2(texelFetch(pushed, entry, 0)[e & 3], texelFetch(pushedBefore, entry, 0)[e & 3]);
-}
-
-void storePushes(int slot, int e, vec2 pushes)
-{
-    stored[e >> 2][e & 3] = pushes.x;
-}
-#else
-layout(std430, binding = 1) buffer Pushed { vec2 pushed[]; };
-
-vec2 pushesOf(int slot, int e)
-{
-    return pushed[e * listStride + slot];
-}
-
-void storePushes(int slot, int e, vec2 pushes)
-{
-    pushed[e * listStride + slot] = pushes;
+    vec3 across = cross(body.arm, n);
+    return dot(across, body.perInertia * across);
 }
 #endif
 
-// respond() sets these for the slot that it is called with.
-Sphere own;
-float ownCount;
-vec3 ownVelocity;
-vec3 impulse = vec3(0.0);
-
-void loadOwn(int slot)
+// Returns what the next step begins with, N s. An impulse that has stopped what came is not what holds up what lies there, so
+// memory takes in only a part of what an impulse has grown by.
+vec3 remembered(Entry known)
 {
-    own = sphereAt(slot);
-    ownCount = uintBitsToFloat(fetch(effectiveCounts, slot).x);
-}
-
-vec3 impulseOf(int slot)
-{
-    return fetch(impulses, slot).xyz;
-}
-
-// m/s, as the total of its impulses makes it.
-vec3 velocityOf(int slot, Sphere sphere, vec3 total)
-{
-#ifdef TRIANGLES
-    return fetch(velocities, slot).xyz;
-#else
-    return sphere.velocity + total * sphere.weight;
-#endif
+    float now = length(known.push.xyz);
+    float limit = known.anchor.w + 0.5 * max(now - known.anchor.w, 0.0);
+    return known.anchor.w > 0.0 ? known.push.xyz * min(1.0, limit / max(now, 1e-30)) : vec3(0.0);
 }
 
 struct Meeting {
-    Sphere sphere;     // the other
+    Sphere sphere;  // the other
+    vec3 apart;     // m, from its centre to this one's
     PairContact contact;
-    bool meets;
-    float weight;      // 1/kg, of both
-    float share;       // of the impulse that it would take alone
-    float correction;  // kg m, of the penetration
+    bool meets;     // both lists hold it, and one of the spheres is free
+    vec2 material;  // x restitution, y friction
+#ifdef BODIES
+    BodySphere body;
+#endif
 };
 
-Meeting meetingOf(int slot, int other)
+Sphere own;
+#ifdef BODIES
+BodySphere ownBody;
+#endif
+
+void loadSphere(int slot)
 {
-    Sphere sphere = sphereAt(other);
-    float weight = own.weight + sphere.weight;
-    PairContact contact = contactOf(own, sphere, slot < other ? 1.0 : -1.0);
-    bool meets = weight > 0.0 && holds(other, slot);
-    float share = 1.0 / max(ownCount, uintBitsToFloat(fetch(effectiveCounts, other).x));
-    float correction = contact.impact ? 0.0 : share * contact.depth / max(weight, 1e-30);
-    return Meeting(sphere, contact, meets, weight, share, correction);
+    own = sphereAt(slot);
+#ifdef BODIES
+    ownBody = bodyOf(slot, own);
+#endif
+}
+
+// What an impulse of 1 N s along the unit vector n changes of this sphere's velocity along it, 1/kg.
+float ownWeightAlong(vec3 n)
+{
+#ifdef BODIES
+    return own.weight + turningOf(ownBody, n);
+#else
+    return own.weight;
+#endif
+}
+
+// The same of the spheres' relative velocity. `shares`: among how many contacts this one and the other are shared.
+float weightAlong(Meeting with, vec3 n, vec2 shares)
+{
+    float other = with.sphere.weight;
+#ifdef BODIES
+    other += turningOf(with.body, n);
+#endif
+    return ownWeightAlong(n) * shares.x + other * shares.y;
+}
+
+// Of what this sphere gives way, the part that is the turning of its body.
+float turningPart(vec3 n)
+{
+#ifdef BODIES
+    float turning = turningOf(ownBody, n);
+    return turning / max(own.weight + turning, 1e-30);
+#else
+    return 0.0;
+#endif
+}
+
+// `bounceFrom`: m/s; slower is no impact.
+Meeting meetingOf(int slot, int other, float bounceFrom)
+{
+    Meeting with;
+    with.sphere = sphereAt(other);
+    with.apart = localDifference(own.place, with.sphere.place, cell);
+    with.contact = pairContact(with.apart, own.velocity - with.sphere.velocity, own.radius + with.sphere.radius, stepTime,
+                               bounceFrom, slot < other ? 1.0 : -1.0);
+    with.meets = own.weight + with.sphere.weight > 0.0 && holds(other, slot);
+    with.material = materialOf(own, with.sphere);
+#ifdef BODIES
+    with.body = bodyOf(other, with.sphere);
+#endif
+    return with;
+}
+
+bool isDeep(PairContact contact, float reach)
+{
+    return contact.depth > 0.25 * reach;
+}
+
+// Where spheres have sunk deep into one another, the way out is that by which they came in.
+void leaveAsCome(inout Meeting with, vec3 anchor)
+{
+    float reach = own.radius + with.sphere.radius;
+    if (with.contact.impact || !isDeep(with.contact, reach)) return;
+    vec3 n = anchor / max(length(anchor), 1e-30);
+    with.contact.normal = n;
+    with.contact.depth = reach - dot(with.apart, n);
+    with.contact.speed = dot(own.velocity - with.sphere.velocity, n);
+}
+
+// The meeting of an entry whose anchor prepare() has left.
+Meeting meetingAs(int slot, int other, vec4 anchor)
+{
+    Meeting with = meetingOf(slot, other, anchor.w > 0.0 ? 1e30 : restSpeed);
+    with.meets = with.meets && anchor.w >= 0.0;
+    leaveAsCome(with, anchor.xyz);
+    return with;
 }

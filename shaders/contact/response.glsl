@@ -14,21 +14,15 @@ struct Sphere {
     vec3 velocity;  // m/s, before the response
     float weight;   // 1/kg, 0 where held
     float radius;   // m
+    bool fresh;     // its molecule has been born since the last step
 };
 
 Sphere sphereAt(int slot)
 {
     uvec4 place = fetch(places, slot);
     uvec4 motion = fetch(motions, motionOf(slot));
-    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz), uintBitsToFloat(motion.w),
-                  uintBitsToFloat(fetch(cells, slot).w));
-}
-
-// Seen from `a`; the same to the bit from either side. `side`: 1 for one of the two, -1 for the other.
-PairContact contactOf(Sphere a, Sphere b, float side)
-{
-    return pairContact(localDifference(a.place, b.place, cell), a.velocity - b.velocity, a.radius + b.radius, stepTime,
-                       restSpeed, side);
+    return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz),
+                  uintBitsToFloat(motion.w & ~FRESH), uintBitsToFloat(fetch(cells, slot).w), (motion.w & FRESH) != 0u);
 }
 
 vec2 materialOf(Sphere a, Sphere b)
@@ -39,7 +33,7 @@ vec2 materialOf(Sphere a, Sphere b)
 // Whether the list of a slot holds another: one that is full may not, and then neither takes the contact.
 bool holds(int slot, int other)
 {
-    int listed = int(fetch(counts, slot).x);
+    int listed = int(fetch(counts, slot).x & CONTACTS);
     bool found = listed <= LIST;
     int e = found ? LIST : 0;
     while (e < LIST) {

@@ -1,11 +1,13 @@
 // A sphere of one group as the fused step's state has it. Needs contact/shape.glsl.
 #include "physics/cells.glsl"
+#include "contact/flags.glsl"
 
 uniform VALUES oldState;
 uniform VALUES oldRecords;
 uniform VALUES constants;
 uniform float cell;
 uniform float givenRadius;
+uniform float contactStep;  // s
 
 struct StateSphere {
     vec3 anchor;    // m
@@ -14,6 +16,7 @@ struct StateSphere {
     float weight;   // 1/kg
     float radius;   // m
     bool there;     // its molecule lives
+    bool fresh;     // and has been born since the last contact step
 };
 
 StateSphere sphereOfState(int molecule, int k)
@@ -25,6 +28,7 @@ StateSphere sphereOfState(int molecule, int k)
     StateSphere own;
     own.anchor = record.xyz;
     own.there = true;
+    own.fresh = false;
 #ifdef TRIANGLES
     ivec3 corners = k < VERTICES ? ivec3(k) : ivec3(shape.xyz);
     vec3 position = (packedVertex(oldState, first, 0, corners.x) + packedVertex(oldState, first, 0, corners.y) +
@@ -50,11 +54,44 @@ StateSphere sphereOfState(int molecule, int k)
 #endif
     own.radius = givenRadius * scale;
 #ifdef LIFE
-    own.there = packedLife(oldState, first).y > 0.0;
+    vec2 life = packedLife(oldState, first);
+    own.there = life.y > 0.0;
+    own.fresh = life.x <= contactStep * 1.0001;
     if (!own.there) own.radius = 0.0;
 #endif
     return own;
 }
+
+uint weightBits(StateSphere own)
+{
+    return floatBitsToUint(own.weight) | (own.fresh ? FRESH : 0u);
+}
+
+#ifdef RIGID
+#include "contact/body.glsl"
+
+// `place`: of the sphere, m from the molecule's anchor.
+BodySphere bodySphereOf(int molecule, vec3 place)
+{
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    float mass = 0.0;
+    vec3 centre = vec3(0.0);
+    for (int v = 0; v < VERTICES; ++v) {
+        float own = 1.0 / shapeOf(v).x;
+        mass += own;
+        centre += packedVertex(oldState, first, 0, v) * own;
+    }
+    centre /= mass;
+    mat3 inertia = mat3(0.0);
+    for (int v = 0; v < VERTICES; ++v) {
+        vec3 arm = packedVertex(oldState, first, 0, v) - centre;
+        inertia += (mat3(dot(arm, arm)) - outerProduct(arm, arm)) * (1.0 / shapeOf(v).x);
+    }
+    // a rod has none about its axis
+    float most = max(max(inertia[0][0], inertia[1][1]), max(inertia[2][2], 1e-30));
+    return BodySphere(place - centre, 1.0 / mass, inverse(inertia + mat3(1e-5 * most)));
+}
+#endif
 
 CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 {
@@ -65,24 +102,27 @@ CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 
 #ifdef WALLS
 #include "generated/colliders.glsl"
-#include "step/wall.glsl"
+#include "contact/walls.glsl"
 
-uniform float wallTime;   // s, since the frame's start
-uniform float wallStep;   // s, of a contact step
-uniform float wallNudge;  // m
-
-// The nearest collider: xyz unit normal, w the centre's distance from its surface, m; 1e30: none is near.
-vec4 nearWall(StateSphere own)
+// The colliders that the sphere may press on within the step, the nearest first.
+Wall[MOST_WALLS] nearWalls(StateSphere own)
 {
-    float distance = clearance(own.anchor, own.position, wallTime);
-    vec4 wall = vec4(0.0, 1.0, 0.0, 1e30);
-    bool near = distance < 0.25 * own.radius + length(own.velocity) * wallStep;
-    while (near) {
-        vec3 slope = wallSlope(own.anchor, own.position, wallTime, wallNudge, distance);
-        float steep = length(slope);
-        if (steep > 0.1 * wallNudge && steep < 1e20) wall = vec4(slope / steep, max(distance, 0.0));
-        near = false;
+    Wall near[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k) near[k] = Wall(vec3(0.0), 1e30, vec3(0.0), 0.0);
+    float reach = 0.25 * own.radius + length(own.velocity) * contactStep;
+#ifdef JOINT_CONTACT
+    ivec3 skip = ivec3(-1);
+    waySquared = 0.0;  // distances as they are
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        Touch t = survey(own.anchor, own.position, own.velocity, contactStep, skip).swept;
+        if (t.which < 0 || t.distance >= reach) break;
+        near[k] = Wall(t.normal, max(t.distance, 0.0), t.velocity, materialOf(t).y);
+        skip = ivec3(skip.y, t.which, -1);
     }
-    return wall;
+#else
+    vec4 surface = surfaceAt(own.anchor, own.position);
+    if (surface.w < reach) near[0] = Wall(surface.xyz, max(surface.w, 0.0), vec3(0.0), colliderParameters[0].y);
+#endif
+    return near;
 }
 #endif

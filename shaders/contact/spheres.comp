@@ -16,8 +16,14 @@ uniform int keys;  // of the table of cells
 layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
+#ifdef REMEMBERS
+layout(std430, binding = 6) writeonly buffer Loads { vec4 newLoads[]; };  // contact/apply.comp leaves those of the next step
+#endif
 #ifdef WALLS
 layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
+#endif
+#ifdef RIGID
+layout(std430, binding = 7) writeonly buffer Bodies { vec4 newBodies[]; };
 #endif
 
 void main()
@@ -37,10 +43,23 @@ void main()
     pairs[sphere] = uvec2(key, uint(sphere));
 #endif
     if (onlyKeys) return;
+#ifdef REMEMBERS
+    newLoads[sphere] = vec4(0.0);
+#endif
+#ifdef RIGID
+    BodySphere at = bodySphereOf(molecule, own.position);
+    own.weight = at.perMass;
+    vec4[3] body = packedBody(at);
+    for (int i = 0; i < 3; ++i) newBodies[3 * sphere + i] = body[i];
+#endif
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
-    newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), floatBitsToUint(own.weight));
+    newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), weightBits(own));
     newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(own.radius));
 #ifdef WALLS
-    newWalls[sphere] = nearWall(own);
+    Wall near[MOST_WALLS] = nearWalls(own);
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        newWalls[2 * (MOST_WALLS * sphere + k)] = vec4(near[k].normal, near[k].gap);
+        newWalls[2 * (MOST_WALLS * sphere + k) + 1] = vec4(near[k].velocity, near[k].friction);
+    }
 #endif
 }

@@ -1,6 +1,6 @@
 // spheres: a texel a sphere, of one group: from the state to records in the spheres' own order (contact/records.glsl). The
-// state lies in the textures of passes or, with LAYERED, of the fused step. With WALL_RECORDS a record has the nearest
-// collider of groups that collide (WALLS).
+// state lies in the textures of passes or, with LAYERED, of the fused step. With BODIES a record has the rigid body of
+// molecules that are one (RIGID).
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
 #ifdef LAYERED
@@ -20,8 +20,8 @@ uniform int label;        // of the group's first molecule
 layout(location = 0) out uvec4 newPlace;
 layout(location = 1) out uvec4 newMotion;
 layout(location = 2) out uvec4 newCell;
-#ifdef WALL_RECORDS
-layout(location = 3) out vec4 newWall;
+#ifdef BODIES
+layout(location = 3) out vec4 newBodies[3];
 #endif
 
 void main()
@@ -32,8 +32,16 @@ void main()
     int molecule = number / SPHERES;
     StateSphere own = sphereOfState(molecule, number - molecule * SPHERES);
     CellPlace place = cellPlaceOf(own, firstSphere + number, vec3(0.0));
+#ifdef BODIES
+    newBodies = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
+#endif
+#ifdef RIGID
+    BodySphere at = bodySphereOf(molecule, own.position);
+    own.weight = at.perMass;
+    newBodies = packedBody(at);
+#endif
     vec3 velocity = own.velocity;
-    float weight = own.weight;
+    uint weight = weightBits(own);
     float radius = own.radius;
 #else
     int molecule = number / vertexCount;
@@ -42,16 +50,10 @@ void main()
     CellPlace place = cellPlace(texelFetch(records, recordTexel(molecule), 0).xyz, texelFetch(positions, texel, 0).xyz, cell);
     vec3 velocity = texelFetch(velocities, texel, 0).xyz;
     vec4 ownInertia = inertia(vertex);
-    float weight = isHeld(ownInertia, molecule) ? 0.0 : ownInertia.x;
+    uint weight = floatBitsToUint(isHeld(ownInertia, molecule) ? 0.0 : ownInertia.x);
     float radius = givenRadius * texelFetch(constants, recordTexel(molecule), 0).y;
 #endif
     newPlace = uvec4(floatBitsToUint(place.local), uint(label + molecule));
-    newMotion = uvec4(floatBitsToUint(velocity), floatBitsToUint(weight));
+    newMotion = uvec4(floatBitsToUint(velocity), weight);
     newCell = uvec4(uvec3(place.cell), floatBitsToUint(radius));
-#ifdef WALL_RECORDS
-    newWall = vec4(0.0, 1.0, 0.0, 1e30);
-#ifdef WALLS
-    newWall = nearWall(own);
-#endif
-#endif
 }

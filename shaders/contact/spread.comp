@@ -4,14 +4,15 @@
 
 uniform usamplerBuffer motions;
 
-layout(std430, binding = 0) writeonly buffer Velocities { vec4 newVelocities[]; };
+layout(std430, binding = 0) writeonly buffer MotionsNow { vec4 motionsNow[]; };
 
 void main()
 {
     int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
     int molecule = lane / SPHERES;
     int sphere = firstSphere + lane;
-    vec3 change = velocityChange(molecule, lane - molecule * SPHERES);
-    vec3 velocity = uintBitsToFloat(texelFetch(motions, sphere).xyz) + change;
-    newVelocities[int(texelFetch(slots, sphere).x)] = vec4(velocity, 0.0);
+    Total change = changeOf(molecule, lane - molecule * SPHERES);
+    int slot = int(texelFetch(slots, sphere).x);
+    motionsNow[2 * slot] = vec4(uintBitsToFloat(texelFetch(motions, sphere).xyz) + change.impulse, 0.0);
+    motionsNow[2 * slot + 1] = vec4(change.shift, 0.0);
 }

@@ -1,42 +1,94 @@
-// With spheres on triangles: the velocity that the impulses so far make of a sphere's. Needs contact/shape.glsl.
-uniform UINTS slots;      // of a sphere
+// What totals by slot (contact/totals.glsl) make of the spheres of a molecule, of which each may move others, because they lie on
+// triangles of the same vertices or on a rigid body (RIGID). Needs contact/shape.glsl.
+#include "contact/totals.glsl"
+
+uniform UINTS slots;   // of a sphere
 uniform UINTS counts;
-uniform FLOATS impulses;  // as in contact/respond.glsl
-uniform FLOATS earlier;
-uniform float momentum;
+uniform TOTALS totals;
+#ifdef APPLIES
+uniform FLOATS known;  // N s, by slot: what acts as a force over the next step
+#else
+uniform TOTALS earlier;   // the totals an iteration before
+uniform float momentum;   // contact/relax.glsl
+#endif
 uniform VALUES oldRecords;
 
-vec3 impulseAt(int sphere)
+struct Total {
+    vec3 impulse;  // N s, or what it changes, m/s
+    vec3 shift;    // kg m, or what it changes, m
+    vec3 load;     // N s, or what it will change, m/s
+};
+
+Total noTotal()
+{
+    return Total(vec3(0.0), vec3(0.0), vec3(0.0));
+}
+
+// Adds so large a part of b.
+void add(inout Total a, Total b, float part)
+{
+    a.impulse += b.impulse * part;
+    a.shift += b.shift * part;
+    a.load += b.load * part;
+}
+
+Total totalAt(int sphere)
 {
     int slot = int(fetch(slots, sphere).x);
-    vec3 impulse = vec3(0.0);
-    if (fetch(counts, slot).x > 0u) {
-        impulse = fetch(impulses, slot).xyz;
-        if (momentum != 0.0) impulse += (impulse - fetch(earlier, slot).xyz) * momentum;
+    if (fetch(counts, slot).x == 0u) return noTotal();
+    Total now = Total(firstTotal(totals, slot), secondTotal(totals, slot), vec3(0.0));
+#ifdef APPLIES
+    now.load = fetch(known, slot).xyz;
+#else
+    if (momentum != 0.0) {
+        now.impulse += (now.impulse - firstTotal(earlier, slot)) * momentum;
+        now.shift += (now.shift - secondTotal(earlier, slot)) * momentum;
     }
-    return impulse;
+#endif
+    return now;
 }
 
-// m/s, of what the contacts of a vertex and of the triangles around it have changed.
-vec3 changeOf(int vertex, int moleculeSphere, bool released)
+#ifdef RIGID
+#include "contact/body_sums.glsl"
+
+// What they change of sphere k of a molecule.
+Total changeOf(int molecule, int k)
+{
+    int first = firstSphere + molecule * SPHERES;
+    BodyMotion motion = BodyMotion(vec3(0.0), vec3(0.0));
+    BodyMotion move = motion;
+    BodyMotion load = motion;
+    for (int j = 0; j < SPHERES; ++j) {
+        Total total = totalAt(first + j);
+        BodySphere at = bodySphereAt(first + j);
+        add(motion, at, total.impulse);
+        add(move, at, total.shift);
+        add(load, at, total.load);
+    }
+    BodySphere own = bodySphereAt(first + k);
+    return Total(motionAt(own, motion), motionAt(own, move), motionAt(own, load));
+}
+#else
+// The same of a vertex, by its own contacts and those of the triangles around it.
+Total changeOfVertex(int vertex, int first, bool released)
 {
     vec4 shape = shapeOf(vertex);
-    vec3 sum = impulseAt(moleculeSphere + vertex);
-    for (int i = 0; i < int(shape.w); ++i) sum += impulseAt(moleculeSphere + int(shapeOf(int(shape.z) + i).x)) / 3.0;
-    return sum * weightOf(shape, released);
-}
-
-// m/s, of sphere k of a molecule.
-vec3 velocityChange(int molecule, int k)
-{
-    int moleculeSphere = firstSphere + molecule * SPHERES;
-    bool released = valueOf(oldRecords, molecule).w < 0.0;
-    vec4 shape = shapeOf(k);
-    bool isVertex = k < VERTICES;
-    vec3 change = changeOf(isVertex ? k : int(shape.x), moleculeSphere, released);
-    if (!isVertex) {
-        change = (change + changeOf(int(shape.y), moleculeSphere, released) +
-                  changeOf(int(shape.z), moleculeSphere, released)) / 3.0;
-    }
+    Total sum = totalAt(first + vertex);
+    for (int i = 0; i < int(shape.w); ++i) add(sum, totalAt(first + int(shapeOf(int(shape.z) + i).x)), 1.0 / 3.0);
+    Total change = noTotal();
+    add(change, sum, weightOf(shape, released));
     return change;
 }
+
+// What they change of sphere k of a molecule.
+Total changeOf(int molecule, int k)
+{
+    int first = firstSphere + molecule * SPHERES;
+    bool released = valueOf(oldRecords, molecule).w < 0.0;
+    vec4 shape = shapeOf(k);
+    if (k < VERTICES) return changeOfVertex(k, first, released);
+    Total change = noTotal();
+    for (int c = 0; c < 3; ++c) add(change, changeOfVertex(int(shape[c]), first, released), 1.0 / 3.0);
+    return change;
+}
+#endif

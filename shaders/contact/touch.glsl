@@ -10,6 +10,10 @@ layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
 #endif
+#ifdef REMEMBERS
+uniform UINTS oldSlots;   // of a sphere, in the last step
+uniform UINTS oldCounts;  // by slot of that
+#endif
 #ifdef SELF
 uniform UINTS apart;    // ContactGroup::apart
 uniform UINTS groupsOf;  // x first sphere, y spheres of a molecule, z first word, w words of a sphere; 0: none
@@ -82,7 +86,7 @@ void take(int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float limit = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    float limit = (ownRadius + uintBitsToFloat(fetch(cells, slot).w)) * NEAR;  // a contact that opens by a hair stays one
     bool touches = dot(d, d) < limit * limit;
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
@@ -93,15 +97,26 @@ void meet(int slot)
     }
 }
 
+// Returns the slot's count.
+uint countFound(int slot)
+{
+    bool responds = found > 0;
+#ifdef REMEMBERS
+    responds = responds || (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & CONTACTS) > 0u;
+#endif
+    return uint(found) | (responds ? RESPONDS : 0u);
+}
+
 #ifndef TEXTURES
 void finish(int slot)
 {
-    counts[slot] = uint(found);
-    bool touches = last && found > 0;
-    while (touches) {
+    uint counted = countFound(slot);
+    counts[slot] = counted;
+    bool takes = last && counted > 0u;
+    while (takes) {
         addTouching(slot);
         if (found > LIST) atomicAdd(dropped, uint(found - LIST));
-        touches = false;
+        takes = false;
     }
 }
 #endif

@@ -15,7 +15,7 @@
 // where flown and flight are the velocity and the way after h. A molecule that rests on a collider keeps its history: begun
 // anew in every step, its free vertices would take a velocity of g h / 2 for rest.
 
-vec3 dx[VERTICES];  // m, the last substep's displacement; x of the first NO_HISTORY: none
+vec3 dx[VERTICES];  // m, the last substep's displacement; x of one of them NO_HISTORY: none
 vec3 dv[VERTICES];  // m/s, its change of velocity
 bool restart;
 float eta;  // s, of this step
@@ -26,7 +26,10 @@ const float third = 1.0 / 3.0;
 
 void beginHistory()
 {
-    restart = restarts != 0 || dx[0].x > 0.5 * NO_HISTORY;
+    restart = restarts != 0;
+    for (int i = 0; i < VERTICES; ++i) {
+        restart = restart || dx[i].x > 0.5 * NO_HISTORY;
+    }
 }
 
 // After an impact: the step after it starts anew.

@@ -138,7 +138,7 @@ bool findContacts(int done)
     for (int k = 0; k < VERTICES; ++k) {
 #if defined(NEAREST) && !defined(RIGID_IMPACT)
         Contact c = Contact(touchPosition[k], touchVelocity[k]);
-        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k));
+        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]) + LOAD(k), DRIFT_OF(k));
         bool open = counts && !isHeld(pinned[k]);
         walks[k] = open && !answered;
         bool moves = open && answered;
@@ -172,9 +172,10 @@ bool findContacts(int done)
 }
 
 #ifdef JOINT_CONTACT
-Contact follow(Contact c, vec3 drifted, Drift drift, int done)
+// `pressed`: m/s^2, beside gravity and forces.
+Contact follow(Contact c, vec3 drifted, vec3 pressed, Drift drift, int done)
 {
-    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position), drift, contactTime(done));
+    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position) + pressed, drift, contactTime(done));
 }
 #endif
 
@@ -209,18 +210,20 @@ void resolveContacts(int done)
         Contact c = Contact(vec3(0.0), vec3(0.0));
         vec3 drifted = vec3(0.0);
         vec3 beyond = vec3(0.0);
+        vec3 pressed = vec3(0.0);
         next = -1;
         for (int i = 0; i < VERTICES; ++i) {
             if (walks[i]) {
                 next = i;
                 c = Contact(touchPosition[i], touchVelocity[i]);
                 drifted = driftedBy[i];
+                pressed = LOAD(i);
 #ifdef HISTORY
                 beyond = beyondBy[i];
 #endif
             }
         }
-        if (next >= 0) c = follow(c, drifted, DRIFT(beyond), done);
+        if (next >= 0) c = follow(c, drifted, pressed, DRIFT(beyond), done);
         for (int i = 0; i < VERTICES; ++i) {
             if (next == i) {
                 walks[i] = false;
@@ -230,7 +233,7 @@ void resolveContacts(int done)
     }
 #else
     for (int n = 0; n < VERTICES; ++n) {
-        if (walks[n]) take(n, follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], DRIFT_OF(n), done));
+        if (walks[n]) take(n, follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], LOAD(n), DRIFT_OF(n), done));
     }
 #endif
 #else
@@ -241,7 +244,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            take(k, answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]), DRIFT_OF(k)));
+            take(k, answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]) + LOAD(k), DRIFT_OF(k)));
         }
     }
 #endif

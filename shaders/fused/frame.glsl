@@ -18,6 +18,15 @@ bool followAnchor()
     return shift != vec3(0.0);
 }
 
+#ifdef REMEMBERS
+void loadLoads(int molecule)
+{
+    for (int i = 0; i < VERTICES; ++i) {
+        load[i] = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i)).xyz;
+    }
+}
+#endif
+
 void main()
 {
     int molecule = ownMolecule();
@@ -26,6 +35,9 @@ void main()
     loadRecord(molecule);
 #ifdef STEERED
     loadSteering(molecule);
+#endif
+#ifdef REMEMBERS
+    loadLoads(molecule);
 #endif
     bool wasReleased = released;
     bool moved = false;

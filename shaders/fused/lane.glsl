@@ -19,6 +19,11 @@ int ownMolecule()
 #endif
 }
 
+int vertexOf(int i)
+{
+    return i;
+}
+
 bool isFirstLane()
 {
     return true;

@@ -105,6 +105,14 @@ vec3 normal[VERTICES];  // unit, of the surface there
 vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering at the probe
 #endif
 
+#ifdef REMEMBERS
+#include "state/numbered.glsl"
+
+uniform FLOATS contactLoads;  // m/s^2, by sphere
+uniform int firstSphere;      // of the part
+vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/apply.comp)
+#endif
+
 vec3 anchor;            // m
 float scale = 1.0;      // of the rest lengths
 float phase = 0.0;      // rad

@@ -6,10 +6,16 @@
 
 // m/s^2 on vertex i beside drag and springs.
 #if defined(FORCES) || defined(STEERED)
-#define FALL(i) (gravity + pull[i])
+#define PULLED(i) (gravity + pull[i])
 #else
-#define FALL(i) gravity
+#define PULLED(i) gravity
 #endif
+#ifdef REMEMBERS
+#define LOAD(i) load[i]
+#else
+#define LOAD(i) vec3(0.0)
+#endif
+#define FALL(i) (PULLED(i) + LOAD(i))
 
 bool isHeld(bool pinned)
 {

@@ -1,27 +1,11 @@
-// What contact with other molecules does to a molecule (src/simulate/texture_contact.h): to every vertex, what its sphere has
-// gained. Needs fused/lane.glsl.
-#include "contact/shape.glsl"
+// What contact with other molecules does to a molecule (contact/gains.frag). Needs fused/lane.glsl.
+#include "state/numbered.glsl"
 
-uniform usampler2D slots;    // of a sphere
-uniform usampler2D counts;
-uniform sampler2D impulses;  // kg m/s
-uniform sampler2D shifts;    // kg m
+uniform sampler2DArray gains;
+uniform int firstSphere;  // of the group
 uniform int groupMolecules;
-
-struct Gain {
-    vec3 impulse, shift;
-    bool touched;
-};
-
-// Adds what a sphere has gained, of which a vertex takes one of so many parts.
-void add(int sphere, float parts, inout Gain gain)
-{
-    int slot = int(fetch(slots, sphere).x);
-    if (fetch(counts, slot).x == 0u) return;
-    gain.touched = true;
-    gain.impulse += fetch(impulses, slot).xyz / parts;
-    gain.shift += fetch(shifts, slot).xyz / parts;
-}
+uniform float restSpeed;    // m/s
+uniform float substepTime;  // s
 
 void main()
 {
@@ -29,22 +13,18 @@ void main()
     loadState(molecule);
     loadRecord(molecule);
     int sphere = firstSphere + min(molecule, groupMolecules - 1) * SPHERES;  // texels past the last do what it does
-    bool touched = false;
     for (int i = 0; i < VERTICES; ++i) {
-        Gain gain = Gain(vec3(0.0), vec3(0.0), false);
-        add(sphere + i, 1.0, gain);
-#ifdef TRIANGLES
-        vec4 around = shapeOf(i);
-        for (int t = 0; t < int(around.w); ++t) add(sphere + int(shapeOf(int(around.z) + t).x), 3.0, gain);
-#endif
-        touched = touched || gain.touched;
-        if (!isHeld(pinned[i])) {
-            x[i] += gain.shift * inverseMass[i];
-            v[i] += gain.impulse * inverseMass[i];
-        }
-    }
+        vec3 velocity = texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).xyz;
+        vec3 shift = texelFetch(gains, ivec3(texelOf(sphere + i), 1), 0).xyz;
+        x[i] += shift;
+        v[i] += velocity;
 #ifdef HISTORY
-    if (touched) dx[0].x = NO_HISTORY;  // its next step starts anew (fused/bdf2.glsl)
+        if (texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).w > 0.0) {
+            // what is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl)
+            dx[i] = length(v[i]) < restSpeed ? v[i] * substepTime : vec3(NO_HISTORY);
+            dv[i] = vec3(0.0);
+        }
 #endif
+    }
     storeState(molecule);
 }

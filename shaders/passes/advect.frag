@@ -5,6 +5,7 @@
 // The scene's forces join gravity, a wind among them the fields.
 // The first advect of a frame also moves positions to the anchor that the records pass has just set.
 #include "passes/step.glsl"
+#include "passes/load.glsl"
 
 layout(location = 0) out vec4 newPosition;
 layout(location = 1) out vec4 newVelocity;
@@ -34,7 +35,7 @@ void main()
     vec3 v = kickedVelocity(texel, ahead);
     vec3 probe = x + v * ahead;
     vec3 before = x;
-    vec3 ended = dragged(v, fieldAt(anchor, probe, time + ahead), fallAt(anchor, probe), n);
+    vec3 ended = dragged(v, fieldAt(anchor, probe, time + ahead), fallAt(anchor, probe) + loadOn(own), n);
     x += driftOf(v, ended);
     v = velocityAfter(ended, x - before);
     newPosition = vec4(x, 0.0);

@@ -1,6 +1,7 @@
 // collide: vertices that entered a collider bounce, slide or rest on its surface.
 // Leapfrog's velocity here still lacks the springs' second half kick.
 #include "state/textures.glsl"
+#include "passes/load.glsl"
 #include "generated/colliders.glsl"
 
 uniform vec3 gravity;  // m/s^2
@@ -20,7 +21,7 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-        vec3 fall = fallAt(anchor, x);
+        vec3 fall = fallAt(anchor, x) + loadOn(own);
         vec3 kick = vec3(0.0);
 #if defined(LEAPFROG) && defined(SPRINGS)
         kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);

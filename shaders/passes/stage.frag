@@ -2,6 +2,7 @@
 // are added up, and move the start of the substep to the next stage, or after the last one to its end.
 #include "passes/springs.glsl"
 #include "passes/step.glsl"
+#include "passes/load.glsl"
 #include "generated/colliders.glsl"
 
 uniform sampler2D startPositions;
@@ -37,7 +38,8 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
     float now = time + stageTime(stage);
-    vec3 a = dragAcceleration(v, fieldAt(anchor, x, now), fallAt(anchor, x), texelFetch(vertexNormals, texel, 0).xyz);
+    vec3 fall = fallAt(anchor, x) + loadOn(own);
+    vec3 a = dragAcceleration(v, fieldAt(anchor, x, now), fall, texelFetch(vertexNormals, texel, 0).xyz);
 #ifdef SPRINGS
     a += springForces(own.x, own.y, now) * vertexInertia.x;
 #endif

@@ -25,7 +25,7 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
     vec3 touch = (d - u * since) / reach;
     float touchSpeed = dot(touch, u);
     // One that the last step missed by a rounding of the positions is this step's.
-    bool impact = (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
+    bool impact = squared < reach * reach && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
 
     float apart = sqrt(squared);
     vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);
@@ -33,12 +33,26 @@ PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed
                        impact ? touchSpeed : dot(now, u), impact);
 }
 
-// Returns how much an impulse (N s) between spheres of inverse masses that sum up to w must still grow so
-// that their speed along the normal becomes `target`. `pushed`: the impulse so far; together they never pull.
-// `share`: of several contacts, so that together they do not outdo themselves (docs/contact.md).
-float pairImpulse(float speed, float target, float pushed, float w, float share)
+// Returns the impulse (N s) that would bring a contact nearer to its velocity afterwards: `target` along the unit normal n, and
+// none across it.
+//   u        m/s, of the sphere relative to the other, as all impulses so far make it
+//   pushed   N s, the contact's impulse so far
+//   w        1/kg, what an impulse of 1 N s changes of the velocity, x along n, y across it, or more than that where several
+//            contacts are answered at once, so that together they do not outdo themselves (docs/contact.md)
+vec3 pairImpulse(vec3 u, vec3 n, float target, vec3 pushed, vec2 w)
 {
-    return max(share * (target - speed) / w, -pushed);
+    float along = dot(u, n);
+    return pushed + n * ((target - along) / w.x) - (u - n * along) / w.y;
+}
+
+// Returns what a contact can take of an impulse: it never pulls, and across its normal Coulomb's friction bounds it.
+vec3 withinFriction(vec3 impulse, vec3 n, float friction)
+{
+    float along = dot(impulse, n);
+    vec3 across = impulse - n * along;
+    float most = friction * max(along, 0.0f);
+    float grip = sqrt(dot(across, across));
+    return along >= 0.0f && grip <= most ? impulse : n * max(along, 0.0f) + across * (most / max(grip, 1e-30f));
 }
 
 // Normals of the contacts that act on one thing: the sum of n n^T, as its diagonal and what lies beside it (yz, xz, xy).
@@ -52,22 +66,23 @@ NormalSum withNormal(NormalSum sum, vec3 n)
     return NormalSum(sum.diagonal + n * n, sum.beside + vec3(n.y * n.z, n.x * n.z, n.x * n.y));
 }
 
-// At least the largest eigenvalue: by how much contacts that act on one thing together may outdo what each does alone.
-// The number of contacts where they all push the same way, a third of it where they come from all sides.
-float largestEigenvalue(NormalSum sum)
+// By how much contacts that act on one thing together may outdo what each does alone: for their normal impulses the largest
+// eigenvalue, or a little more, which is their number where all push the same way and a third of it where they come from all
+// sides; friction adds a share of their number.
+float effectiveCount(NormalSum sum)
 {
     vec3 d = sum.diagonal;
     vec3 o = abs(sum.beside);
     float rows = max(d.x + o.y + o.z, max(d.y + o.x + o.z, d.z + o.x + o.y));  // Gershgorin
     float norm = sqrt(dot(d, d) + 2.0f * dot(o, o));                           // Frobenius
+    float number = d.x + d.y + d.z;
     // 1 of a single normal and of no others, for isAlone: of two that are perpendicular the eigenvalue is 1 as well
-    float several = d.x + d.y + d.z > 1.5f ? 1.01f : 1.0f;
-    return max(min(rows, norm), several);
+    float several = number > 1.5f ? 1.01f : 1.0f;
+    return 0.6f * max(min(rows, norm), several) + 0.4f * max(number, 1.0f);
 }
 
-// Whether a contact is the only one that acts on either of its spheres, from its share: the inverse of the larger of their
-// largestEigenvalue.
-bool isAlone(float share)
+// Whether a contact is the only one that acts on either of its spheres, from the larger of their effectiveCount.
+bool isAlone(float count)
 {
-    return share > 0.995f;
+    return count < 1.003f;
 }

@@ -62,6 +62,10 @@ void meetSwept(inout Survey s, Touch t, ivec3 skip)
 
 void meetSolid(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
 {
+#ifdef WALLS
+    meetSwept(s, t, skip);  // contact between molecules asks for what is near (contact/sphere.glsl)
+    return;
+#endif
     meetAny(s, t);
     float approach = dot(t.velocity - velocity, t.normal);
     float entered = -t.distance / max(approach, 1e-20);

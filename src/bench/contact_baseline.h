@@ -1,13 +1,18 @@
 // Contact between molecules, written for the CPU by hand: what `shoal bench collide` compares
-// MoleculeContact::step with (simulate/molecule_contact.h). The same work, and the same equations as
-// reference/sphere_contact.h: spheres at the vertices from the state, a counting-sorted grid of cells of two
-// diameters that is hashed into a table, the exact search in the eight cells on a sphere's side, all contacts
-// of a sphere in one list, the simultaneous response in Jacobi iterations, into the state.
+// MoleculeContact::step with (simulate/molecule_contact.h). The same work, and the same equations
+// (docs/contact.md): spheres at the vertices from the state, a counting-sorted grid of cells of twice the
+// largest distance of a contact that is hashed into a table, the exact search in the eight cells on a
+// sphere's side, all contacts of a sphere in one list, what they remember of the last step, the simultaneous
+// response in Jacobi iterations, into the state.
+//
+// What contacts remember acts as a force over the next step. Nothing moves here between two steps, and so a
+// step ends with what that force will have added to the velocities; the next begins with taking it back, as
+// the GPU's does.
 //
 // Written for speed: arrays in the order of the grid, nothing allocated in a step but where lists grow,
 // threads that stay, each with a piece of the spheres. What it has easier than the GPU's passes: positions
 // are floats of the world (those are exact however far from the origin), there is one group with one radius,
-// and what is known of a contact is kept over the iterations.
+// lists have no end, and what is known of a contact is kept over the iterations.
 #pragma once
 
 #include <memory>
@@ -32,8 +37,9 @@ class ContactBaseline {
     ContactBaseline(std::vector<float> weights, int molecules, float radius, int threads);
     ~ContactBaseline();
 
+    // Nothing is remembered of what was before.
     void set(const GroupState& state);
-    // Positions and velocities; of the rest nothing changes.
+    // Positions, and velocities with what contacts remember; of the rest nothing changes.
     void get(GroupState& state) const;
 
     void step(const ContactBaselineStep& step);

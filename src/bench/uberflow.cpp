@@ -17,7 +17,7 @@ namespace {
 
 using glm::vec3;
 
-constexpr double frameRate = 60, gamma = 1, half = 4, radius = 0.01;
+constexpr double frameRate = 60, gamma = 1, half = 4, mostRadius = 0.01;
 
 struct Experiment {
     const char *name, *how;
@@ -80,7 +80,7 @@ Scene sceneOf(const Experiment& one, int side, const Molecule& point) {
     group.drag = {gamma, gamma};
     if (one.search) {
         const double cell = std::cbrt(std::pow(2 * half, 3) * 0.2 / group.count);
-        group.contact.emplace().radius = std::min(radius, cell / 4.2);
+        group.contact.emplace().radius = std::min(mostRadius, cell / 4.2);
     }
     if (one.blended) {
         group.molecule.material.blend = Blend::alpha;

@@ -128,7 +128,7 @@ void chooseSolver(const Scene& scene, const Group& group, Plan& plan, GroupPlan&
                                ": highest frequency times substep ", analysis.highestFrequency * step);
     }
     out.stableStep = stableStep(analysis, out.solver);
-    out.rigid = out.needs.collide && isRigid(analysis, step) && shoal::solver(out.solver).implicit;
+    out.rigid = isRigid(analysis, step) && shoal::solver(out.solver).implicit;
     checkStep(scene, group, out);
     const std::string hasty = hastyForce(scene.forces, out, step);
     if (hasty.empty()) return;

@@ -144,7 +144,7 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     if (!out.any()) return out;
     out.spheres = int(spheres);
     // two diameters, and a little more so that rounding loses nothing
-    const double needed = 4 * out.largestRadius * (1 + 1e-5);
+    const double needed = 4 * ContactPlan::near * out.largestRadius * (1 + 1e-5);
     if (scene.contact.cell && *scene.contact.cell < needed)
         throw Error(scene.contact.location,
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
@@ -156,12 +156,6 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     out.tableBits = std::max(out.tableBits, 4);
     const int substeps = scene.solver.substeps;
     out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
-    for (const ContactGroup& group : out.groups) {
-        double least = 1e300;
-        for (const Collider& collider : collidersOf(scene, scene.groups[groups[group.group].index]))
-            least = std::min(least, collider.friction);
-        out.wallFriction.push_back(least > 1e299 ? 0 : least);
-    }
     for (const ContactGroup& a : out.groups) {
         for (const ContactGroup& b : out.groups) {
             const SurfacePair pair = surfacePair(scene, groups[a.group].index, groups[b.group].index);

@@ -8,8 +8,8 @@
 //   sphere k of molecule m of group g:   g.firstSphere + m * g.spheresOf + k
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <map>
 #include <string>
 #include <vector>
 
@@ -36,8 +36,11 @@ struct ContactGroup {
 };
 
 struct ContactPlan {
-    static constexpr int frictionRounds =
-        4;  // of a contact step; each may take its share of what friction may
+    // Spheres are in contact below so many times the sum of their radii: what rests on another and opens by a
+    // hair is not forgotten.
+    static constexpr double near = 1.02;
+    // Of the colliders near a sphere, how many its response knows.
+    static constexpr int mostWalls = 3;
     std::vector<ContactGroup> groups;
     int spheres = 0;
     double largestRadius = 0;  // m, with the largest scale
@@ -53,10 +56,14 @@ struct ContactPlan {
     // x restitution, y friction of groups a and b, at a * groups.size() + b.
     std::vector<glm::vec2> pairs;
 
-    // Holds, for each group with contact, the least friction of the colliders that act on it; 0 without any.
-    std::vector<double> wallFriction;
-
     bool any() const { return !groups.empty(); }
+    // Whether a group of the plan has contact.
+    bool has(size_t group) const {
+        return std::any_of(groups.begin(), groups.end(),
+                           [&](const ContactGroup& each) { return each.group == group; });
+    }
+    // Whether contacts are remembered from step to step.
+    bool remembers() const { return settings.response == ContactResponse::simultaneous; }
     // The ping-pong path's textures have rows of 2^rowBits texels, so that the table of cells is a square or
     // two.
     int rowBits() const { return (tableBits + 1) / 2; }
@@ -87,11 +94,5 @@ ContactGap largestGap(const Molecule& molecule, const GroupContact& contact);
 // Error (located at the group's contact): more spheres than 2^27, or than a label names; a radius that the
 // cell given does not hold.
 ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups);
-
-// Returns the generated file of contact/respond.comp and contact/respond.frag for a stage, a file of
-// shaders/contact.
-inline std::map<std::string, std::string> responseStage(const char* stage) {
-    return {{"generated/stage.glsl", concat("#include \"contact/", stage, ".glsl\"\n")}};
-}
 
 }  // namespace shoal

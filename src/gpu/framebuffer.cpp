@@ -134,14 +134,14 @@ void Framebuffer::blitToDefault(int width, int height) const {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-const Framebuffer& Framebuffers::into(const std::vector<const Texture*>& colors) {
-    std::vector<GLuint> ids;
-    for (const Texture* color : colors)
-        ids.push_back(color->id());
+const Framebuffer& Framebuffers::into(const std::vector<ColorTarget>& colors) {
+    std::vector<std::pair<GLuint, int>> layers;
+    for (const ColorTarget& color : colors)
+        layers.emplace_back(color.texture->id(), color.layer);
     for (const Made& made : made_)
-        if (made.ids == ids) return made.framebuffer;
-    const char* label = colors.front()->label().c_str();
-    made_.push_back({std::move(ids), Framebuffer(*context_, {colors.begin(), colors.end()}, nullptr, label)});
+        if (made.layers == layers) return made.framebuffer;
+    const char* label = colors.front().texture->label().c_str();
+    made_.push_back({std::move(layers), Framebuffer(*context_, colors, nullptr, label)});
     return made_.back().framebuffer;
 }
 

@@ -4,6 +4,7 @@
 
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gpu/context.h"
@@ -62,11 +63,11 @@ class Framebuffer {
 class Framebuffers {
   public:
     explicit Framebuffers(Context& context) : context_(&context) {}
-    const Framebuffer& into(const std::vector<const Texture*>& colors);
+    const Framebuffer& into(const std::vector<ColorTarget>& colors);
 
   private:
     struct Made {
-        std::vector<GLuint> ids;
+        std::vector<std::pair<GLuint, int>> layers;
         Framebuffer framebuffer;
     };
     Context* context_;

@@ -15,7 +15,7 @@ struct Sphere {
     int molecule = 0;                     // spheres of one never touch
 };
 
-// All that overlap, of different molecules: first below second. O(n^2).
+// All in contact (ContactPlan::near), of different molecules: first below second. O(n^2).
 std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres);
 
 }  // namespace shoal::reference

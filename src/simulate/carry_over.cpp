@@ -76,7 +76,8 @@ const GroupPlan* sameGroup(const Plan& among, const GroupPlan& group) {
 }  // namespace
 
 GoneOn goOn(const SavedState& saved, const Plan& from, const Plan& to) {
-    GoneOn out{{saved.time, saved.frames, {}, stepBefore(saved, from, to)}, {}};
+    GoneOn out{{saved.time, saved.frames, {}, stepBefore(saved, from, to), {}}, {}};
+    if (from.contact.spheres == to.contact.spheres) out.state.contacts = saved.contacts;
     for (const GroupPlan& group : to.groups) {
         const GroupPlan* before = sameGroup(from, group);
         if (before && before->vertexCount == group.vertexCount &&

@@ -95,22 +95,48 @@ GroupState emptyState(const GroupPlan& group, int32_t keeps) {
     return state;
 }
 
-std::vector<GroupState> readBody(FileReader& file, const Head& head, const Plan& plan) {
+// The arrays of what contacts remember in the file's order, with how many elements the head says.
+template <typename Memory, typename Visit>
+void forEachArray(Memory& memory, const Head& head, Visit visit) {
+    visit(memory.counts, head.spheres);
+    visit(memory.partners, head.contacts);
+    visit(memory.pushes, head.contacts);
+    visit(memory.anchors, head.contacts);
+    visit(memory.known, head.spheres);
+    visit(memory.loads, head.spheres);
+    visit(memory.walls, head.walls);
+    visit(memory.wallPushes, head.walls / 2);
+}
+
+// Takes memory as the file has it, and not as its head claims.
+template <typename T>
+void readGrowing(FileReader& file, std::vector<T>& values, uint64_t count) {
+    constexpr uint64_t most = 1 << 16;
+    while (values.size() < count) {
+        const size_t have = values.size();
+        values.resize(have + size_t(std::min(most, count - have)));
+        readAll(file, values.data() + have, (values.size() - have) * sizeof(T));
+    }
+}
+
+void readBody(FileReader& file, const Head& head, const Plan& plan, SavedState& out) {
     Checksum sum;
-    std::vector<GroupState> groups;
     for (size_t g = 0; g < plan.groups.size(); ++g) {
-        GroupState& state = groups.emplace_back(emptyState(plan.groups[g], head.groups[g].keeps));
+        GroupState& state = out.groups.emplace_back(emptyState(plan.groups[g], head.groups[g].keeps));
         forEachArray(state, [&](auto& values) {
             const size_t bytes = values.size() * sizeof values[0];
             readAll(file, values.data(), bytes);
             sum.add(values.data(), bytes);
         });
     }
+    forEachArray(out.contacts, head, [&](auto& values, uint64_t count) {
+        readGrowing(file, values, count);
+        sum.add(values.data(), values.size() * sizeof values[0]);
+    });
     if (readOne<uint64_t>(file) != sum.sum())
         throw Error(file.location(), "is damaged: the checksum of its state is wrong");
     char more = 0;
     if (file.read(&more, 1) != 0) throw Error(file.location(), "is damaged: something follows its end");
-    return groups;
 }
 
 // ---- What a run can go on from
@@ -169,6 +195,22 @@ void checkState(const GroupState& state, const GroupPlan& group, const Location&
         refuse(" has pins that neither hold nor let go");
 }
 
+void checkContacts(const ContactMemory& memory, const Location& location) {
+    const auto finite4 = [](const glm::vec4& value) { return finite(value) && std::isfinite(value.w); };
+    uint64_t contacts = 0;
+    for (const uint32_t count : memory.counts)
+        contacts += count;
+    bool sensible = contacts == memory.partners.size();
+    for (const uint32_t partner : memory.partners)
+        sensible = sensible && partner < memory.counts.size();
+    for (const auto* values : {&memory.pushes, &memory.anchors, &memory.known, &memory.loads, &memory.walls,
+                               &memory.wallPushes})
+        sensible = sensible && std::all_of(values->begin(), values->end(), finite4);
+    const size_t walls = 2 * size_t(ContactPlan::mostWalls) * memory.counts.size();
+    sensible = sensible && (memory.walls.empty() || memory.walls.size() == walls);
+    if (!sensible) throw Error(location, "nothing can go on from it: its contacts make no sense");
+}
+
 // Returns where a slider had been moved to, unless the scene says otherwise now than it did then.
 template <typename T>
 T follow(const T& stood, const T& was, const T& is) {
@@ -209,7 +251,10 @@ void writeCheckpoint(const std::filesystem::path& path, const Plan& plan, const 
                  state.frames,
                  saved.parameters,
                  parametersOf(plan),
-                 checkpoint::groupsOf(plan)};
+                 checkpoint::groupsOf(plan),
+                 state.contacts.counts.size(),
+                 state.contacts.partners.size(),
+                 state.contacts.walls.size()};
     for (size_t g = 0; g < state.groups.size(); ++g)
         content.groups[g].keeps = (state.groups[g].displacements.empty() ? 0 : checkpoint::keepsHistory) |
                                   (state.groups[g].steering.empty() ? 0 : checkpoint::keepsSteering);
@@ -234,6 +279,9 @@ void writeCheckpoint(const std::filesystem::path& path, const Plan& plan, const 
     for (const GroupState& group : state.groups)
         forEachArray(group,
                      [&](const auto& values) { write(values.data(), values.size() * sizeof values[0]); });
+    forEachArray(state.contacts, content, [&](const auto& values, uint64_t) {
+        write(values.data(), values.size() * sizeof values[0]);
+    });
     finishPart();
     file.finish();
 }
@@ -253,9 +301,10 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, const Plan& plan) {
     const bool goesOn =
         head.forces == checkpoint::forcesAt(plan, head.time) && !changed(head, out.parameters);
     out.state.step = goesOn ? head.step : 0;
-    out.state.groups = readBody(file, head, plan);
+    readBody(file, head, plan, out.state);
     for (size_t g = 0; g < plan.groups.size(); ++g)
         checkState(out.state.groups[g], plan.groups[g], location);
+    checkContacts(out.state.contacts, location);
     return out;
 }
 

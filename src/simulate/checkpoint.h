@@ -1,8 +1,8 @@
 // A run's state in a file, exact to the bit: what `shoal run --save` writes and `--resume` goes on from.
 //
 //   head   8 bytes of magic; u32 byte order; u32 version; u64 bytes of what follows up to the checksum
-//          f64 time, s; f64 last substep, s; u64 fingerprint of what acts on molecules; i32 frames; u32
-//          groups the parameters as they stood; the parameters as the scene had them a group: name,
+//          f64 time, s; f64 last substep, s; u64 fingerprint of what acts on molecules; i32 frames; u64
+//          spheres, contacts and texels of colliders in what contacts remember; u32 groups the parameters as they stood; the parameters as the scene had them a group: name,
 //          molecules, vertices, springs, two fingerprints, whether it has a history and steers u64 checksum
 //          of the head
 //   body   a group: positions, velocities (3 f32 a vertex), anchors (3 f32 a molecule), released (u8)
@@ -11,6 +11,8 @@
 //          emitters' clocks (f64, u64); born, lost (u64)
 //          with an allocator on the CPU: when each place is free (f64); stack: its free places (u32)
 //          of a school: what steers (12 f32 a molecule)
+//          and what contacts remember (simulate/contact_memory.h): counts (u32 a sphere); partners (u32),
+//          pushes, anchors (4 f32) of all contacts; known, loads (4 f32 a sphere); colliders
 //          u64 checksum of the body
 //
 // Numbers are in the byte order of the machine that wrote them. The head is checked before anything of the
@@ -31,7 +33,7 @@
 
 namespace shoal {
 
-constexpr uint32_t checkpointVersion = 3;
+constexpr uint32_t checkpointVersion = 4;
 
 struct Checkpoint {
     SavedState state;

@@ -144,6 +144,9 @@ void visitStart(Archive& archive, AnyHead& head, Count& groups) {
     archive(head.step);
     archive(head.forces);
     archive(head.frames);
+    archive(head.spheres);
+    archive(head.contacts);
+    archive(head.walls);
     archive(groups);
     for (auto* parameters : {&head.parameters, &head.own}) {
         for (auto* number : numbersOf(*parameters))

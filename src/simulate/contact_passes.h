@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -35,53 +34,26 @@ class ContactPasses : public ContactResult {
         const auto timer = timers.time("contact response");
         const double stepTime = frame.parameters.frameTime;
         // what gravity adds in two steps is no bounce
-        respond(state, {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime});
+        respond(state, {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h});
     }
 
   protected:
     struct Times {
         double step;       // s
         double restSpeed;  // m/s
+        double substep;    // s
     };
-    // An iteration reads the totals of the two before it, which lie in these.
-    struct Totals {
-        size_t last = 0, earlier = 1, next = 2;
-        float momentum = 0;            // by how much it goes on beyond the last
-        std::optional<size_t> pushes;  // where those lie that friction is bounded by
-    };
-
     ContactPasses(const Plan& plan, const Tables& tables)
         : plan_(&plan), contact_(&plan.contact), tables_(&tables) {}
 
     virtual void buildGrid(const Frame& frame, State& state) = 0;
     virtual void search(State& state) = 0;
-    virtual void runNearest(State& state, const Times& times, const Totals& totals) = 0;
-    // The effective number of contacts that act on the same vertices.
-    virtual void runEffective(State& state, const Times& times) = 0;
-    // To the spheres of triangles, what their corners have gained so far.
-    virtual void spread(State&, const Totals&) {}
-    virtual void runStage(State& state, const gpu::Program& program, const Times& times,
-                          const Totals& totals) = 0;
-    virtual void apply(State& state, size_t impulses) = 0;  // into the state
-
-    // Makes the programs of the search and of the response; make(file of shaders/contact) takes `options`.
-    template <typename Make>
-    void makeStages(gpu::ProgramOptions& options, const Make& make) {
-        find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
-        if (contact_->settings.response == ContactResponse::nearest) {
-            nearest_ = make("nearest");
-            return;
-        }
-        effective_ = make("effective");
-        const auto stage = [&](const char* name) {
-            options.generated = responseStage(name);
-            return make("respond");
-        };
-        guess_ = stage("guess");
-        relax_ = stage("relax");
-        friction_ = stage("friction");
-        correction_ = stage("correction");
-    }
+    virtual void runNearest(State& state, const Times& times) = 0;
+    // The stages of shaders/contact/respond.glsl; an iteration goes on by `momentum` beyond the last.
+    virtual void prepare(State& state, const Times& times) = 0;
+    virtual void relax(State& state, const Times& times, float momentum) = 0;
+    virtual void settle(State& state, const Times& times) = 0;
+    virtual void apply(State& state, const Times& times) = 0;  // into the state
 
     void setResponse(const gpu::Program& program, const Times& times) const {
         program.set("count", contact_->spheres);
@@ -103,33 +75,18 @@ class ContactPasses : public ContactResult {
     const Plan* plan_;
     const ContactPlan* contact_;
     const Tables* tables_;
-    gpu::Program find_, nearest_, effective_, guess_, relax_, friction_, correction_;
 
   private:
     void respond(State& state, const Times& times) {
-        Totals totals;
-        if (nearest_) {
-            runNearest(state, times, totals);
-            return apply(state, totals.next);
+        if (contact_->remembers()) {
+            prepare(state, times);
+            for (int i = 0; i < contact_->settings.iterations; ++i)
+                relax(state, times, i == 0 ? 0.0f : float(i) / float(i + 3));  // Nesterov's, from rest
+            settle(state, times);
+        } else {
+            runNearest(state, times);
         }
-        runEffective(state, times);
-        const auto run = [&](const gpu::Program& program) {
-            runStage(state, program, times, totals);
-            totals = {totals.next, totals.last, totals.earlier, 0, totals.pushes};
-        };
-        run(guess_);
-        for (int i = 0; i < contact_->settings.iterations; ++i) {
-            totals.momentum = i == 0 ? 0.0f : float(i) / float(i + 3);  // Nesterov's, from rest
-            spread(state, totals);
-            run(relax_);
-        }
-        totals.pushes = totals.last;
-        for (int i = 0; i < ContactPlan::frictionRounds; ++i) {
-            spread(state, totals);
-            run(friction_);
-        }
-        run(correction_);
-        apply(state, totals.last);
+        apply(state, times);
     }
 };
 

@@ -12,6 +12,7 @@
 
 #include "compile/path.h"
 #include "gpu/pass_timers.h"
+#include "simulate/contact_memory.h"
 
 namespace shoal {
 
@@ -48,6 +49,7 @@ class ContactResult {
     // ascending. For tests and reports: reads the lists back.
     virtual std::vector<std::pair<int, int>> found() const = 0;
     virtual int listLength() const = 0;  // contacts that one sphere may have
+    virtual ContactMemory memory() const = 0;  // empty: nothing is remembered
     virtual size_t bytes() const = 0;    // on the device
     // Dispatches of the last step, those without a workgroup among them; 0 in fragments.
     virtual int dispatches() const { return 0; }
@@ -75,6 +77,8 @@ class ExecutionPath {
     // Reads one molecule, with its scale and phase in `looks`.
     virtual GroupState readOne(size_t group, size_t molecule) const = 0;
     virtual std::vector<glm::vec3> readNormals(size_t group) const = 0;
+    // What contacts remember, as memory() has given it for as many spheres, or nothing.
+    virtual void remember(const ContactMemory&) {}
     // The groups before the last frame; nothing where they are gone.
     virtual std::optional<std::vector<GroupState>> readBefore() const { return {}; }
 

@@ -27,7 +27,7 @@ class Fragments::Touched : public ContactState {
     void bind(const Program& program, size_t group) override {
         const GroupLayers& layers = path_->state[group];
         if (program.uses("oldState")) program.texture("oldState", 0, layers.state());
-        program.texture("oldRecords", 1, layers.records());
+        if (program.uses("oldRecords")) program.texture("oldRecords", 1, layers.records());
         if (program.uses("constants")) program.texture("constants", 2, layers.constants());
     }
     void apply(size_t group, const Gains& gains) override {
@@ -112,6 +112,7 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
                 program.texture("steering", kernel_unit::steering, state[g].steering());
                 program.set("givenSteeringEnd", float(steeringEnd_ - frame.time));
             }
+            if (contact_) contact_->bindLoads(program, kernel_unit::loads, g);
             const int vertices = lives ? births_->bindStep(program, g) : 3;
             draw(program, g, state[g].newState()[i], lives ? births_->reach(g) : state[g].count(), vertices);
         }

@@ -46,6 +46,9 @@ class Fragments : public ExecutionPath {
     bool alarmed() const override { return query_ && query_->raised(); }
     void disarm() override;
     const ContactResult* contact() const override { return contact_.get(); }
+    void remember(const ContactMemory& memory) override {
+        if (contact_) contact_->remember(memory);
+    }
     Lanes lanes(size_t) const override { return Lanes::molecule; }
 
     std::vector<GroupLayers> state;  // per group

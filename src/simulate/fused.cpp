@@ -77,6 +77,7 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
     if (buffers.hasConstants()) program.texture("constants", kernel_unit::constants, part.constant);
     kernels_[index]->bindTables(program);
     const bool steps = work == KernelOptions::Work::frame;
+    if (contact_ && steps) contact_->bindLoads(program, kernel_unit::loads, index, part);
     if (group.needs.steers && steps) program.texture("steering", kernel_unit::steering, part.steering);
     store(program, "NewState", binding::newState, buffers.newState(part));
     if (group.needs.records) store(program, "NewRecords", binding::newRecords, buffers.records(part));

@@ -41,6 +41,9 @@ class Fused : public ExecutionPath {
     bool alarmed() const override;
     void disarm() override;
     const ContactResult* contact() const override { return contact_.get(); }
+    void remember(const ContactMemory& memory) override {
+        if (contact_) contact_->remember(memory);
+    }
     Lanes lanes(size_t group) const override { return kernels_[group]->options().lanes; }
     LifeCounts lifeCounts(size_t group) const override { return births_->counts(group); }
     bool changeLife(size_t group, const Lifecycle& life) override;

@@ -65,14 +65,17 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
-    if (options.work == Work::touched) {
-        const auto contact =
-            std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
-                         [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+    const auto contact =
+        std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
+                     [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
+    const bool remembers =
+        options.work == Work::frame && contact != plan.contact.groups.end() && plan.contact.remembers();
+    if (options.work == Work::touched || remembers) {
         EXPECTS(contact != plan.contact.groups.end());
-        out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits()),
-                               concat("SPHERES ", contact->spheresOf)});
-        if (contact->triangles) out.emplace_back("TRIANGLES");
+        out.push_back(concat("SPHERES ", contact->spheresOf));
+        define(remembers, "REMEMBERS");
+        if (options.fragments)
+            out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
     }
     define(needs.records, "RECORDS");
     define(needs.release, "RELEASE");
@@ -92,7 +95,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     define(needs.collide, "COLLIDE");
     constexpr int few = 16;  // vertices, which are chosen from registers (fused/contact.glsl)
     define(needs.collide && perLane && group.vertexCount <= few, "FEW_VERTICES");
-    define(group.rigid && perLane, "RIGID_IMPACT");
+    define(group.rigid && needs.collide && perLane, "RIGID_IMPACT");
     if (solver(group.solver).implicit) out.push_back(concat("SPRING_COUNT ", std::max(1, group.springCount)));
     if (needs.life) defineLife(*group.life, births, out);
     return out;

@@ -16,6 +16,7 @@ using gpu::Texel;
 namespace {
 
 constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
+constexpr uint32_t contactsMask = 0x7fffffffu;  // shaders/contact/flags.glsl
 constexpr size_t cellTile = 4096;    // cells that one workgroup adds up (shaders/contact/starts.comp)
 
 // Words of the counts of so many cells and of their tiles.
@@ -40,8 +41,7 @@ void checkLimits(const gpu::ContextInfo& info, const ContactPlan& contact) {
 
 // Words of an entry of the largest array of lists.
 static size_t entryWords(const ContactPlan& contact) {
-    const bool pushes = contact.settings.response == ContactResponse::simultaneous;
-    return wordsOf(pushes ? Texel::uint2 : Texel::uint1);
+    return wordsOf(contact.remembers() ? Texel::float4 : Texel::uint1);
 }
 
 // Entries of all lists together.
@@ -80,8 +80,10 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
       listLength_(int(
           std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
     for (const ContactGroup& group : contact_->groups) {
-        triangles_ |= group.triangles;
         self_ |= group.self;
+        if (!contact_->remembers()) continue;
+        rigid_ |= plan.groups[group.group].rigid;
+        spreads_ |= group.triangles || plan.groups[group.group].rigid;
         walls_ |= plan.groups[group.group].needs.collide;
     }
     const auto array = [&](size_t texels, Texel texel, const char* label) {
@@ -101,26 +103,6 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
         arrivals_ = array(padded_, Texel::uint2, "spheres on their way to cells");
         members_ = array(padded_, Texel::uint1, "spheres of cells");
     }
-    if (staggered_.buffer || triangles_) slots_ = array(padded_, Texel::uint1, "slots");
-    counts_ = array(padded_, Texel::uint1, "contacts");
-    lists_ = array(padded_ * size_t(listLength_), Texel::uint1, "contact lists");
-    shifts_ = array(padded_, Texel::float4, "contact shifts");
-    for (Array& impulses : impulses_)
-        impulses = array(padded_, Texel::float4, "contact impulses");
-    if (contact_->settings.response == ContactResponse::simultaneous)
-        pushed_ = array(padded_ * size_t(listLength_), Texel::uint2, "contact pushes");
-    if (contact_->settings.response == ContactResponse::simultaneous)
-        effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
-    if (walls_) {
-        // groups that do not collide leave theirs as they are now
-        const std::vector<glm::vec4> none(padded_, glm::vec4(0, 1, 0, 1e30f));
-        nearWalls_ = Array(context, padded_, Texel::float4, "walls", none.data());
-        wallPushed_ = array(padded_, Texel::uint2, "wall pushes");
-    }
-    if (triangles_) {
-        normals_ = array(2 * padded_, Texel::float4, "contact normals");
-        velocities_ = array(padded_, Texel::float4, "contact velocities");
-    }
     const auto zeros = [&](size_t words, const char* label) {
         const std::vector<uint32_t> none(words);
         return gpu::Buffer(context, gpu::Buffer::Use::storage, std::span<const uint32_t>(none), label);
@@ -129,6 +111,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     touching_ = zeros(1 + padded_, "in contact");
     touchingGroups_ = zeros(3, "workgroups in contact");
     dropped_ = zeros(1, "contacts left out");
+    makeMemory();
     makeExclusions();
     makeMaterials();
     makePrograms(shaderRoot, options.cache);
@@ -136,12 +119,50 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
         makeGroup(group, shaderRoot, options.cache);
 }
 
+void MoleculeContact::makeMemory() {
+    // What is remembered begins as nothing.
+    const auto array = [&](size_t texels, Texel texel, const char* label) {
+        const std::vector<uint32_t> none(texels * wordsOf(texel));
+        return Array(*context_, texels, texel, label, none.data());
+    };
+    const size_t entries = padded_ * size_t(listLength_);
+    for (const size_t side : {0, 1}) {
+        slots_[side] = array(padded_, Texel::uint1, "slots");
+        counts_[side] = array(padded_, Texel::uint1, "contacts");
+        known_[side] = array(padded_, Texel::float4, "known impulses");
+        if (side > 0 && !contact_->remembers()) break;
+        lists_[side] = array(entries, Texel::uint1, "contact lists");
+        if (!contact_->remembers()) continue;
+        pushes_[side] = array(entries, Texel::float4, "contact pushes");
+        anchors_[side] = array(entries, Texel::float4, "contact anchors");
+        if (!walls_) continue;
+        // groups that do not collide leave theirs as they are now
+        const size_t texels = 2 * ContactPlan::mostWalls * padded_;
+        const std::vector<glm::vec4> far(texels, glm::vec4(0, 0, 0, 1e30f));
+        nearWalls_[side] = Array(*context_, texels, Texel::float4, "walls", far.data());
+    }
+    for (Array& totals : totals_)
+        totals = array(2 * padded_, Texel::float4, "contact totals");
+    loads_ = array(padded_, Texel::float4, "contact loads");
+    if (!contact_->remembers()) return;
+    effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
+    if (walls_) wallPushes_ = array(2 * ContactPlan::mostWalls * padded_, Texel::float4, "wall pushes");
+    if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
+    if (!spreads_) return;
+    normals_ = array(2 * padded_, Texel::float4, "contact normals");
+    motionsNow_ = array(2 * padded_, Texel::float4, "contact motions now");
+}
+
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
     std::vector<std::string> common = {concat("LIST ", listLength_),
-                                       concat("NEIGHBORS ", contact_->settings.neighbors)};
+                                       concat("NEIGHBORS ", contact_->settings.neighbors),
+                                       concat("NEAR ", ContactPlan::near),
+                                       concat("MOST_WALLS ", ContactPlan::mostWalls)};
     if (self_) common.push_back("SELF");
-    if (triangles_) common.push_back("TRIANGLES");
+    if (spreads_) common.push_back("SPREAD");
+    if (rigid_) common.push_back("BODIES");
     if (walls_) common.push_back("WALLS");
+    if (contact_->remembers()) common.push_back("REMEMBERS");
     gpu::ProgramOptions options;
     options.cache = cache;
     const auto make = [&](const char* file, const char* define = nullptr) {
@@ -158,17 +179,28 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
     } else {
         sort_.emplace(*context_, shaderRoot, padded_, cache);
     }
-    order_ = make("order", slots_.buffer ? "SLOTS" : nullptr);
+    order_ = make("order");
+    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
     if (staggered_.buffer) findStaggered_ = make("neighbors", "STAGGERED");
-    makeStages(options, make);
+    if (!contact_->remembers()) {
+        nearest_ = make("nearest");
+        return;
+    }
+    prepare_ = make("prepare");
+    relax_ = make("relax");
+    settle_ = make("settle");
 }
 
 void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& shaderRoot,
                                 gpu::ProgramCache* cache) {
     const GroupPlan& plan = plan_->groups[group.group];
     std::vector<std::string> common = plan.layout().defines();
-    common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf)});
+    common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf),
+                                concat("MOST_WALLS ", ContactPlan::mostWalls)});
     if (group.triangles) common.push_back("TRIANGLES");
+    if (contact_->remembers()) common.push_back("REMEMBERS");
+    const bool rigid = rigid_ && plan.rigid;
+    if (rigid) common.push_back("RIGID");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
     if (counted_) common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile)});
     const auto make = [&](const char* file, const char* define = nullptr) {
@@ -182,9 +214,11 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
         return Program(*context_, shaderRoot, options);
     };
     GroupPrograms& out = groups_.emplace_back();
-    out.spheres = make("spheres", plan.needs.collide ? "WALLS" : nullptr);
-    out.apply = make("apply");
-    if (triangles_) {
+    out.spheres = make("spheres", walls_ && plan.needs.collide ? "WALLS" : nullptr);
+    common.emplace_back("APPLIES");
+    out.apply = make("apply", group.triangles || rigid ? "MANY" : nullptr);
+    common.pop_back();
+    if (spreads_) {
         out.effectiveSum = make("effective_sum");
         out.spread = make("spread");
     }
@@ -204,11 +238,6 @@ void MoleculeContact::makeMaterials() {
     for (const glm::vec2& pair : contact_->pairs)
         pairs.emplace_back(pair, 0, 0);
     materials_ = Array(*context_, pairs.size(), Texel::float4, "contact materials", pairs.data());
-    if (!walls_) return;
-    std::vector<glm::vec4> friction;
-    for (const double mu : contact_->wallFriction)
-        friction.emplace_back(float(mu), 0, 0, 0);
-    wallFriction_ = Array(*context_, friction.size(), Texel::float4, "wall friction", friction.data());
 }
 
 void MoleculeContact::settled() {
@@ -232,10 +261,16 @@ size_t MoleculeContact::setSpheres(const Program& program, size_t group, const G
 void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
-    program.set("wallTime", float(frame.parameters.frameTime));
-    program.set("wallStep", float(frame.parameters.frameTime));
-    program.set("wallNudge", float(0.05 * group.radius));
-    program.storage("Walls", 4, nearWalls_.buffer);
+    program.storage("Walls", 4, nearWalls_[now_].buffer);
+}
+
+void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
+                                const GroupBuffers::Part& part) const {
+    for (const ContactGroup& contact : contact_->groups) {
+        if (contact.group != group || !contact_->remembers()) continue;
+        program.set("firstSphere", contact.firstSphere + part.first * contact.spheresOf);
+        program.texture("contactLoads", unit, loads_.texture);
+    }
 }
 
 void MoleculeContact::useTouching(const Program& program) const {
@@ -251,7 +286,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         textures.add("oldState", buffers.oldState(part)).add("oldRecords", part.record);
         textures.add("shapes", groups_[g].shapes.texture);
         if (buffers.hasConstants()) textures.add("constants", part.constant);
-        if (plan_->groups[group.group].needs.collide) {
+        if (walls_ && plan_->groups[group.group].needs.collide) {
             if (tables_->sampleTexels) textures.add("samples", tables_->sampleTexels);
             setWalls(program, group, frame);
         }
@@ -261,12 +296,15 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         program.set("givenRadius", float(group.radius));
         program.set("cellShift", glm::vec3(staggered ? float(contact_->cell / 2) : 0.0f));
         program.set("onlyKeys", int(staggered));
+        program.set("contactStep", float(frame.parameters.frameTime));
         if (counted_) program.storage("CellCounts", 5, cellCounts_);
         const Array& pairs = counted_ ? arrivals_ : staggered ? staggered_ : pairs_;
         program.storage("Pairs", 0, pairs.buffer);
         program.storage("Places", 1, spherePlaces_.buffer);
         program.storage("Motions", 2, motions_.buffer);
         program.storage("Cells", 3, sphereCells_.buffer);
+        if (contact_->remembers()) program.storage("Loads", 6, loads_.buffer);
+        if (isRigid(g)) program.storage("Bodies", 7, bodies_.buffer);
         dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
@@ -312,7 +350,7 @@ void MoleculeContact::order(bool staggered) {
     order_.set("count", contact_->spheres);
     order_.storage("Places", 1, places_.buffer);
     order_.storage("Cells", 4, cells_.buffer);
-    if (slots_.buffer) order_.storage("Slots", 2, slots_.buffer);
+    order_.storage("Slots", 2, slots_[now_].buffer);
     useTouching(order_);
     dispatch(order_, size_t(contact_->spheres));
     settled();
@@ -320,6 +358,7 @@ void MoleculeContact::order(bool staggered) {
 
 void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
     dispatches_ = 0;
+    now_ = 1 - now_;
     for (const bool staggered : {true, false}) {
         if (staggered && !staggered_.buffer) continue;
         makeKeys(staggered, frame, state);
@@ -332,19 +371,21 @@ void MoleculeContact::find(const Program& program) {
     Textures textures(program);
     textures.add("places", places_.texture).add("cells", cells_.texture).add("sorted", pairs_.texture);
     if (&program == &findStaggered_)
-        textures.add("staggered", staggered_.texture).add("slots", slots_.texture);
+        textures.add("staggered", staggered_.texture).add("slots", slots_[now_].texture);
     if (contact_->settings.search == ContactSearch::exact) {
         textures.add("starts", cellStarts_.texture);
-        program.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
+        program.set("reach", float(2 * ContactPlan::near * contact_->largestRadius * (1 + 1e-6)));
         program.set("keyMask", keyMask());
     }
+    if (contact_->remembers())
+        textures.add("oldSlots", slots_[1 - now_].texture).add("oldCounts", counts_[1 - now_].texture);
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
     program.set("count", contact_->spheres);
     program.set("cell", float(contact_->cell));
     program.set("listStride", int(padded_));
     program.set("last", int(!findStaggered_ || &program == &findStaggered_));
-    program.storage("Lists", 0, lists_.buffer);
-    program.storage("Counts", 1, counts_.buffer);
+    program.storage("Lists", 0, list().buffer);
+    program.storage("Counts", 1, counts_[now_].buffer);
     program.storage("Dropped", 2, dropped_);
     useTouching(program);
     dispatch(program, size_t(contact_->spheres));
@@ -362,16 +403,74 @@ uint32_t MoleculeContact::dropped() const {
     return out;
 }
 
+// Reads back so many texels.
+template <typename T>
+static std::vector<T> readBack(const gpu::Buffer& buffer, size_t count) {
+    std::vector<T> out(count);
+    if (count > 0) buffer.download(gpu::Traffic::Kind::state, 0, out.data(), count * sizeof(T));
+    return out;
+}
+
+template <typename T>
+static void write(gpu::Buffer& buffer, const std::vector<T>& values) {
+    if (!values.empty())
+        buffer.update(gpu::Traffic::Kind::state, 0, values.data(), values.size() * sizeof values[0]);
+}
+
+ContactMemory MoleculeContact::memory() const {
+    if (!contact_->remembers()) return {};
+    const size_t spheres = size_t(contact_->spheres), entries = padded_ * size_t(listLength_);
+    ContactSlots out;
+    out.stride = padded_;
+    out.slots = readBack<uint32_t>(slots_[now_].buffer, spheres);
+    out.counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
+    for (uint32_t& count : out.counts)
+        count = std::min(count & contactsMask, uint32_t(listLength_));
+    if (std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; })) return {};
+    out.lists = readBack<uint32_t>(lists_[now_].buffer, entries);
+    out.pushes = readBack<glm::vec4>(pushes_[pushed_].buffer, entries);
+    out.anchors = readBack<glm::vec4>(anchors_[now_].buffer, entries);
+    out.known = readBack<glm::vec4>(known_[now_].buffer, padded_);
+    out.loads = readBack<glm::vec4>(loads_.buffer, spheres);
+    if (!walls_) return bySphere(out);
+    out.walls = readBack<glm::vec4>(nearWalls_[now_].buffer, 2 * ContactPlan::mostWalls * spheres);
+    // each has the one before it behind it
+    const auto pushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
+    for (size_t i = 0; i < pushes.size(); i += 2)
+        out.wallPushes.push_back(pushes[i]);
+    return bySphere(out);
+}
+
+void MoleculeContact::remember(const ContactMemory& memory) {
+    if (!contact_->remembers()) return;
+    if (memory.counts.size() != size_t(contact_->spheres)) {
+        write(counts_[now_].buffer, std::vector<uint32_t>(padded_));
+        return write(loads_.buffer, std::vector<glm::vec4>(padded_));
+    }
+    const ContactSlots in = bySlot(memory, padded_, size_t(listLength_));
+    write(slots_[now_].buffer, in.slots);
+    write(counts_[now_].buffer, in.counts);
+    write(lists_[now_].buffer, in.lists);
+    write(pushes_[pushed_].buffer, in.pushes);
+    write(anchors_[now_].buffer, in.anchors);
+    write(known_[now_].buffer, in.known);
+    write(loads_.buffer, in.loads);
+    if (!walls_ || in.walls.empty()) return;
+    write(nearWalls_[now_].buffer, in.walls);
+    std::vector<glm::vec4> pushes;
+    for (const glm::vec4& push : in.wallPushes)
+        pushes.insert(pushes.end(), {push, push});
+    write(wallPushes_.buffer, pushes);
+}
+
 std::vector<std::pair<int, int>> MoleculeContact::found() const {
-    const auto read = [](const Array& array) {
-        std::vector<uint32_t> out(array.buffer.bytes() / sizeof(uint32_t));
-        array.buffer.download(gpu::Traffic::Kind::state, 0, out.data(), array.buffer.bytes());
-        return out;
-    };
-    const std::vector<uint32_t> counts = read(counts_), lists = read(lists_), sorted = read(pairs_);
+    const size_t spheres = size_t(contact_->spheres);
+    const auto counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
+    const auto lists = readBack<uint32_t>(list().buffer, padded_ * size_t(listLength_));
+    const auto sorted = readBack<uint32_t>(pairs_.buffer, 2 * padded_);
     std::vector<std::pair<int, int>> out;
-    for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot) {
-        const size_t listed = std::min(size_t(counts[slot]), size_t(listLength_));
+    for (size_t slot = 0; slot < spheres; ++slot) {
+        const size_t listed = std::min(size_t(counts[slot] & contactsMask), size_t(listLength_));
         for (size_t e = 0; e < listed; ++e) {
             const size_t other = lists[e * padded_ + slot];
             out.emplace_back(std::minmax(int(sorted[2 * slot + 1]), int(sorted[2 * other + 1])));
@@ -381,15 +480,16 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 }
 
 size_t MoleculeContact::bytes() const {
-    size_t out = 0;
-    for (const Array* array :
-         {&arrivals_,    &cellStarts_,      &members_,     &pairs_,        &staggered_,   &slots_,
-          &lists_,       &counts_,          &pushed_,      &shifts_,       &velocities_,  &normals_,
-          &nearWalls_,   &effectiveCounts_, &wallPushed_,  &apart_,        &groupsOf_,    &materials_,
-          &impulses_[0], &impulses_[1],     &impulses_[2], &spherePlaces_, &sphereCells_, &motions_,
-          &cells_,       &places_})
-        out += array->buffer ? array->buffer.bytes() : 0;
-    return out + touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
+    size_t out = touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
+    const auto add = [&](const Array& array) { out += array.buffer ? array.buffer.bytes() : 0; };
+    for (const Array* array : {&arrivals_, &cellStarts_, &members_, &pairs_, &staggered_, &apart_, &groupsOf_,
+                               &materials_, &spherePlaces_, &sphereCells_, &motions_, &cells_, &places_, &loads_,
+                               &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &wallPushes_})
+        add(*array);
+    for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_, &pushes_})
+        std::for_each(sides->begin(), sides->end(), add);
+    std::for_each(totals_.begin(), totals_.end(), add);
+    return out;
 }
 
 }  // namespace shoal

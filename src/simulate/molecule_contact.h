@@ -7,11 +7,12 @@
 //                                spheres of each cell
 //                      order     places in that order
 //   contact search     find      the spheres that each touches (or `neighbors`, UberFlow's)
-//   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`,
-//   UberFlow's)
+//   contact response   prepare   what contacts remember of the last step
+//                      relax     the impulses of all contacts, in Jacobi iterations
+//                      settle    what they remember for the next (or, of all three, `nearest`: UberFlow's)
 //                      apply     into the state
 //
-// Only gathers: a repeat gives the same bits. Nothing is kept from one contact step to the next.
+// Only gathers: a repeat gives the same bits.
 //
 // shaders/contact/records.glsl lists what is known of a sphere.
 #pragma once
@@ -41,9 +42,14 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Spheres that a context holds, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
+    // Binds to the step of a group of the plan what its contacts remember, if it has any.
+    void bindLoads(const gpu::Program& program, int unit, size_t group, const GroupBuffers::Part& part) const;
+
     uint32_t dropped() const override;
     int listLength() const override { return listLength_; }
     std::vector<std::pair<int, int>> found() const override;
+    ContactMemory memory() const override;
+    void remember(const ContactMemory& memory);
     size_t bytes() const override;
     int dispatches() const override { return dispatches_; }
 
@@ -76,6 +82,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
         Array shapes;
     };
 
+    void makeMemory();
     void makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache);
     void makeGroup(const ContactGroup& group, const std::string& shaderRoot, gpu::ProgramCache* cache);
     void makeExclusions();
@@ -92,12 +99,17 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
                       int first) const;
     Textures bindResponse(const gpu::Program& program, const Times& times) const;
-    void runNearest(Buffers& state, const Times& times, const Totals& totals) override;
-    void runEffective(Buffers& state, const Times& times) override;
-    void runStage(Buffers& state, const gpu::Program& program, const Times& times,
-                  const Totals& totals) override;
-    void spread(Buffers& state, const Totals& totals) override;
-    void apply(Buffers& state, size_t impulses) override;
+    void bindWalls(const gpu::Program& program, Textures& textures) const;
+    void runNearest(Buffers& state, const Times& times) override;
+    void prepare(Buffers& state, const Times& times) override;
+    void countEffective(Buffers& state);
+    void relax(Buffers& state, const Times& times, float momentum) override;
+    void spread(Buffers& state, const Array& earlier, float momentum);
+    void settle(Buffers& state, const Times& times) override;
+    void apply(Buffers& state, const Times& times) override;
+    bool isRigid(size_t group) const {
+        return rigid_ && plan_->groups[contact_->groups[group].group].rigid;
+    }
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {
@@ -107,6 +119,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
                 run(g, state[group.group], part, group.firstSphere + part.first * group.spheresOf);
         }
     }
+    const Array& list() const { return lists_[contact_->remembers() ? now_ : 0]; }
     static void settled();  // before what reads what dispatches have written
     void dispatch(const gpu::Program& program, size_t lanes) const;
     void dispatchTouching(const gpu::Program& program) const;
@@ -115,21 +128,28 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     mutable int dispatches_ = 0;
     bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
-    bool triangles_ = false, self_ = false, walls_ = false;
+    // `spreads_`: the contacts of one sphere move others.
+    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
     std::vector<GroupPrograms> groups_;
-    gpu::Program starts_, collect_, order_, findStaggered_;
+    gpu::Program starts_, collect_, order_, find_, findStaggered_, nearest_, prepare_, relax_, settle_;
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
     Array arrivals_, members_;       // where they are counted
     gpu::Buffer cellCounts_;         // shaders/contact/cell_counts.glsl
-    Array pairs_, staggered_, cellStarts_, slots_, lists_, counts_, effectiveCounts_, pushed_, shifts_,
-        normals_, velocities_;
-    Array apart_, groupsOf_, materials_;
-    std::array<Array, 3> impulses_;
+    Array pairs_, staggered_, cellStarts_, apart_, groupsOf_, materials_;
     Array spherePlaces_, motions_, sphereCells_, cells_, places_;
-    Array nearWalls_, wallPushed_, wallFriction_;  // where colliders are
-    gpu::Buffer touching_, touchingGroups_;        // shaders/contact/touching.glsl
-    gpu::Buffer dropped_;                          // contacts that no list had room for, so far
+    gpu::Buffer touching_, touchingGroups_;  // shaders/contact/touching.glsl
+    gpu::Buffer dropped_;                    // contacts that no list had room for, so far
+
+    // What the last step leaves to this one, as the shaders call it; `now_` is this one's.
+    size_t now_ = 0;
+    std::array<Array, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
+    std::array<Array, 2> pushes_;  // the last stage's lie in [pushed_]
+    size_t pushed_ = 0;
+    Array loads_;  // m/s^2, by sphere
+    // Within a step.
+    std::array<Array, 3> totals_;  // in turn: the last stage's, those before, the next
+    Array effectiveCounts_, normals_, motionsNow_, bodies_, wallPushes_;
 };
 
 }  // namespace shoal

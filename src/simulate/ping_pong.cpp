@@ -44,6 +44,11 @@ std::string setOnceFor(const GroupPlan& group) {
     return out;
 }
 
+// Whether a pass takes the acceleration of gravity, and so that of what contacts remember.
+bool readsLoads(PassKind kind) {
+    return kind == PassKind::advect || kind == PassKind::stage || kind == PassKind::collide;
+}
+
 // Whether a pass looks for colliders: a stage of rk4 for what rests on them.
 bool readsColliders(PassKind kind, const Needs& needs) {
     return kind == PassKind::collide || (kind == PassKind::stage && needs.collide);
@@ -121,6 +126,9 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         wanted.fragment = concat("passes/", name(pass.kind), ".frag");
         wanted.defines = defines(plan.groups[pass.group]);
         if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
+        if (plan.contact.remembers() && plan.contact.has(pass.group) && readsLoads(pass.kind))
+            wanted.defines.insert(wanted.defines.end(),
+                                  {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
         wanted.generated = {{"generated/fields.glsl", plan.fieldSource},
                             {"generated/scene_forces.glsl", plan.groups[pass.group].forces.source},
                             {"generated/colliders.glsl", plan.collideSource}};
@@ -247,6 +255,7 @@ const Program& PingPong::prepare(PassKind kind, const GroupPlan& group, size_t i
     tables_->bindNoiseTiles(program, *plan_);
     if ((kind == PassKind::advect || kind == PassKind::stage) && state.normal)
         program.texture("vertexNormals", 7, state.normal);
+    if (contact_ && readsLoads(kind)) contact_->bindLoads(program, 15, index);
     return program;
 }
 

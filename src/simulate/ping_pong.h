@@ -46,6 +46,9 @@ class PingPong : public ExecutionPath {
         if (query_) query_->disarm();
     }
     const ContactResult* contact() const override { return contact_.get(); }
+    void remember(const ContactMemory& memory) override {
+        if (contact_) contact_->remember(memory);
+    }
 
     TextureState state;
 
@@ -74,7 +77,7 @@ class PingPong : public ExecutionPath {
                     double predictTime);
     void setColliders(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
     void setForces(const gpu::Program& program, PassKind kind, const GroupPlan& group, const Step& step);
-    using Targets = std::vector<const gpu::Texture*>;
+    using Targets = std::vector<gpu::ColorTarget>;
     void draw(const GroupPlan& group, int firstRow, int rows, const Targets& targets);
     void drawState(const GroupPlan& group, const Targets& targets);
     void drawVelocity(const GroupPlan& group, size_t index);  // into the other side, the current one then

@@ -72,6 +72,7 @@ std::unique_ptr<ExecutionPath> Simulation::makePath(const std::string& shaderRoo
 void Simulation::restart() {
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         path_->write(g, plan_.groups[g].start, 0);
+    path_->remember({});
     goOn(0, 0, 0);
 }
 

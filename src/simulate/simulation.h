@@ -38,6 +38,7 @@ struct SavedState {
     // s, of the last substep; 0: none, or forces have jumped since. A solver with history goes on only with
     // the same.
     double step = 0;
+    ContactMemory contacts;
 };
 
 class Simulation {

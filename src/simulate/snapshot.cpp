@@ -7,9 +7,10 @@
 namespace shoal {
 
 SavedState Simulation::save() const {
-    SavedState out{time_, frames_, {}, forcesJump() ? 0 : lastStep_};
+    SavedState out{time_, frames_, {}, forcesJump() ? 0 : lastStep_, {}};
     for (size_t g = 0; g < plan_.groups.size(); ++g)
         out.groups.push_back(path_->read(g));
+    if (path_->contact()) out.contacts = path_->contact()->memory();
     return out;
 }
 
@@ -17,7 +18,7 @@ std::optional<SavedState> Simulation::saveBefore() const {
     if (!last_) return {};
     std::optional<std::vector<GroupState>> groups = path_->readBefore();
     if (!groups) return {};
-    return SavedState{last_->time, last_->number, std::move(*groups), stepBefore_};
+    return SavedState{last_->time, last_->number, std::move(*groups), stepBefore_, {}};
 }
 
 // Adapts the state of a scene with other pins: a pinned vertex is at rest, and pins that cannot be released
@@ -38,6 +39,7 @@ void Simulation::load(const SavedState& saved) {
         EXPECTS(saved.groups[g].positions.size() == plan_.groups[g].start.positions.size());
         path_->write(g, asHeld(plan_.groups[g], saved.groups[g]), saved.time);
     }
+    path_->remember(saved.contacts);
     goOn(saved.time, saved.frames, saved.step);
 }
 

@@ -13,8 +13,9 @@ using gpu::Traffic;
 
 namespace {
 
-constexpr int layers = TextureContact::longestList / 4;
+constexpr int listLayers = TextureContact::longestList / 4;
 static_assert(TextureContact::longestList % 4 == 0);
+constexpr uint32_t contactsMask = 0x7fffffffu;  // shaders/contact/flags.glsl
 
 }  // namespace
 
@@ -27,8 +28,10 @@ TextureContact::TextureContact(gpu::Context& context, const std::string& shaderR
       targets_(context),
       noAttributes_(context, "contact") {
     for (const ContactGroup& group : contact_->groups) {
-        triangles_ |= group.triangles;
         self_ |= group.self;
+        if (!contact_->remembers()) continue;
+        rigid_ |= plan.groups[group.group].rigid;
+        spreads_ |= group.triangles || plan.groups[group.group].rigid;
         walls_ |= state.fused() && plan.groups[group.group].needs.collide;
     }
     if (contact_->settings.search == ContactSearch::staggered)
@@ -53,30 +56,46 @@ void TextureContact::makeTextures(gpu::Context& context) {
     for (Texture* records : {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_})
         *records = texture(Format::rgba32ui, "contact records");
     startsOf_ = Texture(context, Format::r32ui, width, rowsOf(1 << contact_->tableBits), "cells");
-    slotsOf_ = texture(Format::r32ui, "slots");
-    lists_ = texture(Format::rgba32ui, "contact lists", layers);
-    const std::vector<uint32_t> none(2 * size_t(width) * size_t(rows));
-    for (Texture& counts : counts_) {
-        counts = texture(Format::rg32ui, "contacts");
-        counts.upload(Traffic::Kind::parameters, 0, 0, width, rows, none.data(),
-                      none.size() * sizeof(uint32_t));
+    const size_t texels = size_t(width) * size_t(rows);
+    const auto fill = [&](Texture& filled, const std::vector<uint32_t>& words) {
+        filled.upload(Traffic::Kind::parameters, 0, 0, width, rows, words.data(),
+                      words.size() * sizeof(uint32_t));
+    };
+    const std::vector<uint32_t> none(4 * texels);
+    std::vector<glm::vec4> far(texels, glm::vec4(0, 0, 0, 1e30f));
+    for (const size_t side : {0, 1}) {
+        slots_[side] = texture(Format::r32ui, "slots");
+        fill(slots_[side], {none.begin(), none.begin() + ptrdiff_t(texels)});
+        counts_[side] = texture(Format::rg32ui, "contacts");
+        fill(counts_[side], {none.begin(), none.begin() + ptrdiff_t(2 * texels)});
+        lists_[side] = texture(Format::rgba32ui, "contact lists", listLayers);
+        known_[side] = texture(Format::rgba32f, "known impulses");
+        fill(known_[side], none);
+        if (!contact_->remembers()) continue;
+        anchors_[side] = texture(Format::rgba32f, "contact anchors", longestList);
+        if (!walls_) continue;
+        // groups that do not collide leave theirs as they are now
+        nearWalls_[side] = texture(Format::rgba32f, "walls", 2 * ContactPlan::mostWalls);
+        for (int layer = 0; layer < nearWalls_[side].layers(); ++layer)
+            nearWalls_[side].upload(Traffic::Kind::parameters, 0, 0, width, rows, far.data(),
+                                    far.size() * sizeof far[0], layer);
     }
-    shifts_ = texture(Format::rgba32f, "contact shifts");
-    for (Texture& impulses : impulses_)
-        impulses = texture(Format::rgba32f, "contact impulses");
-    if (contact_->settings.response == ContactResponse::simultaneous) {
-        effectiveCounts_ = texture(Format::r32ui, "effective contact counts");
-        for (Texture& pushes : pushes_)
-            pushes = texture(Format::rgba32f, "contact pushes", layers);
-    }
-    if (walls_) {
-        sphereWalls_ = texture(Format::rgba32f, "walls");
-        nearWalls_ = texture(Format::rgba32f, "walls in order");
-    }
-    if (!triangles_) return;
-    for (Texture* part : {&diagonals_, &besides_})
-        *part = texture(Format::rgba32f, "contact normals");
-    velocities_ = texture(Format::rgba32f, "contact velocities");
+    for (Texture& totals : totals_)
+        totals = texture(Format::rgba32f, "contact totals", 2);
+    gains_ = texture(Format::rgba32f, "contact gains", 2);
+    loads_ = texture(Format::rgba32f, "contact loads");
+    fill(loads_, none);
+    if (!contact_->remembers()) return;
+    effectiveCounts_ = texture(Format::r32ui, "effective contact counts");
+    for (Texture& pushes : pushes_)
+        pushes = texture(Format::rgba32f, "contact pushes", longestList);
+    if (walls_)
+        for (Texture& pushes : wallPushes_)
+            pushes = texture(Format::rgba32f, "wall pushes", ContactPlan::mostWalls);
+    if (rigid_) bodies_ = texture(Format::rgba32f, "bodies", 3);
+    if (!spreads_) return;
+    normals_ = texture(Format::rgba32f, "contact normals", 2);
+    motionsNow_ = texture(Format::rgba32f, "contact motions now", 2);
 }
 
 // A texture of so many texels, by number.
@@ -91,14 +110,10 @@ Texture TextureContact::table(gpu::Context& context, Format format, size_t texel
 }
 
 void TextureContact::makeTables(gpu::Context& context) {
-    std::vector<glm::vec4> materials, friction;
+    std::vector<glm::vec4> materials;
     for (const glm::vec2& pair : contact_->pairs)
         materials.emplace_back(pair, 0, 0);
     materials_ = table(context, Format::rgba32f, materials.size(), materials.data(), "contact materials");
-    for (const double mu : contact_->wallFriction)
-        friction.emplace_back(float(mu), 0, 0, 0);
-    if (walls_)
-        wallFriction_ = table(context, Format::rgba32f, friction.size(), friction.data(), "wall friction");
     if (!self_) return;
     const ContactPlan::Exclusions exclusions = contact_->exclusions();
     apart_ =
@@ -112,14 +127,18 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     gpu::ProgramOptions options;
     options.vertex = "passes/fullscreen.vert";
     options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
-                       concat("NEIGHBORS ", contact_->settings.neighbors)};
+                       concat("NEIGHBORS ", contact_->settings.neighbors), concat("NEAR ", ContactPlan::near),
+                       concat("MOST_WALLS ", ContactPlan::mostWalls),
+                       concat("ENTRIES_A_DRAW ", entriesADraw)};
     const auto define = [&](bool need, const char* name) {
         if (need) options.defines.emplace_back(name);
     };
     define(bool(staggered_), "STAGGERED");
     define(self_, "SELF");
-    define(triangles_, "TRIANGLES");
+    define(spreads_, "SPREAD");
+    define(rigid_, "BODIES");
     define(walls_, "WALLS");
+    define(contact_->remembers(), "REMEMBERS");
     options.cache = cache;
     options.fragment = "sort/starts.frag";
     options.label = "contact starts";
@@ -131,8 +150,17 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     };
     keys_ = make("keys");
     order_ = make("order");
-    slots_ = make("slots");
-    makeStages(options, make);
+    slot_ = make("slots");
+    find_ = make(contact_->settings.search == ContactSearch::exact ? "find" : "neighbors");
+    if (!contact_->remembers()) {
+        nearest_ = make("nearest");
+        return;
+    }
+    prepare_ = make("prepare");
+    prepareSums_ = make("prepare_sums");
+    relax_ = make("relax");
+    relaxSums_ = make("relax_sums");
+    settle_ = make("settle");
 }
 
 TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const ContactGroup& group,
@@ -148,8 +176,9 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
     define(plan.needs.pins, "PINS");
     define(plan.needs.release, "RELEASE");
     define(group.triangles, "TRIANGLES");
-    define(walls_, "WALL_RECORDS");
-    define(walls_ && plan.needs.collide, "WALLS");
+    define(rigid_, "BODIES");
+    const bool rigid = rigid_ && plan.rigid;
+    define(rigid, "RIGID");
     const auto make = [&](const char* file) {
         gpu::ProgramOptions options;
         options.vertex = "passes/fullscreen.vert";
@@ -161,11 +190,21 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
         return Program(context, shaderRoot, options);
     };
     OfGroup out;
+    out.rigid = rigid;
+    out.many = rigid || group.triangles;
     out.spheres = make("spheres");
     if (state.fused())
         out.shapes =
             table(context, Format::rgba32f, group.shapes.size(), group.shapes.data(), "contact shapes");
-    if (!triangles_) return out;
+    const std::vector<std::string> ofGroup = common;
+    common.insert(common.end(), {"WALLS", concat("MOST_WALLS ", ContactPlan::mostWalls)});
+    if (walls_ && plan.needs.collide) out.walls = make("walls");
+    common = ofGroup;
+    common.emplace_back("APPLIES");
+    define(out.many, "MANY");
+    out.gains = make("gains");
+    common = ofGroup;
+    if (!spreads_) return out;
     out.effectiveSum = make("effective_sum");
     out.spread = make("spread");
     return out;
@@ -190,18 +229,31 @@ const Program& TextureContact::useGroup(const Program& program, size_t group) co
     return program;
 }
 
-void TextureContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
-    const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
-    program.set("colliderParameters", std::span<const glm::vec4>(parameters));
-    program.set("wallTime", float(frame.parameters.frameTime));
-    program.set("wallStep", float(frame.parameters.frameTime));
-    program.set("wallNudge", float(0.05 * group.radius));
-    if (tables_->samples && program.uses("samples")) program.texture("samples", 3, tables_->samples);
+void TextureContact::makeWalls(const Frame& frame, ContactState& state) {
+    std::vector<gpu::ColorTarget> into;
+    for (int layer = 0; walls_ && layer < nearWalls_[now_].layers(); ++layer)
+        into.emplace_back(&nearWalls_[now_], layer);
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        if (!groups_[g].walls) continue;
+        const ContactGroup& group = contact_->groups[g];
+        const GroupPlan& plan = plan_->groups[group.group];
+        const Program& program = useGroup(groups_[g].walls, g);
+        state.bind(program, group.group);
+        program.texture("shapes", 4, groups_[g].shapes);
+        const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan, frame);
+        program.set("colliderParameters", std::span<const glm::vec4>(parameters));
+        program.set("contactStep", float(frame.parameters.frameTime));
+        program.set("givenRadius", float(group.radius));
+        if (tables_->samples && program.uses("samples")) program.texture("samples", 3, tables_->samples);
+        const int first = group.firstSphere >> rowBits_;
+        draw(into, first, rowsOf(group.firstSphere + plan.count * group.spheresOf) - first);
+    }
 }
 
 void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
-    std::vector<const Texture*> into = {&spherePlaces_, &sphereMotions_, &sphereCells_};
-    if (walls_) into.push_back(&sphereWalls_);
+    Into into = {&spherePlaces_, &sphereMotions_, &sphereCells_};
+    for (int layer = 0; rigid_ && layer < 3; ++layer)
+        into.emplace_back(&bodies_, layer);
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
@@ -210,7 +262,7 @@ void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
         state.bind(program, group.group);
         if (state.fused()) {
             program.texture("shapes", 4, groups_[g].shapes);
-            if (walls_ && plan.needs.collide) setWalls(program, group, frame);
+            program.set("contactStep", float(frame.parameters.frameTime));
         } else {
             program.texture("topology", 4, tables_->topology);
             program.set("topologyBase", plan.topologyBase);
@@ -239,7 +291,9 @@ void TextureContact::sortKeys(NetworkSort& sort, bool staggered) {
 }
 
 void TextureContact::buildGrid(const Frame& frame, ContactState& state) {
+    now_ = 1 - now_;
     makeSpheres(frame, state);
+    makeWalls(frame, state);
     sortKeys(sort_, false);
     if (staggered_) sortKeys(*staggered_, true);
     starts_.use();
@@ -252,139 +306,39 @@ void TextureContact::buildGrid(const Frame& frame, ContactState& state) {
     order_.texture("sphereMotions", 2, sphereMotions_);
     order_.texture("sphereCells", 3, sphereCells_);
     order_.set("count", contact_->spheres);
-    if (walls_) {
-        order_.texture("sphereWalls", 4, sphereWalls_);
-        drawAll({&places_, &motions_, &cells_, &nearWalls_});
-    } else {
-        drawAll({&places_, &motions_, &cells_});
-    }
-    slots_.use();
-    slots_.texture("sorted", 0, sort_.pairs());
-    slots_.texture("sphereCells", 1, sphereCells_);
-    slots_.texture("starts", 2, startsOf_);
-    slots_.set("count", contact_->spheres);
-    slots_.set("keyMask", keyMask());
-    drawAll({&slotsOf_});
+    drawAll({&places_, &motions_, &cells_});
+    slot_.use();
+    slot_.texture("sorted", 0, sort_.pairs());
+    slot_.texture("sphereCells", 1, sphereCells_);
+    slot_.texture("starts", 2, startsOf_);
+    slot_.set("count", contact_->spheres);
+    slot_.set("keyMask", keyMask());
+    drawAll({&slots_[now_]});
 }
 
 void TextureContact::search(ContactState&) {
     find_.use();
     find_.texture("places", 0, places_);
     find_.texture("cells", 1, cells_);
-    find_.texture("oldCounts", 2, counts_[countsSide_]);
+    find_.texture("oldCounts", 2, counts_[1 - now_]);
     if (contact_->settings.search == ContactSearch::exact) {
         find_.texture("starts", 3, startsOf_);
-        find_.set("reach", float(2 * contact_->largestRadius * (1 + 1e-6)));
+        find_.set("reach", float(2 * ContactPlan::near * contact_->largestRadius * (1 + 1e-6)));
     }
     if (staggered_) {
-        find_.texture("sorted", 3, sort_.pairs());
         find_.texture("staggered", 4, staggered_->pairs());
-        find_.texture("slots", 5, slotsOf_);
+        find_.texture("slots", 5, slots_[now_]);
     }
+    if (find_.uses("sorted")) find_.texture("sorted", 6, sort_.pairs());
+    if (contact_->remembers()) find_.texture("oldSlots", 9, slots_[1 - now_]);
     if (self_) {
-        find_.texture("sorted", 6, sort_.pairs());
         find_.texture("apart", 7, apart_);
         find_.texture("groupsOf", 8, groupsOf_);
     }
     find_.set("count", contact_->spheres);
     find_.set("keyMask", keyMask());
     find_.set("cell", float(contact_->cell));
-    countsSide_ = 1 - countsSide_;
-    drawAll({&counts_[countsSide_], &lists_});
-}
-
-// Binds what all stages of the response read; returns the next free texture unit.
-int TextureContact::bindResponse(const Program& program, const Times& times) const {
-    program.use();
-    program.texture("places", 0, places_);
-    program.texture("motions", 1, motions_);
-    program.texture("cells", 2, cells_);
-    program.texture("counts", 3, counts_[countsSide_]);
-    program.texture("lists", 4, lists_);
-    program.texture("materials", 5, materials_);
-    setResponse(program, times);
-    return 6;
-}
-
-void TextureContact::runStage(ContactState&, const Program& program, const Times& times,
-                              const Totals& totals) {
-    const int unit = bindResponse(program, times);
-    // without momentum the earlier ones do not count, and nobody may have written them yet
-    const size_t earlier = totals.momentum == 0 ? totals.last : totals.earlier;
-    program.texture("effectiveCounts", unit, effectiveCounts_);
-    program.texture("impulses", unit + 1, impulses_[totals.last]);
-    program.texture("earlier", unit + 2, impulses_[earlier]);
-    program.texture("pushed", unit + 3, pushes_[totals.pushes.value_or(totals.last)]);
-    program.texture("pushedBefore", unit + 4, pushes_[earlier]);
-    if (walls_) {
-        program.texture("walls", unit + 6, nearWalls_);
-        program.texture("wallFriction", unit + 7, wallFriction_);
-    }
-    if (triangles_) program.texture("velocities", unit + 8, velocities_);
-    program.set("momentum", totals.momentum);
-    program.set("frictionShare", 1.0f / ContactPlan::frictionRounds);
-    const Texture* impulses = &impulses_[totals.next];
-    if (&program == &correction_) {
-        program.texture("kept", unit + 5, shifts_);
-        drawAll({impulses});
-    } else if (&program == &friction_) {
-        drawAll({impulses, &shifts_});
-    } else {
-        drawAll({impulses, &pushes_[totals.next]});
-    }
-}
-
-void TextureContact::spread(ContactState& state, const Totals& totals) {
-    if (!triangles_) return;
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const Program& program = useGroup(groups_[g].spread, g);
-        state.bind(program, contact_->groups[g].group);
-        program.texture("sorted", 3, sort_.pairs());
-        program.texture("shapes", 4, groups_[g].shapes);
-        program.texture("slots", 5, slotsOf_);
-        program.texture("counts", 6, counts_[countsSide_]);
-        program.texture("motions", 7, motions_);
-        program.texture("impulses", 8, impulses_[totals.last]);
-        program.texture("earlier", 9, impulses_[totals.momentum == 0 ? totals.last : totals.earlier]);
-        program.set("momentum", totals.momentum);
-        program.set("count", contact_->spheres);
-        drawAll({&velocities_});
-    }
-}
-
-void TextureContact::apply(ContactState& state, size_t impulses) {
-    for (size_t g = 0; g < groups_.size(); ++g)
-        state.apply(contact_->groups[g].group, [&](const Program& program, int firstUnit) {
-            program.set("firstSphere", contact_->groups[g].firstSphere);
-            if (program.uses("shapes")) program.texture("shapes", firstUnit + 4, groups_[g].shapes);
-            program.texture("slots", firstUnit, slotsOf_);
-            program.texture("counts", firstUnit + 1, counts_[countsSide_]);
-            program.texture("impulses", firstUnit + 2, impulses_[impulses]);
-            program.texture("shifts", firstUnit + 3, shifts_);
-        });
-}
-
-void TextureContact::runNearest(ContactState&, const Times& times, const Totals& totals) {
-    bindResponse(nearest_, times);
-    drawAll({&impulses_[totals.next], &shifts_});
-}
-
-void TextureContact::runEffective(ContactState&, const Times& times) {
-    const int unit = bindResponse(effective_, times);
-    if (walls_) effective_.texture("walls", unit, nearWalls_);
-    if (!triangles_) return drawAll({&effectiveCounts_});
-    drawAll({&diagonals_, &besides_});
-    for (size_t g = 0; g < groups_.size(); ++g) {
-        const Program& program = useGroup(groups_[g].effectiveSum, g);
-        program.texture("sorted", 0, sort_.pairs());
-        program.texture("shapes", 1, groups_[g].shapes);
-        program.texture("slots", 2, slotsOf_);
-        program.texture("counts", 3, counts_[countsSide_]);
-        program.texture("diagonals", 4, diagonals_);
-        program.texture("besides", 5, besides_);
-        program.set("count", contact_->spheres);
-        drawAll({&effectiveCounts_});
-    }
+    drawAll({&counts_[now_], &lists_[now_]});
 }
 
 static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind, int layer = 0) {
@@ -396,21 +350,118 @@ static std::vector<uint32_t> readBack(const Texture& texture, Traffic::Kind kind
 }
 
 uint32_t TextureContact::dropped() const {
-    const std::vector<uint32_t> counts = readBack(counts_[countsSide_], Traffic::Kind::control);
+    const std::vector<uint32_t> counts = readBack(counts_[now_], Traffic::Kind::control);
     uint32_t out = 0;
     for (size_t slot = 0; slot < size_t(contact_->spheres); ++slot)
         out += counts[2 * slot + 1];
     return out;
 }
 
+// Texels by number, of each layer after the other.
+template <typename T>
+static std::vector<T> readLayers(const Texture& texture) {
+    const size_t texels = size_t(texture.width()) * size_t(texture.height());
+    const int layers = std::max(texture.layers(), 1);
+    std::vector<T> out(texels * size_t(layers));
+    for (int layer = 0; layer < layers; ++layer)
+        texture.download(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
+                         out.data() + texels * size_t(layer), texels * sizeof(T), layer);
+    return out;
+}
+
+template <typename T>
+static void writeLayers(Texture& texture, std::vector<T> values) {
+    const size_t texels = size_t(texture.width()) * size_t(texture.height());
+    const int layers = std::max(texture.layers(), 1);
+    values.resize(texels * size_t(layers));
+    for (int layer = 0; layer < layers; ++layer)
+        texture.upload(Traffic::Kind::state, 0, 0, texture.width(), texture.height(),
+                       values.data() + texels * size_t(layer), texels * sizeof(T), layer);
+}
+
+// What lies in layers, of each number after the other, and back.
+static std::vector<glm::vec4> together(const std::vector<glm::vec4>& layered, size_t stride, size_t count) {
+    std::vector<glm::vec4> out;
+    for (size_t i = 0; i < count; ++i)
+        for (size_t at = i; at < layered.size(); at += stride)
+            out.push_back(layered[at]);
+    return out;
+}
+
+static std::vector<glm::vec4> apart(const std::vector<glm::vec4>& of, size_t stride, size_t count) {
+    std::vector<glm::vec4> out(count > 0 ? of.size() / count * stride : 0);
+    for (size_t i = 0; i < of.size(); ++i)
+        out[i % (of.size() / count) * stride + i / (of.size() / count)] = of[i];
+    return out;
+}
+
+ContactMemory TextureContact::memory() const {
+    if (!contact_->remembers()) return {};
+    const size_t spheres = size_t(contact_->spheres);
+    ContactSlots out;
+    out.stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
+    out.slots = readLayers<uint32_t>(slots_[now_]);
+    out.slots.resize(spheres);
+    bool any = false;
+    for (const glm::uvec2& counts : readLayers<glm::uvec2>(counts_[now_])) {
+        out.counts.push_back(std::min(counts.x & contactsMask, uint32_t(longestList)));
+        any = any || out.counts.back() > 0;
+    }
+    if (!any) return {};
+    const auto lists = readLayers<glm::uvec4>(lists_[now_]);
+    for (int e = 0; e < longestList; ++e)
+        for (size_t slot = 0; slot < out.stride; ++slot)
+            out.lists.push_back(lists[size_t(e / 4) * out.stride + slot][e % 4]);
+    out.pushes = readLayers<glm::vec4>(pushes_[0]);
+    out.anchors = readLayers<glm::vec4>(anchors_[now_]);
+    out.known = readLayers<glm::vec4>(known_[now_]);
+    out.loads = readLayers<glm::vec4>(loads_);
+    out.loads.resize(spheres);
+    if (!walls_) return bySphere(out);
+    out.walls = together(readLayers<glm::vec4>(nearWalls_[now_]), out.stride, spheres);
+    const auto pushes = readLayers<glm::vec4>(wallPushes_[0]);  // by slot
+    for (const uint32_t slot : out.slots)
+        for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
+            out.wallPushes.push_back(pushes[k * out.stride + slot]);
+    return bySphere(out);
+}
+
+void TextureContact::remember(const ContactMemory& memory) {
+    if (!contact_->remembers()) return;
+    const size_t spheres = size_t(contact_->spheres);
+    if (memory.counts.size() != spheres) {
+        writeLayers<glm::uvec2>(counts_[now_], {});
+        return writeLayers<glm::vec4>(loads_, {});
+    }
+    const size_t stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
+    const ContactSlots in = bySlot(memory, stride, size_t(longestList));
+    std::vector<glm::uvec2> counts;
+    for (const uint32_t count : in.counts)
+        counts.emplace_back(count, 0);
+    std::vector<glm::uvec4> lists(stride * size_t(listLayers));
+    for (size_t e = 0; e < size_t(longestList); ++e)
+        for (size_t slot = 0; slot < stride; ++slot)
+            lists[e / 4 * stride + slot][int(e % 4)] = in.lists[e * stride + slot];
+    writeLayers(slots_[now_], in.slots);
+    writeLayers(counts_[now_], counts);
+    writeLayers(lists_[now_], lists);
+    writeLayers(pushes_[0], in.pushes);
+    writeLayers(anchors_[now_], in.anchors);
+    writeLayers(known_[now_], in.known);
+    writeLayers(loads_, in.loads);
+    if (!walls_ || in.walls.empty()) return;
+    writeLayers(nearWalls_[now_], apart(in.walls, stride, spheres));
+    writeLayers(wallPushes_[0], apart(in.wallPushes, stride, spheres));
+}
+
 std::vector<std::pair<int, int>> TextureContact::found() const {
-    const std::vector<uint32_t> counts = readBack(counts_[countsSide_], Traffic::Kind::state);
+    const std::vector<uint32_t> counts = readBack(counts_[now_], Traffic::Kind::state);
     const std::vector<KeyIndex> sorted = sort_.download();
     std::vector<std::pair<int, int>> out;
-    for (int layer = 0; layer < layers; ++layer) {
-        const std::vector<uint32_t> entries = readBack(lists_, Traffic::Kind::state, layer);
+    for (int layer = 0; layer < listLayers; ++layer) {
+        const std::vector<uint32_t> entries = readBack(lists_[now_], Traffic::Kind::state, layer);
         for (size_t slot = 0; slot < sorted.size(); ++slot) {
-            const size_t listed = std::min(counts[2 * slot], uint32_t(longestList));
+            const size_t listed = std::min(counts[2 * slot] & contactsMask, uint32_t(longestList));
             for (size_t e = 4 * size_t(layer); e < std::min(listed, 4 * size_t(layer) + 4); ++e) {
                 const size_t other = entries[4 * slot + e % 4];
                 out.emplace_back(std::minmax(int(sorted[slot].index), int(sorted[other].index)));
@@ -422,13 +473,15 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
 
 size_t TextureContact::bytes() const {
     size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
+    const auto add = [&](const Texture& texture) { out += texture ? texture.bytes() : 0; };
     for (const Texture* texture :
-         {&spherePlaces_, &sphereMotions_, &sphereCells_,  &places_,          &motions_,     &cells_,
-          &startsOf_,     &slotsOf_,       &lists_,        &effectiveCounts_, &shifts_,      &materials_,
-          &sphereWalls_,  &nearWalls_,     &wallFriction_, &diagonals_,       &besides_,     &velocities_,
-          &apart_,        &groupsOf_,      &counts_[0],    &counts_[1],       &impulses_[0], &impulses_[1],
-          &impulses_[2],  &pushes_[0],     &pushes_[1],    &pushes_[2]})
-        out += *texture ? texture->bytes() : 0;
+         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_, &startsOf_, &materials_,
+          &apart_, &groupsOf_, &loads_, &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &gains_})
+        add(*texture);
+    for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
+        std::for_each(sides->begin(), sides->end(), add);
+    for (const auto* sides : {&pushes_, &wallPushes_, &totals_})
+        std::for_each(sides->begin(), sides->end(), add);
     return out;
 }
 

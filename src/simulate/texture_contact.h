@@ -10,11 +10,13 @@
 //                      order     records in the order of the keys
 //                      slots     of a sphere: its place in that order
 //   contact search     find      the spheres that each touches (or `neighbors`: some of them)
-//   contact response   respond   the impulses of all contacts, in Jacobi iterations (or `nearest`)
+//   contact response   prepare, relax, settle (or `nearest`), each in a draw or several, as many entries a
+//                      draw as there are targets, and then their sums
+//                      gains     what all that does to a vertex
 //                      apply     into the state
 //
-// Data by number (of a sphere, slot or key) lie in rows of 2^rowBits texels (ContactPlan::rowBits); lists and
-// pushes in layers of four entries.
+// Data by number (of a sphere, slot or key) lie in rows of 2^rowBits texels (ContactPlan::rowBits); lists in
+// layers of four entries, what is known of an entry in a layer each.
 #pragma once
 
 #include <array>
@@ -42,8 +44,8 @@ class ContactState {
     virtual std::vector<std::string> defines(size_t group) const = 0;
     // Binds what it reads then, beside the topology.
     virtual void bind(const gpu::Program& program, size_t group) = 0;
-    // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use slots,
-    // counts, impulses, shifts and shapes, in texture units from `firstUnit` on.
+    // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use `gains` and
+    // its first sphere, in texture units from `firstUnit` on.
     using Gains = std::function<void(const gpu::Program& program, int firstUnit)>;
     virtual void apply(size_t group, const Gains& bind) = 0;
 };
@@ -51,26 +53,33 @@ class ContactState {
 class TextureContact : public ContactPasses<ContactState> {
   public:
     static constexpr int longestList = ContactPlan::fragmentList;
+    static constexpr int entriesADraw = 8;  // draw buffers that OpenGL 3.3 promises
 
     // Borrows the plan and the tables; `state`: only for its defines. Blending, tests and masks are off in a
     // step. Error: out of memory; the driver refuses a shader.
     TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                    const Tables& tables, const ContactState& state, gpu::ProgramCache* cache);
 
+    // Binds to the step of a group of the plan what its contacts remember, if it has any.
+    void bindLoads(const gpu::Program& program, int unit, size_t group) const;
+
     uint32_t dropped() const override;
     int listLength() const override { return longestList; }
     std::vector<std::pair<int, int>> found() const override;
+    ContactMemory memory() const override;
+    void remember(const ContactMemory& memory);
     size_t bytes() const override;
 
   private:
-    using Into = std::vector<const gpu::Texture*>;
+    using Into = std::vector<gpu::ColorTarget>;
 
     void makeTextures(gpu::Context& context);
     void makePrograms(gpu::Context& context, const std::string& shaderRoot, gpu::ProgramCache* cache);
-    // Holds what belongs to one group with contact; sum and spread only where there are spheres on triangles.
+    // Holds what belongs to one group with contact.
     struct OfGroup {
-        gpu::Program spheres, effectiveSum, spread;
+        gpu::Program spheres, walls, effectiveSum, spread, gains;
         gpu::Texture shapes;
+        bool rigid = false, many = false;  // the contacts of several spheres act on a vertex
     };
     OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state,
                       const std::string& shaderRoot, gpu::ProgramCache* cache) const;
@@ -79,37 +88,42 @@ class TextureContact : public ContactPasses<ContactState> {
     void makeTables(gpu::Context& context);
 
     void makeSpheres(const Frame& frame, ContactState& state);
-    void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
+    void makeWalls(const Frame& frame, ContactState& state);
     const gpu::Program& useGroup(const gpu::Program& program, size_t group) const;
     void sortKeys(NetworkSort& sort, bool staggered);
     void buildGrid(const Frame& frame, ContactState& state) override;
     void search(ContactState& state) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
-    void runNearest(ContactState& state, const Times& times, const Totals& totals) override;
-    void runEffective(ContactState& state, const Times& times) override;
-    void spread(ContactState& state, const Totals& totals) override;
-    void runStage(ContactState& state, const gpu::Program& program, const Times& times,
-                  const Totals& totals) override;
-    void apply(ContactState& state, size_t impulses) override;
+    void bindGroup(const gpu::Program& program, ContactState& state, size_t group) const;
+    void runNearest(ContactState& state, const Times& times) override;
+    void prepare(ContactState& state, const Times& times) override;
+    void countEffective();
+    void relax(ContactState& state, const Times& times, float momentum) override;
+    void spread(ContactState& state, const gpu::Texture& earlier, float momentum);
+    void settle(ContactState& state, const Times& times) override;
+    void apply(ContactState& state, const Times& times) override;
 
     void draw(const Into& into, int firstRow, int rows);
     void drawAll(const Into& into);  // the rows of all spheres
     int rowsOf(int numbers) const;
 
     int rowBits_;
-    bool triangles_ = false, self_ = false, walls_ = false;
+    // `spreads_`: the contacts of one sphere move others.
+    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
     std::vector<OfGroup> groups_;  // with contact
-    gpu::Program keys_, starts_, order_, slots_;
+    gpu::Program keys_, starts_, order_, slot_, find_, nearest_;
+    gpu::Program prepare_, prepareSums_, relax_, relaxSums_, settle_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
-    gpu::Texture startsOf_, slotsOf_, lists_, effectiveCounts_, shifts_, materials_;
-    gpu::Texture sphereWalls_, nearWalls_, wallFriction_;  // where there are walls
-    gpu::Texture diagonals_, besides_, velocities_;        // where spheres lie on triangles
-    gpu::Texture apart_, groupsOf_;                        // where molecules touch themselves
-    std::array<gpu::Texture, 2> counts_;
-    size_t countsSide_ = 0;
-    std::array<gpu::Texture, 3> impulses_, pushes_;
+    gpu::Texture startsOf_, materials_, apart_, groupsOf_;
+    // What the last step leaves to this one, as the shaders call it; `now_` is this one's.
+    size_t now_ = 0;
+    std::array<gpu::Texture, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
+    gpu::Texture loads_;
+    // In turn: the last stage's, those before, the next.
+    std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
+    gpu::Texture effectiveCounts_, normals_, motionsNow_, bodies_, gains_;
     gpu::Framebuffers targets_;
     gpu::VertexArray noAttributes_;
 };

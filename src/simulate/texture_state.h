@@ -61,7 +61,7 @@ class TextureState {
     gpu::Texture normal, constant;
 
     // Framebuffer that draws into the given sides (made once per combination).
-    const gpu::Framebuffer& target(const std::vector<const gpu::Texture*>& colors) {
+    const gpu::Framebuffer& target(const std::vector<gpu::ColorTarget>& colors) {
         return targets_.into(colors);
     }
 

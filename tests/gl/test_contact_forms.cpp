@@ -52,7 +52,9 @@ TEST_CASE("compute shaders and fragments have the same contact", "[molecule cont
             for (int i = 0; i < 40; ++i) {
                 compute.frame();
                 if (i % 13 != 0) continue;  // from the same state, one frame
-                fragments.load(compute.save());
+                const SavedState saved = compute.save();
+                fragments.load(saved);
+                CHECK((fragments.save().contacts == saved.contacts));
                 compute.frame();
                 fragments.frame();
                 CHECK(compute.contact()->found() == fragments.contact()->found());
@@ -119,6 +121,6 @@ TEST_CASE("a contact step takes as many dispatches when nothing touches as when 
             dispatches[touch] = simulation.contact()->dispatches();
         }
         CHECK(dispatches[0] == dispatches[1]);
-        if (asOnGpu) CHECK(dispatches[1] == 17);
+        if (asOnGpu) CHECK(dispatches[1] == 12);
     }
 }

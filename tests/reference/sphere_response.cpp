@@ -7,45 +7,66 @@ namespace shoal::reference {
 
 namespace {
 
-using Contacts = std::vector<std::pair<int, int>>;
+using glm::dmat3;
+using glm::dvec3;
 
-// The terms of a contact, known before its impulse.
-struct Meeting {
-    glm::dvec3 normal{0, 1, 0};  // from the second to the first
-    double since = 0;            // s
-    double depth = 0;            // m
-    double target = 0;           // m/s, along the normal afterwards
-    double share = 1;
-    double weight = 0;  // 1/kg, of both
-    bool impact = false;
+// What the iterations look for, of one contact.
+struct Answer {
+    dvec3 impulse{0};  // N s, on the first sphere
+    double apart = 0;  // kg m, by which the two are pushed apart
 };
 
-Meeting meetingOf(const Sphere& a, const Sphere& b, const SphereResponse& settings) {
-    Meeting out;
-    const double reach = a.radius + b.radius;
-    const glm::dvec3 d = a.position - b.position, u = a.velocity - b.velocity;
-    out.weight = a.weight + b.weight;
-    out.depth = reach - glm::length(d);
-    // |d - u t| = reach
-    const double p = glm::dot(d, u), q = glm::dot(u, u), inside = reach * reach - glm::dot(d, d);
-    const double since = q > 0 ? (p + std::sqrt(p * p + q * inside)) / q : 1e300;
-    const glm::dvec3 touch = (d - u * since) / reach;
-    const double speed = glm::dot(touch, u);
-    out.impact = since <= settings.stepTime && speed < -settings.restSpeed;
-    if (out.impact) {
-        out.normal = touch;
-        out.since = since;
-        out.target = -settings.restitution * speed;
-        return out;
-    }
-    if (glm::length(d) > 1e-6 * reach) out.normal = glm::normalize(d);
-    out.target = std::max(glm::dot(out.normal, u), 0.0);
-    return out;
+struct Meeting {
+    size_t a = 0, b = 0;
+    double reach = 0;       // m
+    dvec3 between{0};       // m, from b to a
+    dvec3 normal{0, 1, 0};  // from b to a
+    double depth = 0;       // m
+    double speed = 0;       // m/s, along the normal
+    double since = 0;       // s, since the impact
+    bool impact = false;    // else the two rest on one another, or nearly touch
+    bool takesPart = true;  // else it is listed and does nothing
+    dvec3 anchor{0};        // m
+    double held = 0;        // N s, what it remembers of the last step
+    double weight = 0;      // 1/kg, of both spheres, each times the contacts that share it
+    bool alone = false;     // neither sphere has another contact
+    bool sticks = false;    // friction can hold all that it was asked to
+    Answer now, before;     // after this iteration and the last
+};
+
+// An impulse within Coulomb's cone about the normal.
+dvec3 withinCone(const dvec3& impulse, const dvec3& normal, double friction) {
+    const double along = glm::dot(impulse, normal);
+    if (along <= 0) return dvec3(0);
+    const dvec3 across = impulse - along * normal;
+    const double grip = glm::length(across);
+    return grip <= friction * along ? impulse : along * normal + across * (friction * along / grip);
 }
 
-// Returns the shaders' bound of the largest eigenvalue of `sum`, the sum of n n^T
-// (shaders/physics/pair.glsl).
-double effectiveCount(const glm::dmat3& sum) {
+// Looks at which moment, and how, the two have met; `known`: they have been in contact before.
+void meet(Meeting& m, const Sphere& a, const Sphere& b, const SphereResponse& settings, bool known) {
+    const dvec3 u = a.velocity - b.velocity;
+    m.between = a.position - b.position;
+    m.reach = a.radius + b.radius;
+    const double distance = glm::length(m.between), q = glm::dot(u, u), p = glm::dot(m.between, u);
+    m.depth = m.reach - distance;
+    if (distance > 1e-6 * m.reach) m.normal = m.between / distance;
+    m.speed = glm::dot(m.normal, u);
+    if (known || m.depth <= 0 || q == 0) return;
+    // the time back to when they touched: |between - u t| = reach
+    const double since = (p + std::sqrt(p * p + q * (m.reach * m.reach - distance * distance))) / q;
+    const dvec3 touch = (m.between - u * since) / m.reach;
+    // a meeting that the last step has missed by 1e-4 of the reach counts
+    m.impact = (since - settings.stepTime) * std::sqrt(q) <= 1e-4 * m.reach &&
+               glm::dot(touch, u) < -settings.restSpeed;
+    if (!m.impact) return;
+    m.normal = touch;
+    m.since = since;
+    m.speed = glm::dot(touch, u);
+}
+
+// Among how many contacts a sphere is shared, from the sum of n n^T of them.
+double sharedBy(const dmat3& sum) {
     double rows = 0, squares = 0;
     for (int i = 0; i < 3; ++i) {
         double row = 0;
@@ -55,157 +76,163 @@ double effectiveCount(const glm::dmat3& sum) {
         }
         rows = std::max(rows, row);
     }
-    const bool several = sum[0][0] + sum[1][1] + sum[2][2] > 1.5;
-    return std::max(std::min(rows, std::sqrt(squares)), several ? 1.01 : 1.0);
+    const double number = sum[0][0] + sum[1][1] + sum[2][2];
+    const double eigenvalue = std::max(std::min(rows, std::sqrt(squares)), number > 1.5 ? 1.01 : 1.0);
+    return 0.6 * eigenvalue + 0.4 * std::max(number, 1.0);
 }
 
 class Response {
   public:
-    Response(std::vector<Sphere>& spheres, const Contacts& contacts, const SphereResponse& settings)
-        : spheres_(&spheres),
-          contacts_(&contacts),
-          settings_(settings),
-          impulse_(spheres.size()),
-          number_(spheres.size()) {
-        std::vector<glm::dmat3> normals(spheres.size(), glm::dmat3(0));
-        for (const auto& [a, b] : contacts) {
-            meetings_.push_back(meetingOf(spheres[size_t(a)], spheres[size_t(b)], settings));
-            const glm::dvec3& n = meetings_.back().normal;
-            for (const int i : {a, b}) {
-                normals[size_t(i)] += glm::outerProduct(n, n);
-                ++number_[size_t(i)];
-            }
-        }
-        for (size_t c = 0; c < contacts.size(); ++c)
-            meetings_[c].share = 1 / std::max(effectiveCount(normals[size_t(contacts[c].first)]),
-                                              effectiveCount(normals[size_t(contacts[c].second)]));
+    Response(std::vector<Sphere>& spheres, const SphereResponse& settings, ContactMemory& memory)
+        : spheres_(&spheres), settings_(settings), memory_(&memory) {
+        memory.loads.resize(spheres.size(), dvec3(0));
     }
 
-    void run() {
-        begin();
-        std::vector<glm::dvec3> earlierImpulse = impulse_;
-        std::vector<double> earlier = pushed_;
-        for (int i = 0; i < settings_.iterations; ++i) {
-            const double momentum = i == 0 ? 0 : double(i) / (i + 3);
-            const std::vector<glm::dvec3> last = impulse_;
-            const std::vector<double> lastPushed = pushed_;
-            for (size_t k = 0; k < impulse_.size(); ++k)
-                impulse_[k] += momentum * (last[k] - earlierImpulse[k]);
-            for (size_t c = 0; c < pushed_.size(); ++c)
-                pushed_[c] += momentum * (lastPushed[c] - earlier[c]);
-            relax();
-            earlierImpulse = last;
-            earlier = lastPushed;
+    void run(const std::vector<std::pair<int, int>>& contacts) {
+        for (const auto& [a, b] : contacts)
+            prepare(a, b);
+        share();
+        for (int i = 0; i < settings_.iterations; ++i)
+            relax(double(i) / (i + 3));
+        std::vector<dvec3> impulses = gather([](const Meeting& m) { return m.now.impulse; });
+        const std::vector<dvec3> shifts = gather([this](const Meeting& m) { return shift(m); });
+        for (size_t i = 0; i < spheres_->size(); ++i) {
+            Sphere& sphere = (*spheres_)[i];
+            sphere.velocity += sphere.weight * (impulses[i] - memory_->loads[i]);
+            sphere.position += sphere.weight * shifts[i];
         }
-        addFriction();
+        remember();
     }
 
   private:
-    // A rest's push apart, in kg m.
-    double push(size_t c) const {
-        const Meeting& m = meetings_[c];
-        return m.impact || m.weight == 0 ? 0 : m.share * m.depth / m.weight;
+    const Sphere& sphere(size_t i) const { return (*spheres_)[i]; }
+
+    // What `of` says of each contact acts on its first sphere, and the opposite on its second: the sums.
+    template <typename Of>
+    std::vector<dvec3> gather(Of of) const {
+        std::vector<dvec3> out(spheres_->size(), dvec3(0));
+        for (const Meeting& m : meetings_) {
+            if (!m.takesPart) continue;
+            out[m.a] += of(m);
+            out[m.b] -= of(m);
+        }
+        return out;
     }
 
-    void exchange(std::vector<glm::dvec3>& sums, size_t c, const glm::dvec3& amount) const {
-        sums[size_t((*contacts_)[c].first)] += amount;
-        sums[size_t((*contacts_)[c].second)] -= amount;
+    void prepare(int a, int b) {
+        Meeting& m = meetings_.emplace_back();
+        m.a = size_t(a);
+        m.b = size_t(b);
+        const auto known = memory_->contacts.find({a, b});
+        const bool isKnown = known != memory_->contacts.end();
+        meet(m, sphere(m.a), sphere(m.b), settings_, isKnown);
+        // what has not touched yet and comes fast will be an impact
+        const bool comes = !isKnown && m.depth <= 0 && m.speed < -settings_.restSpeed;
+        m.takesPart = !comes && sphere(m.a).weight + sphere(m.b).weight > 0;
+        if (m.impact) m.anchor = m.reach * m.normal;
+        if (m.impact || !m.takesPart) return;
+        // where they are deep in one another, they leave as they came in
+        const bool deep = m.depth > 0.25 * m.reach;
+        m.anchor = isKnown && (known->second.sticks || deep) ? known->second.anchor : m.between;
+        if (deep && glm::length(m.anchor) > 0) {
+            m.normal = glm::normalize(m.anchor);
+            m.depth = m.reach - glm::dot(m.between, m.normal);
+        }
+        if (isKnown) m.now.impulse = withinCone(known->second.impulse, m.normal, settings_.friction);
+        m.held = glm::length(m.now.impulse);
     }
 
-    glm::dvec3 velocity(int i, const std::vector<glm::dvec3>& sums) const {
-        const Sphere& sphere = (*spheres_)[size_t(i)];
-        return sphere.velocity + sphere.weight * sums[size_t(i)];
-    }
-
-    glm::dvec3 relative(size_t c, const std::vector<glm::dvec3>& sums) const {
-        return velocity((*contacts_)[c].first, sums) - velocity((*contacts_)[c].second, sums);
-    }
-
-    void begin() {
-        for (size_t c = 0; c < meetings_.size(); ++c) {
-            pushed_.push_back(push(c) / settings_.stepTime);
-            exchange(impulse_, c, pushed_[c] * meetings_[c].normal);
+    void share() {
+        std::vector<dmat3> normals(spheres_->size(), dmat3(0));
+        for (const Meeting& m : meetings_)
+            for (const size_t i : {m.a, m.b})
+                if (m.takesPart) normals[i] += glm::outerProduct(m.normal, m.normal);
+        for (Meeting& m : meetings_) {
+            const double a = sharedBy(normals[m.a]), b = sharedBy(normals[m.b]);
+            m.weight = sphere(m.a).weight * a + sphere(m.b).weight * b;
+            m.alone = std::max(a, b) < 1.003;
         }
     }
 
-    void relax() {
-        const std::vector<glm::dvec3> before = impulse_;
-        for (size_t c = 0; c < meetings_.size(); ++c) {
-            const Meeting& m = meetings_[c];
-            if (m.weight == 0) continue;
-            const double speed = glm::dot(relative(c, before), m.normal);
-            const double change = std::max(m.share * (m.target - speed) / m.weight, -pushed_[c]);
-            pushed_[c] += change;
-            exchange(impulse_, c, change * m.normal);
-        }
+    // m/s, that a contact is to have along its normal.
+    double target(const Meeting& m) const {
+        if (m.impact) return -settings_.restitution * m.speed;
+        // it may close what is open, and lets go a tenth of what overlaps by more than 1 %
+        const double much = 0.1 * (m.depth - 0.005 * m.reach);
+        return std::min(m.depth, 0.0) / settings_.stepTime + std::clamp(much / settings_.stepTime, 0.0, 0.1);
     }
 
-    void addFriction() {
-        constexpr int rounds = 4;
-        std::vector<glm::dvec3> before, bounce, rest;
-        for (int round = 0; round < rounds; ++round) {
-            before = impulse_;
-            bounce.assign(impulse_.size(), glm::dvec3(0));
-            rest = bounce;
-            for (size_t c = 0; c < meetings_.size(); ++c) {
-                const Meeting& m = meetings_[c];
-                if (m.weight == 0) continue;
-                const glm::dvec3 u = relative(c, before);
-                const glm::dvec3 along = u - glm::dot(u, m.normal) * m.normal;
-                const double slip = glm::length(along);
-                // the wall that may be there counts as one more
-                const int number = 1 + std::max(number_[size_t((*contacts_)[c].first)],
-                                                number_[size_t((*contacts_)[c].second)]);
-                const bool alone = m.share > 0.995;  // effectiveCount both is 1
-                const glm::dvec3 push = pushed_[c] * m.normal;
-                const double spent = glm::length(before[size_t((*contacts_)[c].first)] - push);
-                const double grip =
-                    alone
-                        ? std::min(std::max(settings_.friction * pushed_[c] - spent, 0.0), slip / m.weight)
-                        : std::min(settings_.friction * pushed_[c] / rounds, 1.5 * slip / m.weight / number);
-                const glm::dvec3 change = slip > 0 ? along * (-grip / slip) : glm::dvec3(0);
-                exchange(impulse_, c, change);
-                const glm::dvec3 whole = alone ? before[size_t((*contacts_)[c].first)] : push;
-                if (m.impact) exchange(bounce, c, (whole + change) * m.since);
-                exchange(rest, c, this->push(c) * m.normal);
-            }
+    void relax(double momentum) {
+        for (Meeting& m : meetings_) {
+            const Answer last = m.now;
+            m.now.impulse += momentum * (last.impulse - m.before.impulse);
+            m.now.apart += momentum * (last.apart - m.before.apart);
+            m.before = last;
         }
-        addCorrection(before, rest);
+        std::vector<dvec3> velocities = gather([](const Meeting& m) { return m.now.impulse; });
+        std::vector<dvec3> moves = gather([](const Meeting& m) { return m.now.apart * m.normal; });
         for (size_t i = 0; i < spheres_->size(); ++i) {
-            Sphere& sphere = (*spheres_)[i];
-            sphere.velocity += sphere.weight * impulse_[i];
-            sphere.position += sphere.weight * (bounce[i] + rest[i]);
+            velocities[i] = sphere(i).velocity + sphere(i).weight * (velocities[i] - memory_->loads[i]);
+            moves[i] *= sphere(i).weight;
         }
+        for (Meeting& m : meetings_)
+            if (m.takesPart) improve(m, velocities[m.a] - velocities[m.b], moves[m.a] - moves[m.b]);
     }
 
-    void addCorrection(const std::vector<glm::dvec3>& before, const std::vector<glm::dvec3>& rest) {
-        std::vector<double> kept(rest.size());
-        for (size_t i = 0; i < rest.size(); ++i) {
-            const glm::dvec3 change = (*spheres_)[i].weight * rest[i] / settings_.stepTime;
-            const double square = glm::dot(change, change);
-            if (square > 0)
-                kept[i] = std::clamp(-glm::dot(velocity(int(i), before), change) / square, 0.0, 1.0);
+    // u, moved: m/s and m, of the first sphere relative to the second, as all contacts make it.
+    void improve(Meeting& m, const dvec3& u, const dvec3& moved) const {
+        constexpr double larger = 1.3, ofFriction = 0.4, fastest = 1;  // the last in m/s
+        const double along = glm::dot(u, m.normal);
+        const double normalStep = m.alone ? 1 : larger, acrossStep = m.alone ? 1 : larger * ofFriction;
+        const dvec3 wanted = m.now.impulse + m.normal * (target(m) - along) * (normalStep / m.weight) -
+                             (u - along * m.normal) * (acrossStep / m.weight);
+        m.now.impulse = withinCone(wanted, m.normal, settings_.friction);
+        m.sticks = m.now.impulse == wanted;
+        if (m.impact) return;
+        const double lacks = std::min(m.depth, fastest * settings_.stepTime) - glm::dot(moved, m.normal);
+        m.now.apart = std::max(m.now.apart + lacks * normalStep / m.weight, 0.0);
+    }
+
+    // How far a contact moves its spheres, kg m.
+    dvec3 shift(const Meeting& m) const {
+        if (m.impact) return m.now.impulse * m.since;
+        dvec3 out = m.now.apart * m.normal;
+        dvec3 slip = m.between - m.anchor;
+        slip -= glm::dot(slip, m.normal) * m.normal;
+        const double length = glm::length(slip), most = 0.002 * m.reach;
+        if (m.sticks && length > 0) out -= slip * (std::min(1.0, most / length) / m.weight);
+        return out;
+    }
+
+    void remember() {
+        memory_->contacts.clear();
+        for (const Meeting& m : meetings_) {
+            if (!m.takesPart) continue;
+            ContactMemory::Entry& entry =
+                memory_->contacts[{int(m.a), int(m.b)}] = {dvec3(0), m.anchor, m.sticks && !m.impact};
+            const double length = glm::length(m.now.impulse);
+            if (m.impact || length == 0) continue;
+            // of what it has grown by, a half
+            entry.impulse = m.now.impulse * (length > m.held ? (length + m.held) / 2 / length : 1);
         }
-        for (size_t c = 0; c < meetings_.size(); ++c) {
-            const double part =
-                std::min(kept[size_t((*contacts_)[c].first)], kept[size_t((*contacts_)[c].second)]);
-            exchange(impulse_, c, push(c) / settings_.stepTime * part * meetings_[c].normal);
+        memory_->loads.assign(spheres_->size(), dvec3(0));
+        for (const auto& [pair, entry] : memory_->contacts) {
+            memory_->loads[size_t(pair.first)] += entry.impulse;
+            memory_->loads[size_t(pair.second)] -= entry.impulse;
         }
     }
 
     std::vector<Sphere>* spheres_;
-    const Contacts* contacts_;
     SphereResponse settings_;
+    ContactMemory* memory_;
     std::vector<Meeting> meetings_;
-    std::vector<double> pushed_;  // N s
-    std::vector<glm::dvec3> impulse_;
-    std::vector<int> number_;
 };
 
 }  // namespace
 
-void respond(std::vector<Sphere>& spheres, const Contacts& contacts, const SphereResponse& settings) {
-    Response(spheres, contacts, settings).run();
+void respond(std::vector<Sphere>& spheres, const std::vector<std::pair<int, int>>& contacts,
+             const SphereResponse& settings, ContactMemory& memory) {
+    Response(spheres, settings, memory).run(contacts);
 }
 
 }  // namespace shoal::reference

@@ -145,15 +145,55 @@ TEST_CASE("two spheres that have just met are taken back to their first touch", 
     CHECK(std::abs(same.depth - 0.1f) < 1e-7f);
 }
 
-TEST_CASE("a sum of normals knows its largest eigenvalue, or more", "[contact plan]") {
-    shader::NormalSum sum{vec3(0), vec3(0)};
-    for (int i = 0; i < 5; ++i)
-        sum = shader::withNormal(sum, vec3(0.6f, 0, 0.8f));
-    CHECK(std::abs(shader::largestEigenvalue(sum) - 5) < 1e-5f);
-    sum = {vec3(0), vec3(0)};
-    for (const vec3& n : {vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)})
-        sum = shader::withNormal(sum, n);
-    CHECK(shader::largestEigenvalue(sum) == 2);
+TEST_CASE("two spheres that do not overlap are no impact, however fast they come", "[contact plan]") {
+    const shader::PairContact c =
+        shader::pairContact(vec3(0.101f, 0, 0), vec3(-5, 0, 0), 0.1f, 0.01f, 0.01f, 1);
+    CHECK_FALSE(c.impact);
+    CHECK(c.normal == vec3(1, 0, 0));
+    CHECK(std::abs(c.depth + 0.001f) < 1e-7f);
+    CHECK(c.speed == -5);
+}
+
+TEST_CASE("an impulse of a contact alone gives it its velocity at once, and stops its slip",
+          "[contact plan]") {
+    const vec3 n(0, 0.6f, 0.8f), pushed = 0.3f * n, u(1, -2, 0.5f);
+    const float weight = 3;
+    const vec3 impulse = shader::pairImpulse(u, n, 0.7f, pushed, glm::vec2(weight));
+    CHECK(glm::distance(u + (impulse - pushed) * weight, 0.7f * n) < 1e-6f);
+    // a larger weight across the normal takes a smaller step of what slips, and the same along it
+    const vec3 slower = shader::pairImpulse(u, n, 0.7f, pushed, glm::vec2(weight, 2 * weight));
+    const vec3 left = u + (slower - pushed) * weight;
+    CHECK(std::abs(glm::dot(left, n) - 0.7f) < 1e-6f);
+    CHECK(glm::distance(left - 0.7f * n, 0.5f * (u - n * glm::dot(u, n))) < 1e-6f);
+}
+
+TEST_CASE("an impulse is brought into Coulomb's cone without a change along the normal", "[contact plan]") {
+    const vec3 n(0, 1, 0);
+    const vec3 within(0.3f, 1, -0.2f);
+    CHECK(shader::withinFriction(within, n, 0.5f) == within);
+    CHECK(glm::distance(shader::withinFriction({3, 1, -4}, n, 0.5f), vec3(0.3f, 1, -0.4f)) < 1e-6f);
+    CHECK(shader::withinFriction({3, 1, -4}, n, 0) == n);
+    CHECK(shader::withinFriction({3, -1, -4}, n, 0.5f) == vec3(0));
+    CHECK(shader::withinFriction(vec3(0), n, 0.5f) == vec3(0));
+}
+
+TEST_CASE("contacts that act together count as their largest eigenvalue and a share of their number",
+          "[contact plan]") {
+    const auto countOf = [](const std::vector<vec3>& normals) {
+        shader::NormalSum sum{vec3(0), vec3(0)};
+        for (const vec3& n : normals)
+            sum = shader::withNormal(sum, n);
+        return shader::effectiveCount(sum);
+    };
+    const vec3 slanted(0.6f, 0, 0.8f);
+    CHECK(std::abs(countOf(std::vector<vec3>(5, slanted)) - 5) < 1e-5f);
+    CHECK(std::abs(countOf({vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1)}) -
+                   (0.6f * 2 + 0.4f * 4)) < 1e-6f);
+    CHECK(countOf({}) == 1);
+    // alone is a single one, wherever it points; two that are perpendicular are not
+    CHECK(shader::isAlone(countOf({slanted})));
+    CHECK_FALSE(shader::isAlone(countOf({vec3(1, 0, 0), vec3(0, 1, 0)})));
+    CHECK_FALSE(shader::isAlone(countOf({slanted, slanted})));
 }
 
 }  // namespace shoal

@@ -142,7 +142,7 @@ TEST_CASE("groups of a changed file go on, those of another shape begin anew", "
         return compile(parseScene(text, writeSmallScene(scratch, text)));
     };
     const Plan from = plan(group("a", "blade.json", 3) + ", " + group("b", "point.json", 2));
-    SavedState saved{2.5, 150, {from.groups[0].start, from.groups[1].start}, 0.01};
+    SavedState saved{2.5, 150, {from.groups[0].start, from.groups[1].start}, 0.01, {}};
     for (GroupState& state : saved.groups)
         for (glm::vec3& velocity : state.velocities)
             velocity = glm::vec3(7);

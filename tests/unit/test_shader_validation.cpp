@@ -291,40 +291,49 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     for (const Defines& set : combinations({"LEAPFROG", "DIRECTIONAL_DRAG", "SPRINGS"}))
         validator.addBoth("passes/normals.frag", set);
     validator.addBoth("passes/watch.frag", {fastestDefine()});
-    const Defines textures{"ROW_BITS 6", "LIST 24", "NEIGHBORS 4"};
+    const Defines textures{"ROW_BITS 6",
+                           "LIST 24",
+                           "NEIGHBORS 4",
+                           concat("NEAR ", ContactPlan::near),
+                           concat("MOST_WALLS ", ContactPlan::mostWalls),
+                           "ENTRIES_A_DRAW 8"};
     const auto contact = [&](const char* file, Defines set = {}) {
         set.insert(set.end(), textures.begin(), textures.end());
         validator.addBoth(std::string("contact/") + file + ".frag", set);
     };
-    for (const char* file :
-         {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "effective", "apply"})
+    for (const char* file : {"spheres", "keys", "order", "slots", "find", "neighbors", "nearest", "apply"})
         contact(file);
-    const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
-                           "STATE_ELEMENTS 6", "VERTICES 4",       "SPHERES 6"};
-    for (const Defines& set : combinations({"TRIANGLES", "CONSTANTS", "LIFE", "WALL_RECORDS"})) {
-        Defines layered = sizes;
-        layered.insert(layered.end(), set.begin(), set.end());
-        contact("spheres", layered);
-        layered.insert(layered.end(), {"WALL_RECORDS", "WALLS"});
-        contact("spheres", layered);
-    }
-    for (const char* file : {"effective_sum", "spread"})
-        contact(file, sizes);
-    for (const char* stage : {"guess", "relax", "friction", "correction"}) {
-        validator.generated.merge(responseStage(stage));
-        for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
-            contact("respond", set);
-        validator.generated.erase("generated/stage.glsl");
-    }
-    for (const Defines& set : combinations({"WALLS", "TRIANGLES"}))
-        contact("effective", set);
-    contact("order", {"WALLS"});
-    for (const char* file : {"find", "neighbors"})
-        contact(file, {"SELF"});
-    contact("neighbors", {"SELF", "STAGGERED"});
     for (const char* file : {"spheres", "apply"})
         contact(file, {"PINS", "RELEASE"});
-    contact("neighbors", {"STAGGERED"});
+    for (Defines set : combinations({"SELF", "STAGGERED", "WALLS"})) {
+        set.emplace_back("REMEMBERS");
+        for (const char* file : {"order", "slots", "find", "neighbors"})
+            contact(file, set);
+    }
+    for (const Defines& spread : {Defines{}, Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}}) {
+        for (Defines set : combinations({"WALLS"})) {
+            set.insert(set.end(), spread.begin(), spread.end());
+            set.emplace_back("REMEMBERS");
+            for (const char* file : {"prepare", "prepare_sums", "relax", "relax_sums", "settle"})
+                contact(file, set);
+        }
+    }
+    const Defines sizes = {"LAYERED",          "STATE_WIDTH 1024", "POSITION_ELEMENTS 3",
+                           "STATE_ELEMENTS 6", "VERTICES 4",       "SPHERES 6"};
+    for (Defines set : combinations({"TRIANGLES", "CONSTANTS", "LIFE", "RIGID"})) {
+        const bool rigid = std::find(set.begin(), set.end(), "RIGID") != set.end();
+        set.insert(set.end(), sizes.begin(), sizes.end());
+        Defines walls = set;
+        walls.emplace_back("WALLS");
+        contact("walls", walls);
+        if (rigid) set.emplace_back("BODIES");
+        for (const char* file : {"spheres", "effective_sum", "spread"})
+            contact(file, set);
+        set.emplace_back("APPLIES");
+        contact("gains", set);
+        set.emplace_back("MANY");
+        contact("gains", set);
+    }
     CHECK(validator.count() > 120);
     validator.check();
 }

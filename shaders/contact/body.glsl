@@ -1,0 +1,33 @@
+// A molecule that is stiffer than the step moves as a rigid body in contact with others, as it does in contact with colliders
+// (fused/body.glsl): an impulse p at r from its centre of mass changes the velocity of its sphere at s by
+// p / M + (I^-1 (r x p)) x s. Three texels of `bodies` a sphere: xyz its arm r, m, w 1 / M, 1/kg; xyz the diagonal of I^-1,
+// 1/(kg m^2); xyz what lies beside it (yz, xz, xy).
+struct BodySphere {
+    vec3 arm;
+    float perMass;
+    mat3 perInertia;
+};
+
+struct BodyMotion {
+    vec3 shift;  // of the centre of mass
+    vec3 turn;
+};
+
+// What an impulse at a sphere does to its body.
+BodyMotion bodyMotion(BodySphere at, vec3 impulse)
+{
+    return BodyMotion(impulse * at.perMass, at.perInertia * cross(at.arm, impulse));
+}
+
+vec3 motionAt(BodySphere at, BodyMotion motion)
+{
+    return motion.shift + cross(motion.turn, at.arm);
+}
+
+// How a sphere's body is kept, in three 4-vectors.
+vec4[3] packedBody(BodySphere at)
+{
+    mat3 t = at.perInertia;
+    return vec4[3](vec4(at.arm, at.perMass), vec4(t[0][0], t[1][1], t[2][2], 0.0), vec4(t[1][2], t[0][2], t[0][1], 0.0));
+}
+

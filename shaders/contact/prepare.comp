@@ -1,0 +1,54 @@
+// A lane a slot that takes part: contact/prepare.glsl.
+#include "contact/touching.glsl"
+#include "contact/prepare.glsl"
+#ifdef WALLS
+layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // by sphere, each now and an iteration before
+#endif
+
+layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
+layout(std430, binding = 1) writeonly buffer Pushes { vec4 pushes[]; };
+layout(std430, binding = 2) writeonly buffer Anchors { vec4 anchors[]; };
+layout(std430, binding = 3) writeonly buffer Known { vec4 newKnown[]; };
+#ifdef SPREAD
+layout(std430, binding = 4) writeonly buffer Normals { vec4 newNormals[]; };  // two a slot: contact/effective_sum.glsl
+#else
+layout(std430, binding = 4) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
+#endif
+
+void main()
+{
+    int slot = touchingSlot();
+    if (slot < 0) return;
+    loadOld(slot);
+    int listed = listedOf(slot);
+    vec3 impulse = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        int other = entryOf(slot, e);
+        Entry known = prepare(slot, other);
+        Meeting with = meetingAs(slot, other, known.anchor);
+        if (with.meets) countIn(with.contact.normal);
+        impulse += known.push.xyz;
+        pushes[e * listStride + slot] = known.push;
+        anchors[e * listStride + slot] = known.anchor;
+    }
+#ifdef WALLS
+    int first = 2 * MOST_WALLS * sphereOf(slot);
+    vec3 old[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k) old[k] = wallPushes[first + 2 * k].xyz;
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        vec3 push = prepareWall(slot, wallOf(slot, k), listed, old);
+        wallPushes[first + 2 * k] = vec4(push, 0.0);
+        impulse += push;
+    }
+#endif
+    vec3 acted = actedOn();
+    newTotals[2 * slot] = vec4(impulse - acted, 0.0);
+    newTotals[2 * slot + 1] = vec4(0.0);
+    newKnown[slot] = vec4(acted, 0.0);
+#ifdef SPREAD
+    newNormals[2 * slot] = vec4(normals.diagonal, turning);
+    newNormals[2 * slot + 1] = vec4(normals.beside, 0.0);
+#else
+    effectiveCounts[slot] = floatBitsToUint(effectiveCount(normals));
+#endif
+}

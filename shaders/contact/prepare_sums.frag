@@ -1,0 +1,57 @@
+// prepare: a texel a slot, of all entries what contact/prepare.comp sums up.
+#include "contact/prepare.glsl"
+#ifdef WALLS
+uniform sampler2DArray oldWallPushes;  // by slot of the last step
+#endif
+
+uniform ENTRIES pushes;
+uniform ENTRIES anchors;
+
+layout(location = 0) out vec4 newImpulse;
+layout(location = 1) out vec4 newShift;
+layout(location = 2) out vec4 newKnown;
+#ifdef SPREAD
+layout(location = 3) out vec4 newNormals[2];  // contact/effective_sum.glsl
+#else
+layout(location = 3) out uvec4 newEffectiveCount;
+#endif
+#if defined(WALLS) && defined(SPREAD)
+layout(location = 5) out vec4 newWallPushes[MOST_WALLS];
+#elif defined(WALLS)
+layout(location = 4) out vec4 newWallPushes[MOST_WALLS];
+#endif
+
+void main()
+{
+    int slot = ownNumber();
+    if (slot >= count || fetch(counts, slot).x == 0u) discard;
+    loadOld(slot);
+    int listed = listedOf(slot);
+    vec3 impulse = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        Meeting with = meetingAs(slot, entryOf(slot, e), entry(anchors, slot, e));
+        if (with.meets) countIn(with.contact.normal);
+        impulse += entry(pushes, slot, e).xyz;
+    }
+#ifdef WALLS
+    vec3 old[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k) old[k] = wallTexel(oldWallPushes, oldSlot, k).xyz;
+    vec4 ofWalls[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        vec3 push = prepareWall(slot, wallOf(slot, k), listed, old);
+        ofWalls[k] = vec4(push, 0.0);
+        impulse += push;
+    }
+    newWallPushes = ofWalls;
+#endif
+    vec3 acted = actedOn();
+    newImpulse = vec4(impulse - acted, 0.0);
+    newShift = vec4(0.0);
+    newKnown = vec4(acted, 0.0);
+#ifdef SPREAD
+    newNormals[0] = vec4(normals.diagonal, turning);
+    newNormals[1] = vec4(normals.beside, 0.0);
+#else
+    newEffectiveCount = uvec4(floatBitsToUint(effectiveCount(normals)), 0u, 0u, 0u);
+#endif
+}

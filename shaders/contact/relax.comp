@@ -1,0 +1,47 @@
+// A lane a slot that takes part: contact/relax.glsl.
+#include "contact/touching.glsl"
+#include "contact/relax.glsl"
+
+uniform ENTRIES anchors;
+uniform FLOATS known;  // N s, by slot: what has acted as a force since the last step
+
+layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
+layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
+layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // those before them, then the next
+#ifdef WALLS
+layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
+#endif
+
+void main()
+{
+    int slot = touchingSlot();
+    if (slot < 0) return;
+    loadOwn(slot);
+    int listed = listedOf(slot);
+    vec3 impulse = -fetch(known, slot).xyz;
+    vec3 shift = vec3(0.0);
+    for (int e = 0; e < listed; ++e) {
+        int at = e * listStride + slot;
+        vec4 now = pushes[at];
+        vec3 n;
+        vec4 push = relax(slot, entryOf(slot, e), now, earlierPushes[at], entry(anchors, slot, e), n);
+        earlierPushes[at] = push;
+        impulse += push.xyz;
+        shift += n * abs(push.w);
+    }
+#ifdef WALLS
+    for (int k = 0; k < MOST_WALLS; ++k) {
+        Wall wall = wallOf(slot, k);
+        if (!pressesOn(wall) || listed == 0) break;
+        int at = 2 * (MOST_WALLS * sphereOf(slot) + k);
+        vec4 now = wallPushes[at];
+        vec4 push = relaxWall(wall, now, wallPushes[at + 1]);
+        wallPushes[at + 1] = now;
+        wallPushes[at] = push;
+        impulse += push.xyz;
+        shift += wall.normal * push.w;
+    }
+#endif
+    newTotals[2 * slot] = vec4(impulse, 0.0);
+    newTotals[2 * slot + 1] = vec4(shift, 0.0);
+}

@@ -1,0 +1,60 @@
+#include "simulate/contact_memory.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace shoal {
+
+ContactMemory bySphere(const ContactSlots& from) {
+    ContactMemory out;
+    const size_t spheres = from.slots.size();
+    std::vector<uint32_t> sphereOf(from.stride);
+    for (size_t sphere = 0; sphere < spheres; ++sphere)
+        sphereOf[from.slots[sphere]] = uint32_t(sphere);
+    for (const uint32_t slot : from.slots) {
+        out.counts.push_back(from.counts[slot]);
+        out.known.push_back(from.known[slot]);
+        for (size_t e = 0; e < from.counts[slot]; ++e) {
+            const size_t at = e * from.stride + slot;
+            out.partners.push_back(sphereOf[from.lists[at]]);
+            out.pushes.push_back(from.pushes[at]);
+            out.anchors.push_back(from.anchors[at]);
+        }
+    }
+    out.loads = from.loads;
+    out.walls = from.walls;
+    out.wallPushes = from.wallPushes;
+    // a sphere that touches no other has none
+    for (size_t i = 0; i < out.wallPushes.size(); ++i)
+        if (out.counts[i * spheres / out.wallPushes.size()] == 0) out.wallPushes[i] = glm::vec4(0);
+    return out;
+}
+
+ContactSlots bySlot(const ContactMemory& from, size_t stride, size_t entries) {
+    ContactSlots out;
+    const size_t spheres = from.counts.size();
+    out.stride = stride;
+    out.slots.resize(spheres);
+    std::iota(out.slots.begin(), out.slots.end(), 0u);
+    out.lists.resize(entries * stride);
+    out.pushes.resize(entries * stride);
+    out.anchors.resize(entries * stride);
+    size_t first = 0;
+    for (size_t sphere = 0; sphere < spheres; ++sphere) {
+        const size_t count = std::min(size_t(from.counts[sphere]), entries);
+        out.counts.push_back(uint32_t(count));
+        for (size_t e = 0; e < count; ++e) {
+            out.lists[e * stride + sphere] = from.partners[first + e];
+            out.pushes[e * stride + sphere] = from.pushes[first + e];
+            out.anchors[e * stride + sphere] = from.anchors[first + e];
+        }
+        first += from.counts[sphere];
+    }
+    out.known = from.known;
+    out.loads = from.loads;
+    out.walls = from.walls;
+    out.wallPushes = from.wallPushes;
+    return out;
+}
+
+}  // namespace shoal

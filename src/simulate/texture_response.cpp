@@ -1,0 +1,225 @@
+// The passes of the response of contact in fragments.
+#include <algorithm>
+
+#include "gpu/gl.h"
+#include "simulate/texture_contact.h"
+
+namespace shoal {
+
+using gpu::Program;
+using gpu::Texture;
+
+namespace {
+
+// Appends layers of a texture.
+void addLayers(std::vector<gpu::ColorTarget>& into, const Texture& texture, int first, int count) {
+    for (int i = 0; i < count; ++i)
+        into.emplace_back(&texture, first + i);
+}
+
+// Sides in turn: what has been written becomes what is read.
+template <typename Sides>
+void turn(Sides& sides) {
+    std::rotate(sides.begin(), sides.begin() + 2, sides.end());
+}
+
+}  // namespace
+
+// Binds what all stages of the response read; returns the next free texture unit.
+int TextureContact::bindResponse(const Program& program, const Times& times) const {
+    program.use();
+    program.texture("places", 0, places_);
+    program.texture("motions", 1, motions_);
+    program.texture("cells", 2, cells_);
+    program.texture("counts", 3, counts_[now_]);
+    program.texture("lists", 4, lists_[now_]);
+    setResponse(program, times);
+    int unit = 5;
+    if (program.uses("materials")) program.texture("materials", unit++, materials_);
+    if (program.uses("sorted")) program.texture("sorted", unit++, sort_.pairs());
+    if (walls_ && program.uses("walls")) program.texture("walls", unit++, nearWalls_[now_]);
+    if (!rigid_ || !program.uses("bodies")) return unit;
+    int rigid = 0;
+    for (size_t g = 0; g < groups_.size(); ++g)
+        if (groups_[g].rigid) rigid |= 1 << g;
+    program.set("rigidGroups", rigid);
+    program.texture("bodies", unit++, bodies_);
+    return unit;
+}
+
+void TextureContact::runNearest(ContactState&, const Times& times) {
+    bindResponse(nearest_, times);
+    Into into;
+    addLayers(into, totals_[0], 0, 2);
+    drawAll(into);
+}
+
+void TextureContact::prepare(ContactState&, const Times& times) {
+    const size_t before = 1 - now_;
+    const auto bindOld = [&](const Program& program) {
+        int unit = bindResponse(program, times);
+        program.texture("oldSlots", unit++, slots_[before]);
+        program.texture("oldCounts", unit++, counts_[before]);
+        return unit;
+    };
+    int unit = bindOld(prepare_);
+    prepare_.texture("oldLists", unit++, lists_[before]);
+    prepare_.texture("oldPushes", unit++, pushes_[0]);
+    prepare_.texture("oldAnchors", unit++, anchors_[before]);
+    constexpr int together = entriesADraw / 2;
+    for (int first = 0; first < longestList; first += together) {
+        prepare_.set("firstEntry", first);
+        Into into;
+        addLayers(into, pushes_[2], first, together);
+        addLayers(into, anchors_[now_], first, together);
+        drawAll(into);
+    }
+    turn(pushes_);
+    unit = bindOld(prepareSums_);
+    prepareSums_.texture("oldKnown", unit++, known_[before]);
+    prepareSums_.texture("pushes", unit++, pushes_[0]);
+    prepareSums_.texture("anchors", unit++, anchors_[now_]);
+    Into into;
+    addLayers(into, totals_[0], 0, 2);
+    into.emplace_back(&known_[now_]);
+    if (spreads_)
+        addLayers(into, normals_, 0, 2);
+    else
+        into.emplace_back(&effectiveCounts_);
+    if (walls_) {
+        prepareSums_.texture("oldWalls", unit++, nearWalls_[before]);
+        prepareSums_.texture("oldWallPushes", unit++, wallPushes_[0]);
+        addLayers(into, wallPushes_[2], 0, ContactPlan::mostWalls);
+    }
+    drawAll(into);
+    if (walls_) turn(wallPushes_);
+    if (spreads_) countEffective();
+}
+
+// Where contacts of several spheres act together.
+void TextureContact::countEffective() {
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Program& program = useGroup(groups_[g].effectiveSum, g);
+        program.texture("sorted", 0, sort_.pairs());
+        program.texture("shapes", 1, groups_[g].shapes);
+        program.texture("slots", 2, slots_[now_]);
+        program.texture("counts", 3, counts_[now_]);
+        program.texture("normals", 4, normals_);
+        program.set("count", contact_->spheres);
+        drawAll({&effectiveCounts_});
+    }
+}
+
+void TextureContact::relax(ContactState& state, const Times& times, float momentum) {
+    // without momentum the earlier ones do not count, and nobody may have written them yet
+    const size_t earlier = momentum == 0 ? 0 : 1;
+    if (spreads_) spread(state, totals_[earlier], momentum);
+    const auto bind = [&](const Program& program) {
+        int unit = bindResponse(program, times);
+        program.texture("effectiveCounts", unit++, effectiveCounts_);
+        program.texture("anchors", unit++, anchors_[now_]);
+        program.texture("pushes", unit++, pushes_[0]);
+        if (spreads_) {
+            program.texture("motionsNow", unit++, motionsNow_);
+        } else {
+            program.texture("totals", unit++, totals_[0]);
+            program.texture("earlier", unit++, totals_[earlier]);
+        }
+        program.set("momentum", momentum);
+        return unit;
+    };
+    int unit = bind(relax_);
+    relax_.texture("earlierPushes", unit, pushes_[earlier]);
+    for (int first = 0; first < longestList; first += entriesADraw) {
+        relax_.set("firstEntry", first);
+        Into into;
+        addLayers(into, pushes_[2], first, entriesADraw);
+        drawAll(into);
+    }
+    turn(pushes_);
+    unit = bind(relaxSums_);
+    relaxSums_.texture("known", unit++, known_[now_]);
+    Into into;
+    addLayers(into, totals_[2], 0, 2);
+    if (walls_) {
+        relaxSums_.texture("wallPushes", unit++, wallPushes_[0]);
+        relaxSums_.texture("earlierWallPushes", unit++, wallPushes_[earlier]);
+        addLayers(into, wallPushes_[2], 0, ContactPlan::mostWalls);
+    }
+    drawAll(into);
+    if (walls_) turn(wallPushes_);
+    turn(totals_);
+}
+
+void TextureContact::spread(ContactState& state, const Texture& earlier, float momentum) {
+    Into into;
+    addLayers(into, motionsNow_, 0, 2);
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const Program& program = useGroup(groups_[g].spread, g);
+        bindGroup(program, state, g);
+        program.texture("sorted", 8, sort_.pairs());
+        program.texture("motions", 9, motions_);
+        program.texture("earlier", 10, earlier);
+        program.set("momentum", momentum);
+        program.set("count", contact_->spheres);
+        drawAll(into);
+    }
+}
+
+// Binds what tells of the totals of the spheres of a group, up to unit 7.
+void TextureContact::bindGroup(const Program& program, ContactState& state, size_t group) const {
+    if (spreads_) state.bind(program, contact_->groups[group].group);
+    program.texture("slots", 3, slots_[now_]);
+    program.texture("counts", 4, counts_[now_]);
+    program.texture("totals", 5, totals_[0]);
+    if (program.uses("shapes")) program.texture("shapes", 6, groups_[group].shapes);
+    if (program.uses("bodies")) program.texture("bodies", 7, bodies_);
+}
+
+void TextureContact::settle(ContactState&, const Times& times) {
+    int unit = bindResponse(settle_, times);
+    settle_.texture("effectiveCounts", unit++, effectiveCounts_);
+    settle_.texture("pushes", unit++, pushes_[0]);
+    settle_.texture("anchors", unit++, anchors_[now_]);
+    settle_.texture("totals", unit++, totals_[0]);
+    if (walls_) settle_.texture("wallPushes", unit++, wallPushes_[0]);
+    Into into;
+    addLayers(into, totals_[2], 0, 2);
+    into.emplace_back(&known_[now_]);
+    drawAll(into);
+    turn(totals_);
+}
+
+void TextureContact::apply(ContactState& state, const Times& times) {
+    Into into;
+    addLayers(into, gains_, 0, 2);
+    into.emplace_back(&loads_);
+    for (size_t g = 0; g < groups_.size(); ++g) {
+        const ContactGroup& group = contact_->groups[g];
+        const Program& program = useGroup(groups_[g].gains, g);
+        bindGroup(program, state, g);
+        if (!groups_[g].many) program.texture("motions", 9, motions_);
+        program.texture("known", 10, known_[now_]);
+        program.set("stepTime", float(times.step));
+        const int spheres = plan_->groups[group.group].count * group.spheresOf;
+        const int first = group.firstSphere >> rowBits_;
+        draw(into, first, rowsOf(group.firstSphere + spheres) - first);
+        state.apply(group.group, [&](const Program& applies, int firstUnit) {
+            applies.set("firstSphere", group.firstSphere);
+            applies.texture("gains", firstUnit, gains_);
+            if (!applies.uses("restSpeed")) return;  // it has no history
+            applies.set("restSpeed", float(times.restSpeed));
+            applies.set("substepTime", float(times.substep));
+        });
+    }
+}
+
+void TextureContact::bindLoads(const Program& program, int unit, size_t group) const {
+    for (const ContactGroup& contact : contact_->groups) {
+        if (contact.group != group || !contact_->remembers()) continue;
+        program.set("firstSphere", contact.firstSphere);
+        program.texture("contactLoads", unit, loads_);
+    }
+}
+
+}  // namespace shoal
