@@ -28,8 +28,8 @@ struct ContactMemory {
 // The same as a path keeps it, in the order of slots: entry e of slot s at e * stride + s.
 struct ContactSlots {
     size_t stride = 0;
-    std::vector<uint32_t> slots;                   // of each sphere
-    std::vector<uint32_t> counts, lists;           // lists: slots
+    std::vector<uint32_t> slots;          // of each sphere
+    std::vector<uint32_t> counts, lists;  // lists: slots
     std::vector<glm::vec4> pushes, anchors, known;
     std::vector<glm::vec4> loads, walls, wallPushes;  // by sphere
 };

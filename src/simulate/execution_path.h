@@ -48,9 +48,9 @@ class ContactResult {
     // Contacts that the last step found, as numbers of spheres (compile/contact_plan.h), the smaller first,
     // ascending. For tests and reports: reads the lists back.
     virtual std::vector<std::pair<int, int>> found() const = 0;
-    virtual int listLength() const = 0;  // contacts that one sphere may have
+    virtual int listLength() const = 0;        // contacts that one sphere may have
     virtual ContactMemory memory() const = 0;  // empty: nothing is remembered
-    virtual size_t bytes() const = 0;    // on the device
+    virtual size_t bytes() const = 0;          // on the device
     // Dispatches of the last step, those without a workgroup among them; 0 in fragments.
     virtual int dispatches() const { return 0; }
 };

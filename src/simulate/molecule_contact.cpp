@@ -15,9 +15,9 @@ using gpu::Texel;
 
 namespace {
 
-constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
+constexpr size_t contactLanes = 64;             // of a workgroup, as the shaders say
 constexpr uint32_t contactsMask = 0x7fffffffu;  // shaders/contact/flags.glsl
-constexpr size_t cellTile = 4096;    // cells that one workgroup adds up (shaders/contact/starts.comp)
+constexpr size_t cellTile = 4096;  // cells that one workgroup adds up (shaders/contact/starts.comp)
 
 // Words of the counts of so many cells and of their tiles.
 size_t countWords(size_t cells) {
@@ -154,10 +154,9 @@ void MoleculeContact::makeMemory() {
 }
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
-    std::vector<std::string> common = {concat("LIST ", listLength_),
-                                       concat("NEIGHBORS ", contact_->settings.neighbors),
-                                       concat("NEAR ", ContactPlan::near),
-                                       concat("MOST_WALLS ", ContactPlan::mostWalls)};
+    std::vector<std::string> common = {
+        concat("LIST ", listLength_), concat("NEIGHBORS ", contact_->settings.neighbors),
+        concat("NEAR ", ContactPlan::near), concat("MOST_WALLS ", ContactPlan::mostWalls)};
     if (self_) common.push_back("SELF");
     if (spreads_) common.push_back("SPREAD");
     if (rigid_) common.push_back("BODIES");
@@ -196,7 +195,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     const GroupPlan& plan = plan_->groups[group.group];
     std::vector<std::string> common = plan.layout().defines();
     common.insert(common.end(), {concat("VERTICES ", plan.vertexCount), concat("SPHERES ", group.spheresOf),
-                                concat("MOST_WALLS ", ContactPlan::mostWalls)});
+                                 concat("MOST_WALLS ", ContactPlan::mostWalls)});
     if (group.triangles) common.push_back("TRIANGLES");
     if (contact_->remembers()) common.push_back("REMEMBERS");
     const bool rigid = rigid_ && plan.rigid;
@@ -426,7 +425,8 @@ ContactMemory MoleculeContact::memory() const {
     out.counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
     for (uint32_t& count : out.counts)
         count = std::min(count & contactsMask, uint32_t(listLength_));
-    if (std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; })) return {};
+    if (std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; }))
+        return {};
     out.lists = readBack<uint32_t>(lists_[now_].buffer, entries);
     out.pushes = readBack<glm::vec4>(pushes_[pushed_].buffer, entries);
     out.anchors = readBack<glm::vec4>(anchors_[now_].buffer, entries);
@@ -483,8 +483,8 @@ size_t MoleculeContact::bytes() const {
     size_t out = touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
     const auto add = [&](const Array& array) { out += array.buffer ? array.buffer.bytes() : 0; };
     for (const Array* array : {&arrivals_, &cellStarts_, &members_, &pairs_, &staggered_, &apart_, &groupsOf_,
-                               &materials_, &spherePlaces_, &sphereCells_, &motions_, &cells_, &places_, &loads_,
-                               &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &wallPushes_})
+                               &materials_, &spherePlaces_, &sphereCells_, &motions_, &cells_, &places_,
+                               &loads_, &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &wallPushes_})
         add(*array);
     for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_, &pushes_})
         std::for_each(sides->begin(), sides->end(), add);

@@ -107,9 +107,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
     void apply(Buffers& state, const Times& times) override;
-    bool isRigid(size_t group) const {
-        return rigid_ && plan_->groups[contact_->groups[group].group].rigid;
-    }
+    bool isRigid(size_t group) const { return rigid_ && plan_->groups[contact_->groups[group].group].rigid; }
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {

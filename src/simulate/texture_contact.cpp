@@ -126,8 +126,11 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
                                   gpu::ProgramCache* cache) {
     gpu::ProgramOptions options;
     options.vertex = "passes/fullscreen.vert";
-    options.defines = {"TEXTURES", concat("ROW_BITS ", rowBits_), concat("LIST ", longestList),
-                       concat("NEIGHBORS ", contact_->settings.neighbors), concat("NEAR ", ContactPlan::near),
+    options.defines = {"TEXTURES",
+                       concat("ROW_BITS ", rowBits_),
+                       concat("LIST ", longestList),
+                       concat("NEIGHBORS ", contact_->settings.neighbors),
+                       concat("NEAR ", ContactPlan::near),
                        concat("MOST_WALLS ", ContactPlan::mostWalls),
                        concat("ENTRIES_A_DRAW ", entriesADraw)};
     const auto define = [&](bool need, const char* name) {
@@ -474,9 +477,9 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
 size_t TextureContact::bytes() const {
     size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
     const auto add = [&](const Texture& texture) { out += texture ? texture.bytes() : 0; };
-    for (const Texture* texture :
-         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_, &startsOf_, &materials_,
-          &apart_, &groupsOf_, &loads_, &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &gains_})
+    for (const Texture* texture : {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_,
+                                   &cells_, &startsOf_, &materials_, &apart_, &groupsOf_, &loads_,
+                                   &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &gains_})
         add(*texture);
     for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
         std::for_each(sides->begin(), sides->end(), add);

@@ -44,8 +44,8 @@ class ContactState {
     virtual std::vector<std::string> defines(size_t group) const = 0;
     // Binds what it reads then, beside the topology.
     virtual void bind(const gpu::Program& program, size_t group) = 0;
-    // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use `gains` and
-    // its first sphere, in texture units from `firstUnit` on.
+    // Adds to the vertices of a group what their spheres have gained; `bind` gives a program in use `gains`
+    // and its first sphere, in texture units from `firstUnit` on.
     using Gains = std::function<void(const gpu::Program& program, int firstUnit)>;
     virtual void apply(size_t group, const Gains& bind) = 0;
 };

@@ -105,7 +105,8 @@ TEST_CASE("hard: two marbles meet", "[hard][molecule contact][fused]") {
     }
 }
 
-// 48 tetrahedra poured into a square well come to rest within nine seconds, and stay where they are for another.
+// 48 tetrahedra poured into a square well come to rest within nine seconds, and stay where they are for
+// another.
 TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
     test::holds("a pile of tetrahedra comes to rest and stays", [](const Solver& solver, Judge& judge) {
         constexpr double radius = 0.14, well = 1.1;
