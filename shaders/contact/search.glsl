@@ -1,5 +1,5 @@
-// The spheres that a slot touches: all of them. Cells are two diameters wide, so that of the 27 around a sphere only the
-// eight on its side can hold one that it touches.
+// The spheres that a slot touches: all of them. Cells are twice as wide as the way to one that it may touch, two diameters
+// or more, so that of the 27 around a sphere only the eight on its side can hold one.
 //
 // A rasteriser on a CPU runs both sides of a branch, but leaves a loop when no lane stays in it: what is rare is the body
 // of a loop here, and the eight cells are one loop.
@@ -7,7 +7,7 @@
 #include "contact/touch.glsl"
 
 uniform UINTS starts;   // by key: the first slot whose key is not below it
-uniform float reach;    // m, twice the largest radius
+uniform float reach;    // m, no more than half a cell: what is further away touches nothing
 
 int startOf(int key)
 {

@@ -82,12 +82,34 @@ void take(int slot)
 #endif
 }
 
+#ifdef SWEPT
+#include "physics/pair.glsl"
+
+uniform float stepTime;   // s, of a contact step
+uniform float restSpeed;  // m/s
+
+vec3 velocityOf(int slot)
+{
+    return uintBitsToFloat(fetch(motions, motionOf(slot)).xyz);
+}
+
+// Whether two spheres d apart have passed through each other since the last contact step.
+bool havePassed(vec3 d, float reach, int slot)
+{
+    return pairContact(d, velocityOf(ownSlot) - velocityOf(slot), reach, stepTime, restSpeed, 1.0).impact;
+}
+#endif
+
 // Takes the sphere into the list if it touches.
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float limit = (ownRadius + uintBitsToFloat(fetch(cells, slot).w)) * NEAR;  // a contact that opens by a hair stays one
+    float sum = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    float limit = sum * NEAR;  // a contact that opens by a hair stays one
     bool touches = dot(d, d) < limit * limit;
+#ifdef SWEPT
+    touches = touches || havePassed(d, sum, slot);
+#endif
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
 #endif

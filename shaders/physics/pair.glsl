@@ -10,22 +10,25 @@ struct PairContact {
 };
 
 // Two spheres d apart (from the other's centre to this one's, m) with velocity u relative to the other's, whose radii
-// sum up to `reach`; |d| < reach. In the last `step` they moved by u; where they touched then, that is the impact
-// (UberFlow, section 4.5: backed up in time to the first contact), else they rest on one another. Slower than
-// `restSpeed` counts as rest. `side`: 1 for one of the two, -1 for the other; where centres coincide it decides.
+// sum up to `reach`. In the last `step` they moved by u; where they touched then, that is the impact (UberFlow, section
+// 4.5: backed up in time to the first contact), even if they have passed through each other since; else they rest on
+// one another. Slower than `restSpeed` counts as rest. `side`: 1 for one of the two, -1 for the other; where centres
+// coincide it decides.
 PairContact pairContact(vec3 d, vec3 u, float reach, float step, float restSpeed, float side)
 {
     float squared = dot(d, d);
     float along = dot(d, u);
     float fast = dot(u, u);
-    float inside = max(reach * reach - squared, 0.0f);
+    float inside = reach * reach - squared;
+    float under = along * along + fast * inside;
+    bool met = inside > 0.0f || (along > 0.0f && under > 0.0f);
     // |d - u t| = reach, the root of which nothing cancels
-    float root = sqrt(along * along + fast * inside);
-    float since = along < 0.0f ? inside / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
+    float root = sqrt(max(under, 0.0f));
+    float since = along < 0.0f ? max(inside, 0.0f) / max(root - along, 1e-30f) : (along + root) / max(fast, 1e-30f);
     vec3 touch = (d - u * since) / reach;
     float touchSpeed = dot(touch, u);
     // One that the last step missed by a rounding of the positions is this step's.
-    bool impact = squared < reach * reach && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
+    bool impact = met && (since - step) * sqrt(fast) <= 1e-4f * reach && touchSpeed < -restSpeed;
 
     float apart = sqrt(squared);
     vec3 now = apart > 1e-6f * reach ? d / apart : vec3(0.0f, side, 0.0f);

@@ -141,9 +141,11 @@ struct ContactBaseline::Data {
         contact.anchor = d;
         contact.lacks = reach - apart;
         contact.takesPart = known || apart < reach || glm::dot(contact.normal, u) >= -step.restSpeed;
-        if (known || squared >= reach * reach) return;
+        if (known) return;
         const float along = glm::dot(d, u), fast = glm::dot(u, u), inside = reach * reach - squared;
-        const float root = std::sqrt(along * along + fast * inside);  // |d - u t| = reach
+        const float under = along * along + fast * inside;
+        if (inside <= 0 && (along <= 0 || under <= 0)) return;
+        const float root = std::sqrt(under);  // |d - u t| = reach
         const float since =
             along < 0 ? inside / std::max(root - along, 1e-30f) : (along + root) / std::max(fast, 1e-30f);
         const vec3 touch = (d - u * since) / reach;

@@ -117,7 +117,7 @@ double ContactPlan::safeSpeed(double frameTime) const {
     double least = largestRadius;
     for (const ContactGroup& group : groups)
         least = std::min(least, group.radius);
-    return 2 * least * steps / frameTime;
+    return std::max(settings.fastest.value_or(0), 2 * least * steps / frameTime);
 }
 
 ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups) {
@@ -143,19 +143,23 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     }
     if (!out.any()) return out;
     out.spheres = int(spheres);
-    // two diameters, and a little more so that rounding loses nothing
-    const double needed = 4 * ContactPlan::near * out.largestRadius * (1 + 1e-5);
+    const int substeps = scene.solver.substeps;
+    out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
+    // a little more, so that rounding loses nothing
+    out.reach = (1 + 1e-5) * std::max(2 * ContactPlan::near * out.largestRadius,
+                                      2 * out.largestRadius +
+                                          scene.contact.fastest.value_or(0) / (scene.frameRate * out.steps));
+    const double needed = 2 * out.reach;
     if (scene.contact.cell && *scene.contact.cell < needed)
         throw Error(scene.contact.location,
                     concat("cells of ", *scene.contact.cell, " m do not hold spheres of radius ",
-                           out.largestRadius, " m: at least ", needed, " m are needed"));
+                           out.largestRadius, " m", scene.contact.fastest ? " and their way in a step" : "",
+                           ": at least ", needed, " m are needed"));
     out.cell = roundedUp(scene.contact.cell.value_or(needed));
     out.listLength = listLength(out.largestRadius, smallest);
     while ((int64_t(1) << out.tableBits) < 2 * spheres)
         ++out.tableBits;
     out.tableBits = std::max(out.tableBits, 4);
-    const int substeps = scene.solver.substeps;
-    out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
     for (const ContactGroup& a : out.groups) {
         for (const ContactGroup& b : out.groups) {
             const SurfacePair pair = surfacePair(scene, groups[a.group].index, groups[b.group].index);

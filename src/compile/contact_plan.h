@@ -44,8 +44,11 @@ struct ContactPlan {
     std::vector<ContactGroup> groups;
     int spheres = 0;
     double largestRadius = 0;  // m, with the largest scale
-    // m, of the grid; at least twice the largest radius, of 5 significant bits, so that its multiples up to
-    // 2^19 are floats.
+    // m: spheres whose centres are further apart neither touch nor have passed through each other in the last
+    // contact step.
+    double reach = 0;
+    // m, of the grid; at least twice `reach`, of 5 significant bits, so that its multiples up to 2^19 are
+    // floats.
     double cell = 0;
     int tableBits = 0;    // cells are hashed into a table of 2^tableBits
     int listLength = 24;  // spheres that one may touch
@@ -80,7 +83,8 @@ struct ContactPlan {
     static int substepsOf(int step, int steps, int substeps) {
         return substeps * (step + 1) / steps - substeps * step / steps;
     }
-    // m/s: spheres that move faster relative to one another may pass through between two contact steps.
+    // m/s: spheres that move faster relative to one another may pass through each other between two contact
+    // steps.
     double safeSpeed(double frameTime) const;
 };
 

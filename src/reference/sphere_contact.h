@@ -15,7 +15,8 @@ struct Sphere {
     int molecule = 0;                     // spheres of one never touch
 };
 
-// All in contact (ContactPlan::near), of different molecules: first below second. O(n^2).
-std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres);
+// All in contact (ContactPlan::near), of different molecules: first below second. O(n^2). Beside them those
+// that touched at any time in the last `step` s, as their velocities now tell.
+std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres, double step = 0);
 
 }  // namespace shoal::reference

@@ -59,10 +59,17 @@ const Description& describe(const ContactSettings*) {
             .only("search", {"single", "staggered"}, "is of the other searches: the exact search finds all")
             .word("response", &S::response, responseWords,
                   {"", "Whether all that touch respond at once, or, as UberFlow's, the nearest alone."})
+            .key(
+                "fastest", &S::fastest,
+                {"m/s",
+                 "The speed of two spheres relative to one another up to which they do not pass through each "
+                 "other between two contact steps; without it a diameter of the smaller one a step.",
+                 aboveZero()})
             .key("cell", &S::cell,
                  {"m",
-                  "The size of a cell, at least four times the largest radius; without it as large as "
-                  "the largest spheres need.",
+                  "The size of a cell, at least four times the largest radius, and more with `fastest`; "
+                  "without "
+                  "it as large as is needed.",
                   aboveZero()});
     return it;
 }

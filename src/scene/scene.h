@@ -133,10 +133,11 @@ const char* name(ContactResponse response);
 struct ContactSettings {
     ContactSearch search = ContactSearch::exact;
     ContactResponse response = ContactResponse::simultaneous;
-    int neighbors = 8;           // of the UberFlow searches, to either side
-    int steps = 0;               // contact steps of a frame; 0: one a substep
-    int iterations = 4;          // of the simultaneous response
-    std::optional<double> cell;  // m; nothing: as large as the largest spheres need
+    int neighbors = 8;              // of the UberFlow searches, to either side
+    int steps = 0;                  // contact steps of a frame; 0: one a substep
+    int iterations = 4;             // of the simultaneous response
+    std::optional<double> fastest;  // m/s, relative to one another: none passes through another up to this
+    std::optional<double> cell;     // m; nothing: as large as the largest spheres need
     Location location;
 };
 

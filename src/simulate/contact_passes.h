@@ -27,14 +27,15 @@ class ContactPasses : public ContactResult {
             const auto timer = timers.time("contact grid");
             buildGrid(frame, state);
         }
-        {
-            const auto timer = timers.time("contact search");
-            search(state);
-        }
-        const auto timer = timers.time("contact response");
         const double stepTime = frame.parameters.frameTime;
         // what gravity adds in two steps is no bounce
-        respond(state, {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h});
+        const Times times = {stepTime, 2 * glm::length(frame.parameters.gravity) * stepTime, frame.h};
+        {
+            const auto timer = timers.time("contact search");
+            search(state, times);
+        }
+        const auto timer = timers.time("contact response");
+        respond(state, times);
     }
 
   protected:
@@ -47,7 +48,7 @@ class ContactPasses : public ContactResult {
         : plan_(&plan), contact_(&plan.contact), tables_(&tables) {}
 
     virtual void buildGrid(const Frame& frame, State& state) = 0;
-    virtual void search(State& state) = 0;
+    virtual void search(State& state, const Times& times) = 0;
     virtual void runNearest(State& state, const Times& times) = 0;
     // The stages of shaders/contact/respond.glsl; an iteration goes on by `momentum` beyond the last.
     virtual void prepare(State& state, const Times& times) = 0;
@@ -59,6 +60,10 @@ class ContactPasses : public ContactResult {
         program.set("count", contact_->spheres);
         program.set("cell", float(contact_->cell));
         program.set("groupCount", int(contact_->groups.size()));
+        setTimes(program, times);
+    }
+
+    static void setTimes(const gpu::Program& program, const Times& times) {
         program.set("stepTime", float(times.step));
         program.set("restSpeed", float(times.restSpeed));
     }

@@ -157,6 +157,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
     std::vector<std::string> common = {
         concat("LIST ", listLength_), concat("NEIGHBORS ", contact_->settings.neighbors),
         concat("NEAR ", ContactPlan::near), concat("MOST_WALLS ", ContactPlan::mostWalls)};
+    if (contact_->settings.fastest) common.push_back("SWEPT");
     if (self_) common.push_back("SELF");
     if (spreads_) common.push_back("SPREAD");
     if (rigid_) common.push_back("BODIES");
@@ -366,18 +367,22 @@ void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
     }
 }
 
-void MoleculeContact::find(const Program& program) {
+void MoleculeContact::find(const Program& program, const Times& times) {
     Textures textures(program);
     textures.add("places", places_.texture).add("cells", cells_.texture).add("sorted", pairs_.texture);
     if (&program == &findStaggered_)
         textures.add("staggered", staggered_.texture).add("slots", slots_[now_].texture);
     if (contact_->settings.search == ContactSearch::exact) {
         textures.add("starts", cellStarts_.texture);
-        program.set("reach", float(2 * ContactPlan::near * contact_->largestRadius * (1 + 1e-6)));
+        program.set("reach", float(contact_->reach));
         program.set("keyMask", keyMask());
     }
     if (contact_->remembers())
         textures.add("oldSlots", slots_[1 - now_].texture).add("oldCounts", counts_[1 - now_].texture);
+    if (contact_->settings.fastest) {
+        textures.add("motions", motions_.texture);
+        setTimes(program, times);
+    }
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
     program.set("count", contact_->spheres);
     program.set("cell", float(contact_->cell));
@@ -391,9 +396,9 @@ void MoleculeContact::find(const Program& program) {
     settled();
 }
 
-void MoleculeContact::search(Buffers&) {
-    find(find_);
-    if (findStaggered_) find(findStaggered_);
+void MoleculeContact::search(Buffers&, const Times& times) {
+    find(find_, times);
+    if (findStaggered_) find(findStaggered_, times);
 }
 
 uint32_t MoleculeContact::dropped() const {

@@ -94,8 +94,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
     void sortKeys(bool staggered);
     void order(bool staggered);
-    void search(Buffers& state) override;
-    void find(const gpu::Program& program);
+    void search(Buffers& state, const Times& times) override;
+    void find(const gpu::Program& program, const Times& times);
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
                       int first) const;
     Textures bindResponse(const gpu::Program& program, const Times& times) const;

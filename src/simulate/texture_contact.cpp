@@ -137,6 +137,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
         if (need) options.defines.emplace_back(name);
     };
     define(bool(staggered_), "STAGGERED");
+    define(contact_->settings.fastest.has_value(), "SWEPT");
     define(self_, "SELF");
     define(spreads_, "SPREAD");
     define(rigid_, "BODIES");
@@ -319,14 +320,14 @@ void TextureContact::buildGrid(const Frame& frame, ContactState& state) {
     drawAll({&slots_[now_]});
 }
 
-void TextureContact::search(ContactState&) {
+void TextureContact::search(ContactState&, const Times& times) {
     find_.use();
     find_.texture("places", 0, places_);
     find_.texture("cells", 1, cells_);
     find_.texture("oldCounts", 2, counts_[1 - now_]);
     if (contact_->settings.search == ContactSearch::exact) {
         find_.texture("starts", 3, startsOf_);
-        find_.set("reach", float(2 * ContactPlan::near * contact_->largestRadius * (1 + 1e-6)));
+        find_.set("reach", float(contact_->reach));
     }
     if (staggered_) {
         find_.texture("staggered", 4, staggered_->pairs());
@@ -334,6 +335,10 @@ void TextureContact::search(ContactState&) {
     }
     if (find_.uses("sorted")) find_.texture("sorted", 6, sort_.pairs());
     if (contact_->remembers()) find_.texture("oldSlots", 9, slots_[1 - now_]);
+    if (contact_->settings.fastest) {
+        find_.texture("motions", 10, motions_);
+        setTimes(find_, times);
+    }
     if (self_) {
         find_.texture("apart", 7, apart_);
         find_.texture("groupsOf", 8, groupsOf_);

@@ -92,7 +92,7 @@ class TextureContact : public ContactPasses<ContactState> {
     const gpu::Program& useGroup(const gpu::Program& program, size_t group) const;
     void sortKeys(NetworkSort& sort, bool staggered);
     void buildGrid(const Frame& frame, ContactState& state) override;
-    void search(ContactState& state) override;
+    void search(ContactState& state, const Times& times) override;
     int bindResponse(const gpu::Program& program, const Times& times) const;  // the first unit that is free
     void bindGroup(const gpu::Program& program, ContactState& state, size_t group) const;
     void runNearest(ContactState& state, const Times& times) override;

@@ -245,9 +245,10 @@ struct Cloud {
 
 constexpr double cloudStep = 0.01;
 
-Cloud cloud(int count, double side, vec2 material) {
+// `fastest`: m/s, of one along an axis. Above 1.5 nothing passes through anything for all that.
+Cloud cloud(int count, double side, vec2 material, double fastest = 1.5) {
     std::mt19937 random(5);
-    std::uniform_real_distribution<double> place(0, side), speed(-1.5, 1.5);
+    std::uniform_real_distribution<double> place(0, side), speed(-fastest, fastest);
     Cloud out;
     for (int g = 0; g < 2; ++g) {
         std::vector<dvec3> positions;
@@ -267,7 +268,9 @@ Cloud cloud(int count, double side, vec2 material) {
         out.expected[i].velocity = out.velocities[i];
         out.expected[i].position += cloudStep * out.velocities[i];
     }
-    out.contacts = reference::touching(out.expected);
+    const bool swept = fastest > 1.5;
+    if (swept) out.scene.contact.fastest = 2 * std::sqrt(3.0) * fastest;
+    out.contacts = reference::touching(out.expected, swept ? cloudStep : 0);
     reference::SphereResponse settings;
     settings.stepTime = cloudStep;
     settings.restitution = double(material.x);
@@ -338,6 +341,23 @@ TEST_CASE("contacts that meet at once are the reference's", "[molecule contact]"
         CHECK(difference.velocity < 2e-4);
         CHECK(difference.position < 2e-6);
     }
+}
+
+TEST_CASE("what has passed through another within a step is found and answered", "[molecule contact]") {
+    const Path path = GENERATE(Catch::Generators::from_range(paths()));
+    const vec2 material(0.5f, 0.4f);
+    const Cloud c = cloud(150, 0.55, material, 6);
+    Simulation simulation = startedWith(c.scene, c.velocities, material, path);
+    simulation.frame();
+    CHECK(simulation.contact()->dropped() == 0);
+    const Pairs found = simulation.contact()->found();
+    CAPTURE(name(path), c.contacts.size(), cloud(150, 0.55, material).contacts.size());
+    CHECK(missing(found, c.contacts).empty());
+    CHECK(missing(c.contacts, found).empty());
+    const Difference difference = farthest(statesOf(simulation), c.expected);
+    CAPTURE(difference.velocity, difference.position);
+    CHECK(difference.velocity < 2e-3);
+    CHECK(difference.position < 2e-5);
 }
 
 // In free fall, so that what rests has a speed to rest below.

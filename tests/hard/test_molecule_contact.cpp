@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "hard/outcome.h"
+#include "molecule/molecule_file.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
 
@@ -39,18 +40,20 @@ Scene sceneOf(const Solver& solver, std::vector<Group> groups) {
     return scene;
 }
 
-// One marble at rest of mass 2, one of mass 1 that flies at it with 3 m/s, `aside` of the middle, from 16
-// distances, so that they meet in 16 phases of a step.
-void meet(const Solver& solver, Judge& judge, double aside, double restitution) {
-    constexpr double radius = 0.05, speed = 3, m = 1, n = 2;
+// One marble at rest of mass 2, one of mass 1 that flies at it, `aside` of the middle, from 16 distances, so
+// that they meet in 16 phases of a step.
+void meet(const Solver& solver, Judge& judge, double aside, double restitution, double speed = 3) {
+    constexpr double radius = 0.05, m = 1, n = 2;
     const double h = 1 / 240.0;
     std::vector<glm::dvec3> resting, flying;
     for (int phase = 0; phase < 16; ++phase) {
-        resting.emplace_back(0, phase, 0);
-        flying.emplace_back(-0.3 - phase / 16.0 * speed * h, phase + aside, 0);
+        const double row = phase * speed / 3;  // none meets another
+        resting.emplace_back(0, row, 0);
+        flying.emplace_back(-0.1 * speed - phase / 16.0 * speed * h, row + aside, 0);
     }
     Scene scene = sceneOf(solver, {marbles(resting, radius, n, {0, 0, 0}, restitution),
                                    marbles(flying, radius, m, {speed, 0, 0}, restitution)});
+    if (speed * h > 2 * radius) scene.contact.fastest = speed;
     setSteps(scene, h, 1);
     Simulation simulation = test::hardSimulation(scene);
     test::runChecked(simulation, 60);
@@ -103,6 +106,45 @@ TEST_CASE("hard: two marbles meet", "[hard][molecule contact][fused]") {
         test::holds(concat("glancing pair, restitution ", e),
                     [&](const Solver& solver, Judge& judge) { meet(solver, judge, 0.09, e); });
     }
+    // 0.33 m a step, of 0.1 m that both are wide
+    test::holds("fast pair, head-on",
+                [](const Solver& solver, Judge& judge) { meet(solver, judge, 0, 0.5, 80); });
+    test::holds("fast pair, glancing",
+                [](const Solver& solver, Judge& judge) { meet(solver, judge, 0.09, 0.5, 80); });
+}
+
+// Leaves fly at one another face to face at 5 m/s, 21 mm in a step, in 16 phases of it.
+TEST_CASE("hard: fast leaves", "[hard][molecule contact][fused]") {
+    test::holds("leaves meet at 5 m/s", [](const Solver& solver, Judge& judge) {
+        constexpr double speed = 5, h = 1 / 240.0;
+        std::vector<test::Item> here, there;
+        for (int phase = 0; phase < 16; ++phase) {
+            here.push_back(at({0.2 * phase, 0, 0}));
+            there.push_back(at({0.2 * phase, 0, 0.3 + phase / 16.0 * speed * h}));
+        }
+        const Molecule leaf = readMolecule(SHOAL_SOURCE_DIR "/molecules/leaf.json");
+        Scene scene = test::sceneOf(leaf, solver.kind, here);
+        scene.groups.push_back(test::sceneOf(leaf, solver.kind, there).groups[0]);
+        for (size_t g = 0; g < 2; ++g) {
+            Group& group = scene.groups[g];
+            group.name = concat("leaves ", g);
+            group.velocity = {0, 0, g == 0 ? speed / 2 : -speed / 2};
+            group.held = false;
+            group.contact.emplace().radius = 0.006;
+            group.contact->triangles = true;
+        }
+        scene.contact.fastest = speed;
+        setSteps(scene, h, 1);
+        Simulation simulation = test::hardSimulation(scene);
+        test::runChecked(simulation, 48);
+        const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
+        judge.finite(a);
+        judge.finite(b);
+        int through = 0;
+        for (size_t i = 0; i < a.positions.size(); ++i)
+            through += a.positions[i].z > b.positions[i].z;
+        judge.atMost("vertices through", through, 0);
+    });
 }
 
 // 48 tetrahedra poured into a square well come to rest within nine seconds, and stay where they are for

@@ -52,9 +52,10 @@ void meet(Meeting& m, const Sphere& a, const Sphere& b, const SphereResponse& se
     m.depth = m.reach - distance;
     if (distance > 1e-6 * m.reach) m.normal = m.between / distance;
     m.speed = glm::dot(m.normal, u);
-    if (known || m.depth <= 0 || q == 0) return;
+    const double under = p * p + q * (m.reach * m.reach - distance * distance);
+    if (known || q == 0 || (m.depth <= 0 && (p <= 0 || under <= 0))) return;
     // the time back to when they touched: |between - u t| = reach
-    const double since = (p + std::sqrt(p * p + q * (m.reach * m.reach - distance * distance))) / q;
+    const double since = (p + std::sqrt(under)) / q;
     const dvec3 touch = (m.between - u * since) / m.reach;
     // a meeting that the last step has missed by 1e-4 of the reach counts
     m.impact = (since - settings.stepTime) * std::sqrt(q) <= 1e-4 * m.reach &&

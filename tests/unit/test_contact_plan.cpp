@@ -140,6 +140,16 @@ TEST_CASE("two spheres that have just met are taken back to their first touch", 
     CHECK(old.since == 0);
     // the last step ended 1e-6 m after they met, which it missed by a rounding
     CHECK(shader::pairContact(vec3(touchX + 2 * time, 0.06f, 0), u, 0.1f, time - 5e-7f, 0.01f, 1).impact);
+    // it has left on the other side since, 0.1 m further
+    const shader::PairContact through =
+        shader::pairContact(vec3(touchX + 2 * (time + 0.1f), 0.06f, 0), u, 0.1f, time + 0.1001f, 0.01f, 1);
+    CHECK(through.impact);
+    CHECK(std::abs(through.since - time - 0.1f) < 1e-6f);
+    CHECK(glm::distance(through.normal, vec3(-0.8f, 0.6f, 0)) < 1e-5f);
+    CHECK_FALSE(
+        shader::pairContact(vec3(touchX + 2 * (time + 0.1f), 0.06f, 0), u, 0.1f, 0.1f, 0.01f, 1).impact);
+    CHECK_FALSE(
+        shader::pairContact(vec3(0.3f, 0.101f, 0), u, 0.1f, 1, 0.01f, 1).impact);  // it has passed beside
     const shader::PairContact same = shader::pairContact(vec3(0), vec3(0), 0.1f, 0.01f, 0, -1);
     CHECK(same.normal == vec3(0, -1, 0));
     CHECK(std::abs(same.depth - 0.1f) < 1e-7f);

@@ -305,7 +305,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         contact(file);
     for (const char* file : {"spheres", "apply"})
         contact(file, {"PINS", "RELEASE"});
-    for (Defines set : combinations({"SELF", "STAGGERED", "WALLS"})) {
+    for (Defines set : combinations({"SELF", "STAGGERED", "SWEPT", "WALLS"})) {
         set.emplace_back("REMEMBERS");
         for (const char* file : {"order", "slots", "find", "neighbors"})
             contact(file, set);
