@@ -6,12 +6,12 @@
 
 namespace shoal::reference {
 
-// The least distance of two spheres in the last `step` s.
-static double leastDistance(const Sphere& a, const Sphere& b, double step) {
+// Whether two spheres that were apart `step` s ago have touched since.
+static bool haveMet(const Sphere& a, const Sphere& b, double step) {
     const glm::dvec3 d = a.position - b.position, u = a.velocity - b.velocity;
-    const double fast = glm::dot(u, u);
+    const double fast = glm::dot(u, u), reach = a.radius + b.radius;
     const double nearest = fast > 0 ? std::clamp(glm::dot(d, u) / fast, 0.0, step) : 0;
-    return glm::length(d - u * nearest);
+    return glm::length(d - u * step) >= reach && glm::length(d - u * nearest) < reach;
 }
 
 std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres, double step) {
@@ -20,8 +20,7 @@ std::vector<std::pair<int, int>> touching(const std::vector<Sphere>& spheres, do
         for (size_t b = a + 1; b < spheres.size(); ++b) {
             const double reach = spheres[a].radius + spheres[b].radius;
             const double distance = glm::distance(spheres[a].position, spheres[b].position);
-            const bool touch =
-                distance < ContactPlan::near * reach || leastDistance(spheres[a], spheres[b], step) < reach;
+            const bool touch = distance < ContactPlan::near * reach || haveMet(spheres[a], spheres[b], step);
             if (touch && spheres[a].molecule != spheres[b].molecule) out.emplace_back(int(a), int(b));
         }
     }

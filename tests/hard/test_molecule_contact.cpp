@@ -130,7 +130,7 @@ TEST_CASE("hard: fast leaves", "[hard][molecule contact][fused]") {
             group.name = concat("leaves ", g);
             group.velocity = {0, 0, g == 0 ? speed / 2 : -speed / 2};
             group.held = false;
-            group.contact.emplace().radius = 0.006;
+            group.contact.emplace().radius = 0.002;
             group.contact->triangles = true;
         }
         scene.contact.fastest = speed;
@@ -140,10 +140,15 @@ TEST_CASE("hard: fast leaves", "[hard][molecule contact][fused]") {
         const Snapshot a = simulation.snapshot(0), b = simulation.snapshot(1);
         judge.finite(a);
         judge.finite(b);
+        const size_t vertices = leaf.vertices.size();
         int through = 0;
-        for (size_t i = 0; i < a.positions.size(); ++i)
-            through += a.positions[i].z > b.positions[i].z;
-        judge.atMost("vertices through", through, 0);
+        for (size_t m = 0; m < 16; ++m) {
+            double ahead = 0;
+            for (size_t i = m * vertices; i < (m + 1) * vertices; ++i)
+                ahead += a.positions[i].z - b.positions[i].z;
+            through += ahead > 0;
+        }
+        judge.atMost("leaves through", through, 0);
     });
 }
 

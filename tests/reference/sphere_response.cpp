@@ -128,7 +128,7 @@ class Response {
         const bool isKnown = known != memory_->contacts.end();
         meet(m, sphere(m.a), sphere(m.b), settings_, isKnown);
         // what has not touched yet and comes fast will be an impact
-        const bool comes = !isKnown && m.depth <= 0 && m.speed < -settings_.restSpeed;
+        const bool comes = !isKnown && !m.impact && m.depth <= 0 && m.speed < -settings_.restSpeed;
         m.takesPart = !comes && sphere(m.a).weight + sphere(m.b).weight > 0;
         if (m.impact) m.anchor = m.reach * m.normal;
         if (m.impact || !m.takesPart) return;
