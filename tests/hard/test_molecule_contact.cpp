@@ -187,6 +187,81 @@ TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
     });
 }
 
+// 27 tetrahedra that start with half the room that they need come apart slowly.
+TEST_CASE("hard: squeezed molecules", "[hard][molecule contact][fused]") {
+    test::holds("tetrahedra squeezed to half their room", [](const Solver& solver, Judge& judge) {
+        constexpr double scale = 0.1, radius = 0.14, spacing = 0.44;
+        Scene scene = test::sceneOf(test::tetrahedron(2e3, 20), solver.kind);
+        Group& group = scene.groups[0];
+        group.count = 27;
+        group.place.kind = Placement::Kind::grid;
+        group.place.items.clear();
+        group.place.spacing = glm::dvec3(scale * spacing);
+        group.place.scale = glm::dvec2(scale);
+        group.place.cells = {3, 3, 3};
+        group.place.turn = Placement::Turn::any;
+        group.contact.emplace().radius = radius;
+        setSteps(scene, 1 / 60.0, 8);
+        Simulation simulation = test::hardSimulation(scene);
+        double fastest = 0;
+        for (int i = 0; i < 120; ++i) {
+            test::runChecked(simulation, 1);
+            for (const glm::dvec3& v : simulation.snapshot(0).velocities)
+                fastest = std::max(fastest, glm::length(v));
+        }
+        const Snapshot now = simulation.snapshot(0);
+        judge.finite(now);
+        judge.atMost("fastest m/s", fastest, 2);
+        judge.atMost("deepest / radius", deepest(simulation, now, scale * radius) / (scale * radius), 0.05);
+        judge.atMost("dropped", simulation.contact()->dropped(), 0);
+    });
+}
+
+// 75 marbles poured onto a slope, whose friction is that of 26.6 degrees.
+TEST_CASE("hard: marbles on a slope", "[hard][molecule contact][fused]") {
+    constexpr double radius = 0.05, friction = 0.5, h = 1 / 240.0;
+    const auto slope = [](const Solver& solver, double angle) {
+        Scene scene = sceneOf(solver, {marbles({}, radius, 0.1, {0, 0, 0}, 0)});
+        Group& group = scene.groups[0];
+        group.count = 75;
+        group.friction = friction;
+        group.place.kind = Placement::Kind::grid;
+        group.place.origin = {0, radius, 0};
+        group.place.spacing = glm::dvec3(2.1 * radius);
+        group.place.cells = {5, 3, 5};
+        scene.gravity = g * glm::dvec3(std::sin(angle), -std::cos(angle), 0);
+        scene.colliders = {wall({0, 0, 0}, {0, 1, 0}, radius)};
+        setSteps(scene, 4 * h, 4);
+        return scene;
+    };
+    test::holds("marbles on a slope of 20 degrees stay", [&](const Solver& solver, Judge& judge) {
+        Simulation simulation = test::hardSimulation(slope(solver, glm::radians(20.0)));
+        test::runChecked(simulation, 300);
+        const Snapshot rested = simulation.snapshot(0);
+        test::runChecked(simulation, 60);
+        const Snapshot later = simulation.snapshot(0);
+        judge.finite(later);
+        judge.atMost("moved / radius", moved(rested, later) / radius, 0.05);
+    });
+    test::holds("marbles on a slope of 32 degrees slide", [&](const Solver& solver, Judge& judge) {
+        const double angle = glm::radians(32.0);
+        const auto speed = [](const Snapshot& now) {
+            double sum = 0;
+            for (const glm::dvec3& v : now.velocities)
+                sum += v.x;
+            return sum / double(now.velocities.size());
+        };
+        Simulation simulation = test::hardSimulation(slope(solver, angle));
+        test::runChecked(simulation, 120);
+        const double before = speed(simulation.snapshot(0));
+        test::runChecked(simulation, 60);
+        const Snapshot later = simulation.snapshot(0);
+        judge.finite(later);
+        const double expected = g * (std::sin(angle) - friction * std::cos(angle));
+        judge.atMost("acceleration off", std::abs(speed(later) - before - expected) / expected, 0.05);
+    });
+}
+
 // Two molecules that start inside one another part, slower than a fall of a metre.
 TEST_CASE("hard: a molecule inside another", "[hard][molecule contact][fused]") {
     test::holds("a molecule starts inside another", [](const Solver& solver, Judge& judge) {
