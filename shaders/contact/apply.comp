@@ -4,8 +4,8 @@
 #include "contact/shape.glsl"
 #include "contact/spread.glsl"
 
-uniform float stepTime;   // s, of a contact step
-uniform float restSpeed;  // m/s
+uniform float stepTime;     // s, of a contact step
+uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
@@ -26,7 +26,7 @@ void change(int molecule, int vertex, Total by)
     loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
 #endif
 #ifdef HISTORY
-    // What is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl).
+    // A slow vertex goes on as if it had moved so before; any other begins anew (fused/bdf2.glsl).
     bool slow = length(v) < restSpeed;
     for (int c = 0; c < 3; ++c) {
         state[floatIndex(first + 2 * POSITION_ELEMENTS * BLOCK, 3 * vertex + c)] = slow ? v[c] * substepTime : NO_HISTORY;

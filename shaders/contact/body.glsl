@@ -13,7 +13,7 @@ struct BodyMotion {
     vec3 turn;
 };
 
-// What an impulse at a sphere does to its body.
+// Returns how an impulse at a sphere changes the motion of its body.
 BodyMotion bodyMotion(BodySphere at, vec3 impulse)
 {
     return BodyMotion(impulse * at.perMass, at.perInertia * cross(at.arm, impulse));
@@ -30,4 +30,3 @@ vec4[3] packedBody(BodySphere at)
     mat3 t = at.perInertia;
     return vec4[3](vec4(at.arm, at.perMass), vec4(t[0][0], t[1][1], t[2][2], 0.0), vec4(t[1][2], t[0][2], t[0][1], 0.0));
 }
-

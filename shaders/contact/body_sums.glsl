@@ -1,4 +1,4 @@
-// What impulses on the spheres of rigid bodies do.
+// Impulses on the spheres of rigid bodies add up here to the motions of the bodies.
 #include "contact/body.glsl"
 
 #ifdef TEXTURES

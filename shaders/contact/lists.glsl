@@ -32,7 +32,7 @@ int entryOf(int slot, int e)
     return entryIn(lists, slot, e);
 }
 
-// Of the spheres that a slot touches, how many its list holds.
+// Returns how many of the spheres that a slot touches its list holds.
 int listedOf(int slot)
 {
     return min(int(fetch(counts, slot).x & CONTACTS), LIST);

@@ -1,7 +1,7 @@
 // The first stage of contact/respond.glsl.
 #include "contact/respond.glsl"
 
-// Of the last step:
+// The last step has left these:
 uniform UINTS oldSlots;      // of a sphere
 uniform UINTS oldCounts;     // by slot, as `counts`
 uniform LISTS oldLists;

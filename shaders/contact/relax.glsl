@@ -11,8 +11,8 @@ uniform TOTALS totals;
 uniform TOTALS earlier;         // the same an iteration before
 #endif
 
-// Of several contacts at once an iteration takes a larger step than one that is certainly stable, and across the normals a
-// smaller one; a contact alone has its impulse at once.
+// An iteration takes a larger step towards several contacts at once than one that is certainly stable, and across the normals
+// a smaller one; a contact alone has its impulse at once.
 const float overRelaxed = 1.3;
 const float frictionStep = 0.4;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
@@ -104,7 +104,7 @@ vec4 relax(int slot, int other, vec4 push, vec4 before, vec4 anchor, out vec3 n)
 #ifdef WALLS
 #include "contact/near_walls.glsl"
 
-// The same of a collider, a body of infinite mass, which does not ask whether it slides.
+// Returns a collider's push after the iteration: a body of infinite mass, which does not ask whether it slides.
 vec4 relaxWall(Wall wall, vec4 push, vec4 before)
 {
     vec3 n = wall.normal;

@@ -26,7 +26,7 @@ BodySphere bodyOf(int slot, Sphere sphere)
     return bodySphereAt(sphereOf(slot));
 }
 
-// What an impulse of 1 N s along the unit vector n changes of the sphere's velocity along it by turning its body, 1/kg.
+// Returns by how much an impulse of 1 N s along the unit vector n changes the sphere's velocity along it by turning its body, 1/kg.
 float turningOf(BodySphere body, vec3 n)
 {
     vec3 across = cross(body.arm, n);
@@ -67,7 +67,7 @@ void loadSphere(int slot)
 #endif
 }
 
-// What an impulse of 1 N s along the unit vector n changes of this sphere's velocity along it, 1/kg.
+// Returns by how much an impulse of 1 N s along the unit vector n changes this sphere's velocity along it, 1/kg.
 float ownWeightAlong(vec3 n)
 {
 #ifdef BODIES
@@ -77,7 +77,7 @@ float ownWeightAlong(vec3 n)
 #endif
 }
 
-// The same of the spheres' relative velocity. `shares`: among how many contacts this one and the other are shared.
+// Returns by how much it changes the spheres' relative velocity. `shares`: among how many contacts each of the two is shared.
 float weightAlong(Meeting with, vec3 n, vec2 shares)
 {
     float other = with.sphere.weight;
@@ -87,7 +87,7 @@ float weightAlong(Meeting with, vec3 n, vec2 shares)
     return ownWeightAlong(n) * shares.x + other * shares.y;
 }
 
-// Of what this sphere gives way, the part that is the turning of its body.
+// Returns which part of the way that this sphere gives is the turning of its body.
 float turningPart(vec3 n)
 {
 #ifdef BODIES

@@ -1,5 +1,5 @@
-// What totals by slot (contact/totals.glsl) make of the spheres of a molecule, of which each may move others, because they lie on
-// triangles of the same vertices or on a rigid body (RIGID). Needs contact/shape.glsl.
+// Totals by slot (contact/totals.glsl) become changes of the spheres of a molecule, of which each may move others, because they
+// lie on triangles of the same vertices or on a rigid body (RIGID). Needs contact/shape.glsl.
 #include "contact/totals.glsl"
 
 uniform UINTS slots;   // of a sphere
@@ -51,7 +51,7 @@ Total totalAt(int sphere)
 #ifdef RIGID
 #include "contact/body_sums.glsl"
 
-// What they change of sphere k of a molecule.
+// Returns how they change sphere k of a molecule.
 Total changeOf(int molecule, int k)
 {
     int first = firstSphere + molecule * SPHERES;
@@ -69,7 +69,7 @@ Total changeOf(int molecule, int k)
     return Total(motionAt(own, motion), motionAt(own, move), motionAt(own, load));
 }
 #else
-// The same of a vertex, by its own contacts and those of the triangles around it.
+// Returns how its own contacts and those of the triangles around it change a vertex.
 Total changeOfVertex(int vertex, int first, bool released)
 {
     vec4 shape = shapeOf(vertex);
@@ -80,7 +80,7 @@ Total changeOfVertex(int vertex, int first, bool released)
     return change;
 }
 
-// What they change of sphere k of a molecule.
+// Returns how they change sphere k of a molecule.
 Total changeOf(int molecule, int k)
 {
     int first = firstSphere + molecule * SPHERES;

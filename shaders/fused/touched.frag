@@ -1,4 +1,4 @@
-// What contact with other molecules does to a molecule (contact/gains.frag). Needs fused/lane.glsl.
+// Contact with other molecules changes a molecule here (contact/gains.frag). Needs fused/lane.glsl.
 #include "state/numbered.glsl"
 
 uniform sampler2DArray gains;

@@ -37,7 +37,7 @@ struct Contact {
     vec3 anchor{0};          // m, from the other's centre where they began to stick
 };
 
-// What a contact leaves for the next step.
+// A contact leaves this for the next step.
 struct Kept {
     int other;    // sphere
     bool sticks;  // the rest as of Contact
@@ -45,14 +45,14 @@ struct Kept {
     vec3 anchor;
 };
 
-// What a sphere's contacts leave for the next step.
+// A sphere's contacts leave this for the next step.
 struct Memory {
     uint32_t step = 0;  // that left it: nothing is remembered for longer
     int piece = 0, begin = 0, end = 0;
     vec3 load{0};  // N s, all impulses
 };
 
-// What the impulses make of a sphere.
+// A sphere as the impulses make it move.
 struct Going {
     vec3 velocity;  // m/s
     vec3 move;      // m

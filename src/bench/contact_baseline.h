@@ -5,9 +5,9 @@
 // sphere's side, all contacts of a sphere in one list, what they remember of the last step, the simultaneous
 // response in Jacobi iterations, into the state.
 //
-// What contacts remember acts as a force over the next step. Nothing moves here between two steps, and so a
-// step ends with what that force will have added to the velocities; the next begins with taking it back, as
-// the GPU's does.
+// Contacts act as a force over the next step by what they remember. Nothing moves here between two steps, and
+// so a step ends with what that force will have added to the velocities; the next begins with taking it back,
+// as the GPU's does.
 //
 // Written for speed: arrays in the order of the grid, nothing allocated in a step but where lists grow,
 // threads that stay, each with a piece of the spheres. What it has easier than the GPU's passes: positions

@@ -39,7 +39,7 @@ struct ContactPlan {
     // Spheres are in contact below so many times the sum of their radii: what rests on another and opens by a
     // hair is not forgotten.
     static constexpr double near = 1.02;
-    // Of the colliders near a sphere, how many its response knows.
+    // So many of the colliders near a sphere are known to its response.
     static constexpr int mostWalls = 3;
     std::vector<ContactGroup> groups;
     int spheres = 0;
@@ -60,10 +60,11 @@ struct ContactPlan {
     std::vector<glm::vec2> pairs;
 
     bool any() const { return !groups.empty(); }
-    // Whether a group of the plan has contact.
-    bool has(size_t group) const {
-        return std::any_of(groups.begin(), groups.end(),
-                           [&](const ContactGroup& each) { return each.group == group; });
+    // Returns the contact of a group of the plan, or null.
+    const ContactGroup* of(size_t group) const {
+        const auto found = std::find_if(groups.begin(), groups.end(),
+                                        [&](const ContactGroup& each) { return each.group == group; });
+        return found == groups.end() ? nullptr : &*found;
     }
     // Whether contacts are remembered from step to step.
     bool remembers() const { return settings.response == ContactResponse::simultaneous; }

@@ -68,8 +68,7 @@ const Description& describe(const ContactSettings*) {
             .key("cell", &S::cell,
                  {"m",
                   "The size of a cell, at least four times the largest radius, and more with `fastest`; "
-                  "without "
-                  "it as large as is needed.",
+                  "without it as large as is needed.",
                   aboveZero()});
     return it;
 }

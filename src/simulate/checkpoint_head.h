@@ -63,7 +63,7 @@ struct Head {
     int32_t frames = 0;
     Parameters parameters, own;  // as they stood; as the scene had them
     std::vector<GroupHead> groups;
-    // Of what contacts remember: spheres, contacts of all together, texels of colliders of all spheres.
+    // The memory of contacts has so many spheres, contacts, and texels of colliders of all spheres.
     uint64_t spheres = 0, contacts = 0, walls = 0;
 };
 

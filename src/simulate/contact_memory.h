@@ -1,4 +1,4 @@
-// What contacts between molecules remember from step to step (docs/contact.md), outside the GPU: part of a
+// The memory of contacts between molecules from step to step (docs/contact.md), outside the GPU: part of a
 // saved state, the same for every path.
 #pragma once
 
@@ -13,19 +13,19 @@ namespace shoal {
 // Nothing is remembered: all are empty. Spheres have their numbers of compile/contact_plan.h.
 struct ContactMemory {
     std::vector<uint32_t> counts;  // contacts of each sphere
-    // Of the contacts of one sphere after another: the other sphere, and an Entry of
+    // The contacts of one sphere after another have the other sphere, and an Entry of
     // shaders/contact/respond.glsl.
     std::vector<uint32_t> partners;
     std::vector<glm::vec4> pushes, anchors;
     std::vector<glm::vec4> known;  // N s, of each sphere: the sum of what its contacts remember
     std::vector<glm::vec4> loads;  // m/s^2, of each sphere: what that is on its vertex
-    // Of each sphere that may lie on colliders: 6 of shaders/contact/walls.glsl, and 3 impulses, N s.
+    // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s.
     std::vector<glm::vec4> walls, wallPushes;
 
     bool operator==(const ContactMemory&) const = default;
 };
 
-// The same as a path keeps it, in the order of slots: entry e of slot s at e * stride + s.
+// A path keeps it like this, in the order of slots: entry e of slot s at e * stride + s.
 struct ContactSlots {
     size_t stride = 0;
     std::vector<uint32_t> slots;          // of each sphere

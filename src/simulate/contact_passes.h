@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,8 +45,20 @@ class ContactPasses : public ContactResult {
         double restSpeed;  // m/s
         double substep;    // s
     };
-    ContactPasses(const Plan& plan, const Tables& tables)
-        : plan_(&plan), contact_(&plan.contact), tables_(&tables) {}
+    // A slot's contacts in its count (shaders/contact/flags.glsl).
+    static constexpr uint32_t contactsMask = 0x7fffffffu;
+
+    // `fused`: the state is that of the fused step.
+    ContactPasses(const Plan& plan, const Tables& tables, bool fused)
+        : plan_(&plan), contact_(&plan.contact), tables_(&tables) {
+        for (const ContactGroup& group : contact_->groups) {
+            self_ |= group.self;
+            if (!contact_->remembers()) continue;
+            rigid_ |= plan.groups[group.group].rigid;
+            spreads_ |= group.triangles || plan.groups[group.group].rigid;
+            walls_ |= fused && plan.groups[group.group].needs.collide;
+        }
+    }
 
     virtual void buildGrid(const Frame& frame, State& state) = 0;
     virtual void search(State& state, const Times& times) = 0;
@@ -61,6 +74,33 @@ class ContactPasses : public ContactResult {
         program.set("cell", float(contact_->cell));
         program.set("groupCount", int(contact_->groups.size()));
         setTimes(program, times);
+    }
+
+    // Returns the defines of all programs of the search and of the response, for lists of so many contacts.
+    std::vector<std::string> defines(int listLength) const {
+        std::vector<std::string> out = {
+            concat("LIST ", listLength), concat("NEIGHBORS ", contact_->settings.neighbors),
+            concat("NEAR ", ContactPlan::near), concat("MOST_WALLS ", ContactPlan::mostWalls)};
+        const auto define = [&](bool need, const char* name) {
+            if (need) out.emplace_back(name);
+        };
+        define(contact_->settings.fastest.has_value(), "SWEPT");
+        define(self_, "SELF");
+        define(spreads_, "SPREAD");
+        define(rigid_, "BODIES");
+        define(walls_, "WALLS");
+        define(contact_->remembers(), "REMEMBERS");
+        return out;
+    }
+
+    // `group`: among those with contact.
+    bool isRigid(size_t group) const { return rigid_ && plan_->groups[contact_->groups[group].group].rigid; }
+
+    void setRigidGroups(const gpu::Program& program) const {
+        int rigid = 0;
+        for (size_t g = 0; g < contact_->groups.size(); ++g)
+            if (isRigid(g)) rigid |= 1 << g;
+        program.set("rigidGroups", rigid);
     }
 
     static void setTimes(const gpu::Program& program, const Times& times) {
@@ -80,6 +120,8 @@ class ContactPasses : public ContactResult {
     const Plan* plan_;
     const ContactPlan* contact_;
     const Tables* tables_;
+    // `spreads_`: the contacts of one sphere move others.
+    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
 
   private:
     void respond(State& state, const Times& times) {

@@ -26,10 +26,7 @@ MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, 
     program.set("listStride", int(padded_));
     setResponse(program, times);
     if (!rigid_ || !program.uses("bodies")) return textures;
-    int rigid = 0;
-    for (size_t g = 0; g < groups_.size(); ++g)
-        if (isRigid(g)) rigid |= 1 << g;
-    program.set("rigidGroups", rigid);
+    setRigidGroups(program);
     textures.add("bodies", bodies_.texture);
     return textures;
 }
@@ -154,8 +151,7 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
         if (rigid) textures.add("bodies", bodies_.texture);
-        program.set("stepTime", float(times.step));
-        program.set("restSpeed", float(times.restSpeed));
+        setTimes(program, times);
         program.set("substepTime", float(times.substep));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
         setSpheres(program, g, part, first);

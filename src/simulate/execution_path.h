@@ -77,7 +77,7 @@ class ExecutionPath {
     // Reads one molecule, with its scale and phase in `looks`.
     virtual GroupState readOne(size_t group, size_t molecule) const = 0;
     virtual std::vector<glm::vec3> readNormals(size_t group) const = 0;
-    // What contacts remember, as memory() has given it for as many spheres, or nothing.
+    // Takes back what memory() has given for as many spheres, or empties the memory of contacts.
     virtual void remember(const ContactMemory&) {}
     // The groups before the last frame; nothing where they are gone.
     virtual std::optional<std::vector<GroupState>> readBefore() const { return {}; }

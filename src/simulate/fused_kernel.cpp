@@ -65,13 +65,10 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         out.emplace_back("WATCH");
         out.push_back(fastestDefine());
     }
-    const auto contact =
-        std::find_if(plan.contact.groups.begin(), plan.contact.groups.end(),
-                     [&](const ContactGroup& each) { return &plan.groups[each.group] == &group; });
-    const bool remembers =
-        options.work == Work::frame && contact != plan.contact.groups.end() && plan.contact.remembers();
+    const ContactGroup* contact = plan.contact.of(size_t(&group - plan.groups.data()));
+    const bool remembers = options.work == Work::frame && contact && plan.contact.remembers();
     if (options.work == Work::touched || remembers) {
-        EXPECTS(contact != plan.contact.groups.end());
+        EXPECTS(contact);
         out.push_back(concat("SPHERES ", contact->spheresOf));
         define(remembers, "REMEMBERS");
         if (options.fragments)

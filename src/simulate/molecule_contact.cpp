@@ -15,9 +15,8 @@ using gpu::Texel;
 
 namespace {
 
-constexpr size_t contactLanes = 64;             // of a workgroup, as the shaders say
-constexpr uint32_t contactsMask = 0x7fffffffu;  // shaders/contact/flags.glsl
-constexpr size_t cellTile = 4096;  // cells that one workgroup adds up (shaders/contact/starts.comp)
+constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
+constexpr size_t cellTile = 4096;    // cells that one workgroup adds up (shaders/contact/starts.comp)
 
 // Words of the counts of so many cells and of their tiles.
 size_t countWords(size_t cells) {
@@ -73,19 +72,12 @@ MoleculeContact::Array::Array(gpu::Context& context, size_t texels, Texel texel,
 
 MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                                  const Tables& tables, const SimulationOptions& options)
-    : ContactPasses(plan, tables),
+    : ContactPasses(plan, tables, true),
       context_((checkLimits(context.info(), plan.contact), &context)),
       counted_(options.asOnGpu.value_or(!context.info().software)),
       padded_((size_t(plan.contact.spheres) + contactLanes - 1) / contactLanes * contactLanes),
       listLength_(int(
           std::min(size_t(plan.contact.listLength), mostEntries(context.info(), plan.contact) / padded_))) {
-    for (const ContactGroup& group : contact_->groups) {
-        self_ |= group.self;
-        if (!contact_->remembers()) continue;
-        rigid_ |= plan.groups[group.group].rigid;
-        spreads_ |= group.triangles || plan.groups[group.group].rigid;
-        walls_ |= plan.groups[group.group].needs.collide;
-    }
     const auto array = [&](size_t texels, Texel texel, const char* label) {
         return Array(context, texels, texel, label);
     };
@@ -120,7 +112,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
 }
 
 void MoleculeContact::makeMemory() {
-    // What is remembered begins as nothing.
+    // Memory begins empty.
     const auto array = [&](size_t texels, Texel texel, const char* label) {
         const std::vector<uint32_t> none(texels * wordsOf(texel));
         return Array(*context_, texels, texel, label, none.data());
@@ -143,8 +135,8 @@ void MoleculeContact::makeMemory() {
     }
     for (Array& totals : totals_)
         totals = array(2 * padded_, Texel::float4, "contact totals");
-    loads_ = array(padded_, Texel::float4, "contact loads");
     if (!contact_->remembers()) return;
+    loads_ = array(padded_, Texel::float4, "contact loads");
     effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
     if (walls_) wallPushes_ = array(2 * ContactPlan::mostWalls * padded_, Texel::float4, "wall pushes");
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
@@ -154,15 +146,7 @@ void MoleculeContact::makeMemory() {
 }
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
-    std::vector<std::string> common = {
-        concat("LIST ", listLength_), concat("NEIGHBORS ", contact_->settings.neighbors),
-        concat("NEAR ", ContactPlan::near), concat("MOST_WALLS ", ContactPlan::mostWalls)};
-    if (contact_->settings.fastest) common.push_back("SWEPT");
-    if (self_) common.push_back("SELF");
-    if (spreads_) common.push_back("SPREAD");
-    if (rigid_) common.push_back("BODIES");
-    if (walls_) common.push_back("WALLS");
-    if (contact_->remembers()) common.push_back("REMEMBERS");
+    std::vector<std::string> common = defines(listLength_);
     gpu::ProgramOptions options;
     options.cache = cache;
     const auto make = [&](const char* file, const char* define = nullptr) {
@@ -266,11 +250,10 @@ void MoleculeContact::setWalls(const Program& program, const ContactGroup& group
 
 void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
                                 const GroupBuffers::Part& part) const {
-    for (const ContactGroup& contact : contact_->groups) {
-        if (contact.group != group || !contact_->remembers()) continue;
-        program.set("firstSphere", contact.firstSphere + part.first * contact.spheresOf);
-        program.texture("contactLoads", unit, loads_.texture);
-    }
+    const ContactGroup* contact = contact_->of(group);
+    if (!contact || !contact_->remembers()) return;
+    program.set("firstSphere", contact->firstSphere + part.first * contact->spheresOf);
+    program.texture("contactLoads", unit, loads_.texture);
 }
 
 void MoleculeContact::useTouching(const Program& program) const {

@@ -107,7 +107,6 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
     void apply(Buffers& state, const Times& times) override;
-    bool isRigid(size_t group) const { return rigid_ && plan_->groups[contact_->groups[group].group].rigid; }
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {
@@ -126,8 +125,6 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     mutable int dispatches_ = 0;
     bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
-    // `spreads_`: the contacts of one sphere move others.
-    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
     std::vector<GroupPrograms> groups_;
     gpu::Program starts_, collect_, order_, find_, findStaggered_, nearest_, prepare_, relax_, settle_;
     int listLength_;
@@ -139,7 +136,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     gpu::Buffer touching_, touchingGroups_;  // shaders/contact/touching.glsl
     gpu::Buffer dropped_;                    // contacts that no list had room for, so far
 
-    // What the last step leaves to this one, as the shaders call it; `now_` is this one's.
+    // The last step leaves these to this one, named as in the shaders; `now_` is this one's.
     size_t now_ = 0;
     std::array<Array, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
     std::array<Array, 2> pushes_;  // the last stage's lie in [pushed_]

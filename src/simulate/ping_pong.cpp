@@ -126,7 +126,7 @@ PingPong::PingPong(gpu::Context& context, const std::string& shaderRoot, const P
         wanted.fragment = concat("passes/", name(pass.kind), ".frag");
         wanted.defines = defines(plan.groups[pass.group]);
         if (pass.kind == PassKind::watch) wanted.defines.push_back(fastestDefine());
-        if (plan.contact.remembers() && plan.contact.has(pass.group) && readsLoads(pass.kind))
+        if (plan.contact.remembers() && plan.contact.of(pass.group) && readsLoads(pass.kind))
             wanted.defines.insert(wanted.defines.end(),
                                   {"REMEMBERS", concat("ROW_BITS ", plan.contact.rowBits())});
         wanted.generated = {{"generated/fields.glsl", plan.fieldSource},

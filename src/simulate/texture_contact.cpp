@@ -15,25 +15,17 @@ namespace {
 
 constexpr int listLayers = TextureContact::longestList / 4;
 static_assert(TextureContact::longestList % 4 == 0);
-constexpr uint32_t contactsMask = 0x7fffffffu;  // shaders/contact/flags.glsl
 
 }  // namespace
 
 TextureContact::TextureContact(gpu::Context& context, const std::string& shaderRoot, const Plan& plan,
                                const Tables& tables, const ContactState& state, gpu::ProgramCache* cache)
-    : ContactPasses(plan, tables),
+    : ContactPasses(plan, tables, state.fused()),
       rowBits_(plan.contact.rowBits()),
       sort_(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(plan.contact.spheres), 2 << rowBits_,
             cache, NetworkSort::Ties::byIndex),
       targets_(context),
       noAttributes_(context, "contact") {
-    for (const ContactGroup& group : contact_->groups) {
-        self_ |= group.self;
-        if (!contact_->remembers()) continue;
-        rigid_ |= plan.groups[group.group].rigid;
-        spreads_ |= group.triangles || plan.groups[group.group].rigid;
-        walls_ |= state.fused() && plan.groups[group.group].needs.collide;
-    }
     if (contact_->settings.search == ContactSearch::staggered)
         staggered_.emplace(context, shaderRoot, NetworkSort::Kind::bitonic, size_t(contact_->spheres),
                            2 << rowBits_, cache, NetworkSort::Ties::byIndex);
@@ -126,23 +118,10 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
                                   gpu::ProgramCache* cache) {
     gpu::ProgramOptions options;
     options.vertex = "passes/fullscreen.vert";
-    options.defines = {"TEXTURES",
-                       concat("ROW_BITS ", rowBits_),
-                       concat("LIST ", longestList),
-                       concat("NEIGHBORS ", contact_->settings.neighbors),
-                       concat("NEAR ", ContactPlan::near),
-                       concat("MOST_WALLS ", ContactPlan::mostWalls),
-                       concat("ENTRIES_A_DRAW ", entriesADraw)};
-    const auto define = [&](bool need, const char* name) {
-        if (need) options.defines.emplace_back(name);
-    };
-    define(bool(staggered_), "STAGGERED");
-    define(contact_->settings.fastest.has_value(), "SWEPT");
-    define(self_, "SELF");
-    define(spreads_, "SPREAD");
-    define(rigid_, "BODIES");
-    define(walls_, "WALLS");
-    define(contact_->remembers(), "REMEMBERS");
+    options.defines = defines(longestList);
+    options.defines.insert(options.defines.end(), {"TEXTURES", concat("ROW_BITS ", rowBits_),
+                                                   concat("ENTRIES_A_DRAW ", entriesADraw)});
+    if (staggered_) options.defines.emplace_back("STAGGERED");
     options.cache = cache;
     options.fragment = "sort/starts.frag";
     options.label = "contact starts";
@@ -194,7 +173,6 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
         return Program(context, shaderRoot, options);
     };
     OfGroup out;
-    out.rigid = rigid;
     out.many = rigid || group.triangles;
     out.spheres = make("spheres");
     if (state.fused())
@@ -387,7 +365,7 @@ static void writeLayers(Texture& texture, std::vector<T> values) {
                        values.data() + texels * size_t(layer), texels * sizeof(T), layer);
 }
 
-// What lies in layers, of each number after the other, and back.
+// Layers become the values of one number after another, and back.
 static std::vector<glm::vec4> together(const std::vector<glm::vec4>& layered, size_t stride, size_t count) {
     std::vector<glm::vec4> out;
     for (size_t i = 0; i < count; ++i)

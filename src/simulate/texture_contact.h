@@ -79,7 +79,7 @@ class TextureContact : public ContactPasses<ContactState> {
     struct OfGroup {
         gpu::Program spheres, walls, effectiveSum, spread, gains;
         gpu::Texture shapes;
-        bool rigid = false, many = false;  // the contacts of several spheres act on a vertex
+        bool many = false;  // the contacts of several spheres act on a vertex
     };
     OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state,
                       const std::string& shaderRoot, gpu::ProgramCache* cache) const;
@@ -108,8 +108,6 @@ class TextureContact : public ContactPasses<ContactState> {
     int rowsOf(int numbers) const;
 
     int rowBits_;
-    // `spreads_`: the contacts of one sphere move others.
-    bool spreads_ = false, self_ = false, walls_ = false, rigid_ = false;
     std::vector<OfGroup> groups_;  // with contact
     gpu::Program keys_, starts_, order_, slot_, find_, nearest_;
     gpu::Program prepare_, prepareSums_, relax_, relaxSums_, settle_;
@@ -117,7 +115,7 @@ class TextureContact : public ContactPasses<ContactState> {
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
     gpu::Texture startsOf_, materials_, apart_, groupsOf_;
-    // What the last step leaves to this one, as the shaders call it; `now_` is this one's.
+    // The last step leaves these to this one, named as in the shaders; `now_` is this one's.
     size_t now_ = 0;
     std::array<gpu::Texture, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
     gpu::Texture loads_;

@@ -39,10 +39,7 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
     if (program.uses("sorted")) program.texture("sorted", unit++, sort_.pairs());
     if (walls_ && program.uses("walls")) program.texture("walls", unit++, nearWalls_[now_]);
     if (!rigid_ || !program.uses("bodies")) return unit;
-    int rigid = 0;
-    for (size_t g = 0; g < groups_.size(); ++g)
-        if (groups_[g].rigid) rigid |= 1 << g;
-    program.set("rigidGroups", rigid);
+    setRigidGroups(program);
     program.texture("bodies", unit++, bodies_);
     return unit;
 }
@@ -215,11 +212,10 @@ void TextureContact::apply(ContactState& state, const Times& times) {
 }
 
 void TextureContact::bindLoads(const Program& program, int unit, size_t group) const {
-    for (const ContactGroup& contact : contact_->groups) {
-        if (contact.group != group || !contact_->remembers()) continue;
-        program.set("firstSphere", contact.firstSphere);
-        program.texture("contactLoads", unit, loads_);
-    }
+    const ContactGroup* contact = contact_->of(group);
+    if (!contact || !contact_->remembers()) return;
+    program.set("firstSphere", contact->firstSphere);
+    program.texture("contactLoads", unit, loads_);
 }
 
 }  // namespace shoal
