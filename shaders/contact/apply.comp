@@ -9,7 +9,10 @@ uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
-layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere
+layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere; w above 0: its molecule rests
+#if defined(RESTING) && defined(MANY)
+#include "contact/resting.glsl"
+#endif
 
 void change(int molecule, int vertex, Total by)
 {
@@ -41,6 +44,9 @@ void main()
     int lane = int(gl_GlobalInvocationID.x);
     int molecule = lane / VERTICES;
     if (molecule * SPHERES >= partSpheres) return;
+#ifdef RESTING
+    if (rests(int(texelFetch(slots, firstSphere + molecule * SPHERES).x))) return;
+#endif
     Total by = changeOf(molecule, lane - molecule * VERTICES);
     if (by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0)) change(molecule, lane - molecule * VERTICES, by);
 }
@@ -56,7 +62,7 @@ void main()
     if (lane < 0 || lane >= partSpheres) return;
     int molecule = lane / SPHERES;
     Total by = noTotal();
-    add(by, Total(firstTotal(totals, slot), secondTotal(totals, slot), texelFetch(known, slot).xyz),
+    add(by, Total(firstTotal(totals, slot), secondTotal(totals, slot), texelFetch(known, firstSphere + lane).xyz),
         weightOf(shapeOf(lane - molecule * SPHERES), texelFetch(oldRecords, molecule).w < 0.0));
     change(molecule, lane - molecule * SPHERES, by);
 }

@@ -1,6 +1,9 @@
 // A lane a sphere of one group: contact/effective_sum.glsl.
 #include "contact/shape.glsl"
 #include "contact/effective_sum.glsl"
+#ifdef RESTING
+#include "contact/resting.glsl"
+#endif
 
 layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
 
@@ -10,5 +13,13 @@ void main()
     int molecule = lane / SPHERES;
     int moleculeSphere = firstSphere + molecule * SPHERES;
     int k = lane - molecule * SPHERES;
-    effectiveCounts[int(fetch(slots, moleculeSphere + k).x)] = floatBitsToUint(effectiveSum(moleculeSphere, k));
+    int slot = int(fetch(slots, moleculeSphere + k).x);
+    bool takesPart = true;
+#ifdef RESTING
+    takesPart = !rests(slot);
+#endif
+    while (takesPart) {
+        effectiveCounts[slot] = floatBitsToUint(effectiveSum(moleculeSphere, k));
+        takesPart = false;
+    }
 }

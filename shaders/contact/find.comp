@@ -1,6 +1,39 @@
-// A lane a slot: the list of the spheres that it touches.
+// A lane a slot: the list of the spheres that it touches. Where molecules may rest (RESTING), of those that are awake, which mark
+// what rests and is touched; then of what is marked (AMONG_RESTING).
 #include "contact/search.glsl"
 
+#ifdef AMONG_RESTING
+#include "contact/recalled.glsl"
+
+// What an impact further away has woken touches what it did.
+void recall(int slot)
+{
+    ownSlot = slot;
+    found = oldCount(slot);
+    for (int e = 0; e < found; ++e) lists[e * listStride + slot] = uint(oldPartner(slot, e));
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= marked) return;
+    int slot = int(markedSlots[gl_GlobalInvocationID.x]);
+    bool touched = (marks[slot] & TOUCHED) != 0u;
+    if (touched) search(slot);
+    if (!touched) recall(slot);
+    if (marks[slot] > TOUCHED) finish(slot);
+    if (marks[slot] == TOUCHED) counts[slot] = uint(found);  // to contact/weigh.comp
+}
+#elif defined(RESTING)
+uniform usamplerBuffer awakeSlots;
+
+void main()
+{
+    bool inside = gl_GlobalInvocationID.x < awake;
+    int slot = int(texelFetch(awakeSlots, int(min(gl_GlobalInvocationID.x, awake - 1u))).x);
+    search(slot);
+    if (inside) finish(slot);
+}
+#else
 void main()
 {
     bool inside = int(gl_GlobalInvocationID.x) < count;
@@ -8,3 +41,4 @@ void main()
     search(slot);
     if (inside) finish(slot);
 }
+#endif

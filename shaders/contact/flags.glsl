@@ -4,3 +4,16 @@ const uint CONTACTS = 0x7fffffffu;
 const uint RESPONDS = 0x80000000u;
 // With a sphere's 1/mass, as bits: its molecule has been born since the last step, and remembers nothing.
 const uint FRESH = 0x80000000u;
+// With a sphere's radius, as bits: its molecule rests (contact/rest.comp).
+const uint RESTS = 0x80000000u;
+// What a step marks a slot whose molecule rests with: one that is awake touches it; the impact that has woken its molecule, so
+// many contacts away, a bit each; that has woken a sphere of its molecule.
+const uint TOUCHED = 1u;
+const uint STRUCK = 2u;
+const uint WOKEN = 0x80000000u;
+
+// Whether the molecule of a slot's sphere rests, and nothing has woken it in this step. `radius`: as the records have it.
+bool isResting(uint radius, uint mark)
+{
+    return (radius & RESTS) != 0u && mark <= TOUCHED;
+}

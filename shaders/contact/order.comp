@@ -20,6 +20,11 @@ layout(std430, binding = 1) writeonly buffer Places { dvec2 newPlaces[]; };
 layout(std430, binding = 4) writeonly buffer Cells { dvec2 newCells[]; };
 #endif
 layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
+#ifdef RESTING
+#include "contact/marked.glsl"
+
+layout(std430, binding = 3) writeonly buffer Marks { uint marks[]; };
+#endif
 #include "contact/touching.glsl"
 
 layout(local_size_x = 64) in;
@@ -52,5 +57,13 @@ void main()
     writeStarts(slot, pair.x, count, keyMask + 1);
 #endif
     slots[sphere] = uint(slot);
-    if (gl_GlobalInvocationID.x == 0u) noneTouches();
+#ifdef RESTING
+    marks[slot] = 0u;
+#endif
+    if (gl_GlobalInvocationID.x == 0u) {
+        noneTouches();
+#ifdef RESTING
+        noneMarked();
+#endif
+    }
 }

@@ -2,13 +2,13 @@
 #include "contact/touching.glsl"
 #include "contact/prepare.glsl"
 #ifdef WALLS
-layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // by sphere, each now and an iteration before
+// By sphere, each now and an iteration before, or between two steps its collider's normal.
+layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };
 #endif
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) writeonly buffer Pushes { vec4 pushes[]; };
 layout(std430, binding = 2) writeonly buffer Anchors { vec4 anchors[]; };
-layout(std430, binding = 3) writeonly buffer Known { vec4 newKnown[]; };
 #ifdef SPREAD
 layout(std430, binding = 4) writeonly buffer Normals { vec4 newNormals[]; };  // two a slot: contact/effective_sum.glsl
 #else
@@ -33,18 +33,18 @@ void main()
     }
 #ifdef WALLS
     int first = 2 * MOST_WALLS * sphereOf(slot);
-    vec3 old[MOST_WALLS];
-    for (int k = 0; k < MOST_WALLS; ++k) old[k] = wallPushes[first + 2 * k].xyz;
+    OldWall old[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k)
+        old[k] = OldWall(wallPushes[first + 2 * k].xyz, wallPushes[first + 2 * k + 1].xyz);
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(slot, wallOf(slot, k), listed, old);
+        vec3 push = prepareWall(wallOf(slot, k), listed, old);
         wallPushes[first + 2 * k] = vec4(push, 0.0);
         impulse += push;
     }
 #endif
-    vec3 acted = actedOn();
-    newTotals[2 * slot] = vec4(impulse - acted, 0.0);
+    if (oldListed == 0) known[memory] = vec4(0.0);
+    newTotals[2 * slot] = vec4(impulse - known[memory].xyz, 0.0);
     newTotals[2 * slot + 1] = vec4(0.0);
-    newKnown[slot] = vec4(acted, 0.0);
 #ifdef SPREAD
     newNormals[2 * slot] = vec4(normals.diagonal, turning);
     newNormals[2 * slot + 1] = vec4(normals.beside, 0.0);

@@ -1,35 +1,23 @@
 // The first stage of contact/respond.glsl.
 #include "contact/respond.glsl"
+#include "contact/memory.glsl"
 
-// The last step has left these:
-uniform UINTS oldSlots;      // of a sphere
-uniform UINTS oldCounts;     // by slot, as `counts`
-uniform LISTS oldLists;
-uniform ENTRIES oldPushes;   // as it left them (Entry)
-uniform ENTRIES oldAnchors;
-uniform FLOATS oldKnown;     // N s, by slot: the sum of what its contacts remember, which has acted as a force since
-
-int oldSlot;
+int memory;     // of the own sphere
 int oldListed;  // 0 where nothing is remembered
 
 void loadOld(int slot)
 {
     loadSphere(slot);
-    oldSlot = int(fetch(oldSlots, sphereOf(slot)).x);
-    oldListed = own.fresh ? 0 : min(int(fetch(oldCounts, oldSlot).x & CONTACTS), LIST);
-}
-
-vec3 actedOn()
-{
-    return oldListed > 0 ? fetch(oldKnown, oldSlot).xyz : vec3(0.0);
+    memory = memoryOf(sphereOf(slot));
+    oldListed = own.fresh ? 0 : countAt(memory);
 }
 
 Entry prepare(int slot, int other)
 {
-    int otherOld = int(fetch(oldSlots, sphereOf(other)).x);
+    int otherMemory = memoryOf(sphereOf(other));
     int at = -1;
-    for (int e = 0; e < oldListed; ++e) at = entryIn(oldLists, oldSlot, e) == otherOld ? e : at;
-    Entry old = Entry(entry(oldPushes, oldSlot, max(at, 0)), entry(oldAnchors, oldSlot, max(at, 0)));
+    for (int e = 0; e < oldListed; ++e) at = entryIn(oldLists, memory, e) == otherMemory ? e : at;
+    Entry old = Entry(entry(oldPushes, memory, max(at, 0)), entry(oldAnchors, memory, max(at, 0)));
     bool isOld = at >= 0 && old.anchor.w >= 0.0 && (fetch(motions, motionOf(other)).w & FRESH) == 0u;
     // what is remembered is no impact, however fast it closes
     Meeting with = meetingOf(slot, other, isOld ? 1e30 : restSpeed);
@@ -70,18 +58,21 @@ void countIn(vec3 normal)
 #ifdef WALLS
 #include "contact/near_walls.glsl"
 
-uniform WALL_RECORDS oldWalls;  // by sphere, of the last step
+struct OldWall {
+    vec3 push;  // N s
+    vec3 normal;
+};
 
 // Returns what the contact with a collider remembers, N s: that of the one in the last step whose normal was nearly the same.
-// `old`: what those had, N s. Of a sphere that touches no other, its own step answers the collider.
-vec3 prepareWall(int slot, Wall wall, int listed, vec3 old[MOST_WALLS])
+// Of a sphere that touches no other, its own step answers the collider.
+vec3 prepareWall(Wall wall, int listed, OldWall old[MOST_WALLS])
 {
     vec3 push = vec3(0.0);
     if (!pressesOn(wall) || listed == 0) return push;
     countIn(wall.normal);
     for (int o = 0; o < MOST_WALLS; ++o) {
-        bool same = oldListed > 0 && dot(wallTexel(oldWalls, sphereOf(slot), 2 * o).xyz, wall.normal) > 0.9;
-        push = same ? withinFriction(old[o], wall.normal, wall.friction) : push;
+        bool same = oldListed > 0 && dot(old[o].normal, wall.normal) > 0.9;
+        push = same ? withinFriction(old[o].push, wall.normal, wall.friction) : push;
     }
     return push;
 }

@@ -2,6 +2,7 @@
 #include "contact/prepare.glsl"
 #ifdef WALLS
 uniform sampler2DArray oldWallPushes;  // by slot of the last step
+uniform WALL_RECORDS oldWalls;         // by sphere, of the last step
 #endif
 
 uniform ENTRIES pushes;
@@ -34,17 +35,18 @@ void main()
         impulse += entry(pushes, slot, e).xyz;
     }
 #ifdef WALLS
-    vec3 old[MOST_WALLS];
-    for (int k = 0; k < MOST_WALLS; ++k) old[k] = wallTexel(oldWallPushes, oldSlot, k).xyz;
+    OldWall old[MOST_WALLS];
+    for (int k = 0; k < MOST_WALLS; ++k)
+        old[k] = OldWall(wallTexel(oldWallPushes, memory, k).xyz, wallTexel(oldWalls, sphereOf(slot), 2 * k).xyz);
     vec4 ofWalls[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(slot, wallOf(slot, k), listed, old);
+        vec3 push = prepareWall(wallOf(slot, k), listed, old);
         ofWalls[k] = vec4(push, 0.0);
         impulse += push;
     }
     newWallPushes = ofWalls;
 #endif
-    vec3 acted = actedOn();
+    vec3 acted = oldListed > 0 ? fetch(oldKnown, memory).xyz : vec3(0.0);
     newImpulse = vec4(impulse - acted, 0.0);
     newShift = vec4(0.0);
     newKnown = vec4(acted, 0.0);

@@ -3,7 +3,7 @@
 #include "contact/relax.glsl"
 
 uniform ENTRIES anchors;
-uniform FLOATS known;  // N s, by slot: what has acted as a force since the last step
+uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since the last step
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
@@ -18,7 +18,7 @@ void main()
     if (slot < 0) return;
     loadOwn(slot);
     int listed = listedOf(slot);
-    vec3 impulse = -fetch(known, slot).xyz;
+    vec3 impulse = -fetch(known, sphereOf(slot)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         int at = e * listStride + slot;

@@ -1,14 +1,14 @@
 // The stage of contact/respond.glsl that is repeated.
 #include "contact/respond.glsl"
 #include "contact/totals.glsl"
+#include "contact/shares.glsl"
 
-uniform UINTS effectiveCounts;  // by slot, as bits (contact/prepare.glsl)
-uniform float momentum;         // Nesterov's: by how much of its last change an iteration goes on first
+uniform float momentum;     // Nesterov's: by how much of its last change an iteration goes on first
 #ifdef SPREAD
-uniform TOTALS motionsNow;      // contact/spread.glsl
+uniform TOTALS motionsNow;  // contact/spread.glsl
 #else
 uniform TOTALS totals;
-uniform TOTALS earlier;         // the same an iteration before
+uniform TOTALS earlier;     // the same an iteration before
 #endif
 
 // An iteration takes a larger step towards several contacts at once than one that is certainly stable, and across the normals
@@ -46,15 +46,10 @@ vec3 moveOf(int slot, Sphere sphere)
 #endif
 }
 
-float countOf(int slot)
-{
-    return uintBitsToFloat(fetch(effectiveCounts, slot).x);
-}
-
 void loadOwn(int slot)
 {
     loadSphere(slot);
-    ownCount = countOf(slot);
+    ownCount = shareOf(slot, own);
     ownVelocity = velocityOf(slot, own);
     ownMove = moveOf(slot, own);
 }
@@ -85,7 +80,7 @@ vec4 relax(int slot, int other, vec4 push, vec4 before, vec4 anchor, out vec3 n)
     PairContact contact = with.contact;
     n = contact.normal;
     if (!with.meets) return vec4(0.0);
-    vec2 shares = vec2(ownCount, countOf(other));
+    vec2 shares = vec2(ownCount, shareOf(other, with.sphere));
     vec3 u = ownVelocity - velocityOf(other, with.sphere);
     float target = contact.impact ? -with.material.x * contact.speed
                                   : partingSpeed(contact.depth, own.radius + with.sphere.radius);

@@ -22,7 +22,7 @@ uniform int rigidGroups;  // a bit each
 
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if ((rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0));
+    if (sphere.rests || (rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0));
     return bodySphereAt(sphereOf(slot));
 }
 
@@ -106,7 +106,7 @@ Meeting meetingOf(int slot, int other, float bounceFrom)
     with.apart = localDifference(own.place, with.sphere.place, cell);
     with.contact = pairContact(with.apart, own.velocity - with.sphere.velocity, own.radius + with.sphere.radius, stepTime,
                                bounceFrom, slot < other ? 1.0 : -1.0);
-    with.meets = own.weight + with.sphere.weight > 0.0 && holds(other, slot);
+    with.meets = own.weight + with.sphere.weight > 0.0 && (with.sphere.rests || holds(other, slot));
     with.material = materialOf(own, with.sphere);
 #ifdef BODIES
     with.body = bodyOf(other, with.sphere);

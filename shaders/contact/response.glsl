@@ -7,6 +7,9 @@ uniform FLOATS materials;  // x restitution, y friction, by group * groupCount +
 uniform int groupCount;
 uniform float stepTime;    // s, of a contact step
 uniform float restSpeed;   // m/s
+#ifdef RESTING
+uniform UINTS marks;       // by slot (contact/flags.glsl)
+#endif
 
 struct Sphere {
     vec3 place;     // m, local (physics/cells.glsl)
@@ -15,14 +18,21 @@ struct Sphere {
     float weight;   // 1/kg, 0 where held
     float radius;   // m
     bool fresh;     // its molecule has been born since the last step
+    bool rests;     // its molecule does: nothing moves it
 };
 
 Sphere sphereAt(int slot)
 {
     uvec4 place = fetch(places, slot);
     uvec4 motion = fetch(motions, motionOf(slot));
+    uint radius = fetch(cells, slot).w;
+    bool rests = false;
+#ifdef RESTING
+    rests = isResting(radius, fetch(marks, slot).x);
+#endif
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz),
-                  uintBitsToFloat(motion.w & ~FRESH), uintBitsToFloat(fetch(cells, slot).w), (motion.w & FRESH) != 0u);
+                  rests ? 0.0 : uintBitsToFloat(motion.w & ~FRESH), uintBitsToFloat(radius & ~RESTS),
+                  (motion.w & FRESH) != 0u, rests);
 }
 
 vec2 materialOf(Sphere a, Sphere b)

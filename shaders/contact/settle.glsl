@@ -1,7 +1,6 @@
 // The last stage of contact/respond.glsl.
 #include "contact/respond.glsl"
-
-uniform UINTS effectiveCounts;  // by slot, as bits
+#include "contact/shares.glsl"
 
 // Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
 // time since, what sticks back towards where it began to.
@@ -11,7 +10,7 @@ vec3 settle(int slot, int other, Entry known)
     vec3 n = with.contact.normal;
     if (!with.meets) return vec3(0.0);
     if (with.contact.impact) return known.push.xyz * with.contact.since;
-    vec2 shares = uintBitsToFloat(uvec2(fetch(effectiveCounts, slot).x, fetch(effectiveCounts, other).x));
+    vec2 shares = vec2(shareOf(slot, own), shareOf(other, with.sphere));
     vec3 slip = with.apart - known.anchor.xyz;
     slip -= n * dot(slip, n);
     float most = 0.002 * (own.radius + with.sphere.radius);

@@ -17,7 +17,10 @@ layout(std430, binding = 1) writeonly buffer Places { uvec4 newPlaces[]; };
 layout(std430, binding = 2) writeonly buffer Motions { uvec4 newMotions[]; };
 layout(std430, binding = 3) writeonly buffer Cells { uvec4 newCells[]; };
 #ifdef REMEMBERS
-layout(std430, binding = 6) writeonly buffer Loads { vec4 newLoads[]; };  // contact/apply.comp leaves those of the next step
+layout(std430, binding = 6) buffer Loads { vec4 loads[]; };  // contact/apply.comp leaves those of the next step
+#endif
+#ifdef RESTING
+uniform bool wakes;  // all molecules of the group
 #endif
 #ifdef WALLS
 layout(std430, binding = 4) writeonly buffer Walls { vec4 newWalls[]; };
@@ -43,8 +46,16 @@ void main()
     pairs[sphere] = uvec2(key, uint(sphere));
 #endif
     if (onlyKeys) return;
-#ifdef REMEMBERS
-    newLoads[sphere] = vec4(0.0);
+    uint radius = floatBitsToUint(own.radius);
+#ifdef RESTING
+    bool rests = loads[sphere].w > 0.0 && own.there && !own.fresh && !wakes;
+    if (!rests) loads[sphere] = vec4(0.0);
+    if (rests) {
+        radius |= RESTS;
+        own.velocity = vec3(0.0);
+    }
+#elif defined(REMEMBERS)
+    loads[sphere] = vec4(0.0);
 #endif
 #ifdef RIGID
     BodySphere at = bodySphereOf(molecule, own.position);
@@ -54,7 +65,7 @@ void main()
 #endif
     newPlaces[sphere] = uvec4(floatBitsToUint(place.local), uint(label + molecule));
     newMotions[sphere] = uvec4(floatBitsToUint(own.velocity), weightBits(own));
-    newCells[sphere] = uvec4(uvec3(place.cell), floatBitsToUint(own.radius));
+    newCells[sphere] = uvec4(uvec3(place.cell), radius);
 #ifdef WALLS
     Wall near[MOST_WALLS] = nearWalls(own);
     for (int k = 0; k < MOST_WALLS; ++k) {

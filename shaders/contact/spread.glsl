@@ -6,7 +6,7 @@ uniform UINTS slots;   // of a sphere
 uniform UINTS counts;
 uniform TOTALS totals;
 #ifdef APPLIES
-uniform FLOATS known;  // N s, by slot: what acts as a force over the next step
+uniform FLOATS known;  // contact/memory.glsl: what acts as a force over the next step
 #else
 uniform TOTALS earlier;   // the totals an iteration before
 uniform float momentum;   // contact/relax.glsl
@@ -38,7 +38,11 @@ Total totalAt(int sphere)
     if (fetch(counts, slot).x == 0u) return noTotal();
     Total now = Total(firstTotal(totals, slot), secondTotal(totals, slot), vec3(0.0));
 #ifdef APPLIES
+#ifdef TEXTURES
     now.load = fetch(known, slot).xyz;
+#else
+    now.load = fetch(known, sphere).xyz;
+#endif
 #else
     if (momentum != 0.0) {
         now.impulse += (now.impulse - firstTotal(earlier, slot)) * momentum;

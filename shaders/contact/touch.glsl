@@ -10,9 +10,14 @@ layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists
 #endif
-#ifdef REMEMBERS
-uniform UINTS oldSlots;   // of a sphere, in the last step
-uniform UINTS oldCounts;  // by slot of that
+#if defined(REMEMBERS) && defined(TEXTURES)
+uniform UINTS oldSlots;   // contact/memory.glsl
+uniform UINTS oldCounts;
+#elif defined(REMEMBERS)
+uniform samplerBuffer known;   // contact/memory.glsl
+#endif
+#ifdef RESTING
+#include "contact/marks.glsl"
 #endif
 #ifdef SELF
 uniform UINTS apart;    // ContactGroup::apart
@@ -34,7 +39,7 @@ void loadOwn(int slot)
     ownLabel = place.w;
     uvec4 own = fetch(cells, slot);
     ownCell = ivec3(own.xyz);
-    ownRadius = uintBitsToFloat(own.w);
+    ownRadius = uintBitsToFloat(own.w & ~RESTS);
 }
 
 ivec3 cellOf(int slot)
@@ -82,7 +87,7 @@ void take(int slot)
 #endif
 }
 
-#ifdef SWEPT
+#if defined(SWEPT) || defined(RESTING)
 #include "physics/pair.glsl"
 
 uniform float stepTime;   // s, of a contact step
@@ -93,10 +98,26 @@ vec3 velocityOf(int slot)
     return uintBitsToFloat(fetch(motions, motionOf(slot)).xyz);
 }
 
-// Whether two spheres d apart have passed through each other since the last contact step.
-bool havePassed(vec3 d, float reach, int slot)
+// Whether two spheres d apart have met within the last contact step, or passed through each other.
+bool haveMet(vec3 d, float reach, int slot)
 {
     return pairContact(d, velocityOf(ownSlot) - velocityOf(slot), reach, stepTime, restSpeed, 1.0).impact;
+}
+#endif
+
+#ifdef RESTING
+bool rests(int slot)
+{
+    return (fetch(cells, slot).w & RESTS) != 0u;
+}
+
+// What is awake marks what rests when it touches it.
+void markResting(int slot, vec3 d, float reach)
+{
+    if (rests(ownSlot) || !rests(slot)) return;
+    bool struck = haveMet(d, reach, slot);
+    mark(slot, struck ? TOUCHED | STRUCK : TOUCHED);
+    if (struck) struckX = uint(count + 63) / 64u;
 }
 #endif
 
@@ -104,16 +125,19 @@ bool havePassed(vec3 d, float reach, int slot)
 void meet(int slot)
 {
     vec3 d = localDifference(ownPlace, uintBitsToFloat(fetch(places, slot).xyz), cell);
-    float sum = ownRadius + uintBitsToFloat(fetch(cells, slot).w);
+    float sum = ownRadius + uintBitsToFloat(fetch(cells, slot).w & ~RESTS);
     float limit = sum * NEAR;  // a contact that opens by a hair stays one
     bool touches = dot(d, d) < limit * limit;
 #ifdef SWEPT
-    touches = touches || havePassed(d, sum, slot);
+    touches = touches || haveMet(d, sum, slot);
 #endif
 #ifdef SELF
     if (touches && fetch(places, slot).w == ownLabel) touches = mayMeetSelf(slot);
 #endif
     if (touches) {
+#ifdef RESTING
+        markResting(slot, d, sum);
+#endif
         if (found < LIST) take(slot);
         ++found;
     }
@@ -123,8 +147,10 @@ void meet(int slot)
 uint countFound(int slot)
 {
     bool responds = found > 0;
-#ifdef REMEMBERS
+#if defined(REMEMBERS) && defined(TEXTURES)
     responds = responds || (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & CONTACTS) > 0u;
+#elif defined(REMEMBERS)
+    responds = responds || texelFetch(known, sphereOf(slot)).w > 0.0;
 #endif
     return uint(found) | (responds ? RESPONDS : 0u);
 }

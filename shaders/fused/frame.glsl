@@ -18,6 +18,11 @@ bool followAnchor()
     return shift != vec3(0.0);
 }
 
+#ifdef RESTING
+uniform bool probes;     // whether what acts beside contact is not what it was in the last step
+vec3 gained[VERTICES];  // m/s, in a step from rest
+#endif
+
 #ifdef REMEMBERS
 void loadLoads(int molecule)
 {
@@ -39,6 +44,13 @@ void main()
 #ifdef REMEMBERS
     loadLoads(molecule);
 #endif
+#ifdef RESTING
+    float resting = fetch(contactLoads, firstSphere + molecule * SPHERES).w;
+    bool probed = resting > (probes ? 0.0 : 1.0);
+#ifndef MOLECULE_VERTICES
+    if (resting > 0.0 && !probed) substeps = 0;
+#endif
+#endif
     bool wasReleased = released;
     bool moved = false;
 #ifdef RECORDS
@@ -48,6 +60,19 @@ void main()
     sampleFrame();
     run();
     finishSolver();
+#ifdef RESTING
+    // What rests stays; that it would move otherwise than when it came to rest wakes it (contact/rest.comp).
+    if (resting > 0.0) {
+        for (int i = 0; i < VERTICES; ++i) {
+            gained[i] = probed ? v[i] : vec3(0.0);
+        }
+        keepState(molecule);
+        for (int i = 0; i < VERTICES; ++i) {
+            v[i] = gained[i];
+        }
+        moved = false;
+    }
+#endif
 #ifdef LIFE
     bool wasTaken = taken();
     growOlder(molecule);

@@ -41,14 +41,15 @@ void loadState(int molecule)
 #endif
 }
 
-#ifdef LIFE
-bool kept = false;
-
+// The molecule is stored as it was.
 void keepState(int molecule)
 {
-    kept = true;
+    int first = firstElement(molecule, STATE_ELEMENTS);
+    for (int i = 0; i < VERTICES; ++i) {
+        x[i] = packedVertex(oldState, first, 0, vertexOf(i));
+        v[i] = packedVertex(oldState, first, POSITION_ELEMENTS, vertexOf(i));
+    }
 }
-#endif
 
 // 4-vector e of an array, with zeros behind the vertices.
 vec4 sharedElement(int array, int e)
@@ -62,9 +63,6 @@ vec4 sharedElement(int array, int e)
 
 void storeElement(int first, int e, vec4 value)
 {
-#ifdef LIFE
-    if (kept) value = element(oldState, first, e);
-#endif
     newState[first + e * BLOCK] = stored(value);
 }
 

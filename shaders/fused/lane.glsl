@@ -40,13 +40,11 @@ vec3 firstPlace()
     return x[0];
 }
 
-#ifdef LIFE
 // The molecule is stored as it was.
 void keepState(int molecule)
 {
     loadState(molecule);
 }
-#endif
 
 #ifdef GROUP_VOTE
 #define SOME_LANE(value) anyInvocationARB(value)

@@ -108,7 +108,7 @@ vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering a
 #ifdef REMEMBERS
 #include "state/numbered.glsl"
 
-uniform FLOATS contactLoads;  // m/s^2, by sphere
+uniform FLOATS contactLoads;  // m/s^2, by sphere; w above 0: its molecule rests (contact/rest.comp)
 uniform int firstSphere;      // of the part
 vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/apply.comp)
 #endif

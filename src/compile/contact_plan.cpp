@@ -97,11 +97,29 @@ int listLength(double largest, double smallest) {
     return int(std::clamp(std::ceil(6 * ratio * ratio), 24.0, 96.0));
 }
 
+// What falls freely is not to rest.
+void checkRest(const Scene& scene, int steps) {
+    const ContactSettings& settings = scene.contact;
+    if (!settings.rest) return;
+    if (settings.response != ContactResponse::simultaneous || settings.search != ContactSearch::exact)
+        throw Error(settings.location,
+                    "`rest` needs the exact search and the response of all that touch at once");
+    const double fall = glm::length(scene.gravity) / (scene.frameRate * steps);
+    if (fall > 0 && *settings.rest > fall)
+        throw Error(settings.location,
+                    concat("`rest` of ", *settings.rest,
+                           " m/s is more than what falls gains in a contact step, ", fall, " m/s"));
+}
+
 }  // namespace
 
 bool ContactPlan::onlyOfVertices() const {
     return std::none_of(groups.begin(), groups.end(),
                         [](const ContactGroup& group) { return group.triangles || group.self; });
+}
+
+bool ContactPlan::mayRest(const GroupPlan& group) const {
+    return settings.rest && !group.needs.actuation && !group.needs.steers;
 }
 
 ContactPlan::Exclusions ContactPlan::exclusions() const {
@@ -145,6 +163,7 @@ ContactPlan planContact(const Scene& scene, const std::vector<GroupPlan>& groups
     out.spheres = int(spheres);
     const int substeps = scene.solver.substeps;
     out.steps = scene.contact.steps > 0 ? std::min(scene.contact.steps, substeps) : substeps;
+    checkRest(scene, out.steps);
     // a little more, so that rounding loses nothing
     out.reach = (1 + 1e-5) * std::max(2 * ContactPlan::near * out.largestRadius,
                                       2 * out.largestRadius +

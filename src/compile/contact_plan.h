@@ -39,6 +39,8 @@ struct ContactPlan {
     // Spheres are in contact below so many times the sum of their radii: what rests on another and opens by a
     // hair is not forgotten.
     static constexpr double near = 1.02;
+    // s: a molecule rests that has stayed where it was for so long.
+    static constexpr double restTime = 0.25;
     // So many of the colliders near a sphere are known to its response.
     static constexpr int mostWalls = 3;
     std::vector<ContactGroup> groups;
@@ -68,6 +70,8 @@ struct ContactPlan {
     }
     // Whether contacts are remembered from step to step.
     bool remembers() const { return settings.response == ContactResponse::simultaneous; }
+    // Whether molecules of a group may rest: its springs do not move by themselves.
+    bool mayRest(const GroupPlan& group) const;
     // The ping-pong path's textures have rows of 2^rowBits texels, so that the table of cells is a square or
     // two.
     int rowBits() const { return (tableBits + 1) / 2; }

@@ -135,6 +135,9 @@ static void tellContact(std::ostringstream& out, const Plan& plan) {
         << (contact.steps == 1 ? " time" : " times") << " a frame, in " << contact.settings.iterations
         << " iterations\n         up to " << contact.safeSpeed(1 / plan.frameRate)
         << " m/s relative to one another none passes through another between two contact steps\n";
+    if (contact.settings.rest)
+        out << "         what moves more slowly than " << *contact.settings.rest
+            << " m/s rests, with compute shaders\n";
 }
 
 // Who steers by whom, and in which grids they are found.
@@ -230,11 +233,12 @@ JsonValue explainJson(const Plan& plan, const PathChoice& choice, bool inPlace) 
     if (!plan.grids.empty()) append(out, key("grids", plan.grids));
     if (!plan.contact.any()) return out;
     const ContactSettings& settings = plan.contact.settings;
-    const JsonValue contact =
+    JsonValue contact =
         object(key("spheres", plan.contact.spheres), key("cell", plan.contact.cell),
                key("steps", plan.contact.steps), key("search", name(settings.search)),
                key("response", name(settings.response)), key("iterations", settings.iterations),
                key("safeSpeed", plan.contact.safeSpeed(1 / plan.frameRate)));
+    if (settings.rest) append(contact, key("rest", *settings.rest));
     return append(out, key("contact", contact));
 }
 

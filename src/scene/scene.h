@@ -137,6 +137,7 @@ struct ContactSettings {
     int steps = 0;                  // contact steps of a frame; 0: one a substep
     int iterations = 4;             // of the simultaneous response
     std::optional<double> fastest;  // m/s, relative to one another: none passes through another up to this
+    std::optional<double> rest;     // m/s: what moves more slowly for a while rests; nothing: nothing does
     std::optional<double> cell;     // m; nothing: as large as the largest spheres need
     Location location;
 };

@@ -104,6 +104,7 @@ void forEachArray(Memory& memory, const Head& head, Visit visit) {
     visit(memory.anchors, head.contacts);
     visit(memory.known, head.spheres);
     visit(memory.loads, head.spheres);
+    visit(memory.calm, head.spheres);
     visit(memory.walls, head.walls);
     visit(memory.wallPushes, head.walls / 2);
 }
@@ -203,8 +204,8 @@ void checkContacts(const ContactMemory& memory, const Location& location) {
     bool sensible = contacts == memory.partners.size();
     for (const uint32_t partner : memory.partners)
         sensible = sensible && partner < memory.counts.size();
-    for (const auto* values :
-         {&memory.pushes, &memory.anchors, &memory.known, &memory.loads, &memory.walls, &memory.wallPushes})
+    for (const auto* values : {&memory.pushes, &memory.anchors, &memory.known, &memory.loads, &memory.calm,
+                               &memory.walls, &memory.wallPushes})
         sensible = sensible && std::all_of(values->begin(), values->end(), finite4);
     const size_t walls = 2 * size_t(ContactPlan::mostWalls) * memory.counts.size();
     sensible = sensible && (memory.walls.empty() || memory.walls.size() == walls);

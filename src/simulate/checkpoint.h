@@ -33,7 +33,7 @@
 
 namespace shoal {
 
-constexpr uint32_t checkpointVersion = 4;
+constexpr uint32_t checkpointVersion = 5;
 
 struct Checkpoint {
     SavedState state;

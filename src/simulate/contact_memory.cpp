@@ -5,6 +5,12 @@
 
 namespace shoal {
 
+void forgetLoneWalls(ContactMemory& memory) {
+    const size_t walls = memory.wallPushes.size() / std::max(memory.counts.size(), size_t(1));
+    for (size_t i = 0; i < memory.wallPushes.size(); ++i)
+        if (memory.counts[i / walls] == 0) memory.wallPushes[i] = glm::vec4(0);
+}
+
 ContactMemory bySphere(const ContactSlots& from) {
     ContactMemory out;
     const size_t spheres = from.slots.size();
@@ -22,11 +28,10 @@ ContactMemory bySphere(const ContactSlots& from) {
         }
     }
     out.loads = from.loads;
+    out.calm.resize(spheres);
     out.walls = from.walls;
     out.wallPushes = from.wallPushes;
-    // a sphere that touches no other has none
-    for (size_t i = 0; i < out.wallPushes.size(); ++i)
-        if (out.counts[i * spheres / out.wallPushes.size()] == 0) out.wallPushes[i] = glm::vec4(0);
+    forgetLoneWalls(out);
     return out;
 }
 

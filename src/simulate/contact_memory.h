@@ -18,14 +18,19 @@ struct ContactMemory {
     std::vector<uint32_t> partners;
     std::vector<glm::vec4> pushes, anchors;
     std::vector<glm::vec4> known;  // N s, of each sphere: the sum of what its contacts remember
-    std::vector<glm::vec4> loads;  // m/s^2, of each sphere: what that is on its vertex
+    // Each sphere has what that is on its vertex, m/s^2, and in w 1 where its molecule rests; and where its
+    // vertex was and for how long (shaders/contact/rest.comp).
+    std::vector<glm::vec4> loads, calm;
     // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s.
     std::vector<glm::vec4> walls, wallPushes;
 
     bool operator==(const ContactMemory&) const = default;
 };
 
-// A path keeps it like this, in the order of slots: entry e of slot s at e * stride + s.
+// A sphere that touches no other remembers no collider.
+void forgetLoneWalls(ContactMemory& memory);
+
+// Fragments keep it like this, in the order of slots: entry e of slot s at e * stride + s.
 struct ContactSlots {
     size_t stride = 0;
     std::vector<uint32_t> slots;          // of each sphere

@@ -68,6 +68,7 @@ class ContactPasses : public ContactResult {
     virtual void relax(State& state, const Times& times, float momentum) = 0;
     virtual void settle(State& state, const Times& times) = 0;
     virtual void apply(State& state, const Times& times) = 0;  // into the state
+    virtual void rest(State&, const Times&) {}                 // what stays where it is
 
     void setResponse(const gpu::Program& program, const Times& times) const {
         program.set("count", contact_->spheres);
@@ -134,6 +135,7 @@ class ContactPasses : public ContactResult {
             runNearest(state, times);
         }
         apply(state, times);
+        rest(state, times);
     }
 };
 

@@ -20,9 +20,10 @@ MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, 
         .add("sorted", pairs_.texture)
         .add("motions", motions_.texture)
         .add("cells", cells_.texture)
-        .add("lists", list().texture)
-        .add("counts", counts_[now_].texture)
+        .add("lists", lists_.texture)
+        .add("counts", counts_.texture)
         .add("materials", materials_.texture);
+    if (rests()) textures.add("marks", marks_.texture);
     program.set("listStride", int(padded_));
     setResponse(program, times);
     if (!rigid_ || !program.uses("bodies")) return textures;
@@ -33,7 +34,7 @@ MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, 
 
 void MoleculeContact::bindWalls(const Program& program, Textures& textures) const {
     if (!walls_) return;
-    if (program.uses("walls")) textures.add("walls", nearWalls_[now_].texture);
+    if (program.uses("walls")) textures.add("walls", nearWalls_.texture);
     program.storage("WallPushes", 7, wallPushes_.buffer);
 }
 
@@ -45,21 +46,15 @@ void MoleculeContact::runNearest(Buffers&, const Times& times) {
 }
 
 void MoleculeContact::prepare(Buffers& state, const Times& times) {
-    const size_t before = 1 - now_;
     Textures textures = bindResponse(prepare_, times);
-    textures.add("oldSlots", slots_[before].texture)
-        .add("oldCounts", counts_[before].texture)
-        .add("oldLists", lists_[before].texture)
-        .add("oldPushes", pushes_[pushed_].texture)
-        .add("oldAnchors", anchors_[before].texture)
-        .add("oldKnown", known_[before].texture);
-    if (walls_) textures.add("oldWalls", nearWalls_[before].texture);
+    textures.add("oldLists", partners_.texture)
+        .add("oldPushes", oldPushes_.texture)
+        .add("oldAnchors", oldAnchors_.texture);
     bindWalls(prepare_, textures);
-    pushed_ = 1 - pushed_;
     prepare_.storage("Totals", 0, totals_[0].buffer);
-    prepare_.storage("Pushes", 1, pushes_[pushed_].buffer);
-    prepare_.storage("Anchors", 2, anchors_[now_].buffer);
-    prepare_.storage("Known", 3, known_[now_].buffer);
+    prepare_.storage("Pushes", 1, pushes_[0].buffer);
+    prepare_.storage("Anchors", 2, anchors_.buffer);
+    prepare_.storage("Known", 3, known_.buffer);
     if (spreads_)
         prepare_.storage("Normals", 4, normals_.buffer);
     else
@@ -73,11 +68,12 @@ void MoleculeContact::prepare(Buffers& state, const Times& times) {
 void MoleculeContact::countEffective(Buffers& state) {
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].effectiveSum;
-        Textures(program)
-            .add("slots", slots_[now_].texture)
-            .add("counts", counts_[now_].texture)
+        Textures textures(program);
+        textures.add("slots", slots_.texture)
+            .add("counts", counts_.texture)
             .add("normals", normals_.texture)
             .add("shapes", groups_[g].shapes.texture);
+        if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
         dispatch(program, setSpheres(program, g, part, first));
     });
@@ -90,8 +86,8 @@ void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) 
     if (spreads_) spread(state, earlier, momentum);
     Textures textures = bindResponse(relax_, times);
     textures.add("effectiveCounts", effectiveCounts_.texture)
-        .add("known", known_[now_].texture)
-        .add("anchors", anchors_[now_].texture);
+        .add("known", known_.texture)
+        .add("anchors", anchors_.texture);
     if (spreads_)
         textures.add("motionsNow", motionsNow_.texture);
     else
@@ -99,11 +95,11 @@ void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) 
     bindWalls(relax_, textures);
     relax_.set("momentum", momentum);
     relax_.storage("Totals", 0, totals_[2].buffer);
-    relax_.storage("Pushes", 1, pushes_[pushed_].buffer);
-    relax_.storage("Earlier", 2, pushes_[1 - pushed_].buffer);
+    relax_.storage("Pushes", 1, pushes_[0].buffer);
+    relax_.storage("Earlier", 2, pushes_[1].buffer);
     dispatchTouching(relax_);
     settled();
-    pushed_ = 1 - pushed_;
+    std::swap(pushes_[0], pushes_[1]);
     std::rotate(totals_.begin(), totals_.begin() + 2, totals_.end());
 }
 
@@ -111,14 +107,15 @@ void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentu
     forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
         const Program& program = groups_[g].spread;
         Textures textures(program);
-        textures.add("slots", slots_[now_].texture)
-            .add("counts", counts_[now_].texture)
+        textures.add("slots", slots_.texture)
+            .add("counts", counts_.texture)
             .add("motions", motions_.texture)
             .add("totals", totals_[0].texture)
             .add("earlier", earlier.texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
         if (isRigid(g)) textures.add("bodies", bodies_.texture);
+        if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.set("momentum", momentum);
         program.storage("MotionsNow", 0, motionsNow_.buffer);
         dispatch(program, setSpheres(program, g, part, first));
@@ -128,12 +125,15 @@ void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentu
 
 void MoleculeContact::settle(Buffers&, const Times& times) {
     Textures textures = bindResponse(settle_, times);
-    textures.add("effectiveCounts", effectiveCounts_.texture);
+    textures.add("effectiveCounts", effectiveCounts_.texture)
+        .add("pushes", pushes_[0].texture)
+        .add("anchors", anchors_.texture);
     bindWalls(settle_, textures);
     settle_.storage("Totals", 0, totals_[0].buffer);
-    settle_.storage("Pushes", 1, pushes_[pushed_].buffer);
-    settle_.storage("Anchors", 2, anchors_[now_].buffer);
-    settle_.storage("Known", 3, known_[now_].buffer);
+    settle_.storage("Partners", 1, partners_.buffer);
+    settle_.storage("OldPushes", 2, oldPushes_.buffer);
+    settle_.storage("Known", 3, known_.buffer);
+    settle_.storage("OldAnchors", 4, oldAnchors_.buffer);
     dispatchTouching(settle_);
     settled();
 }
@@ -144,13 +144,14 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
         const bool rigid = isRigid(g);
         const bool ofVertices = contact_->groups[g].triangles || rigid;
         Textures textures(program);
-        textures.add(ofVertices ? "slots" : "sorted", ofVertices ? slots_[now_].texture : pairs_.texture)
-            .add("counts", counts_[now_].texture)
+        textures.add(ofVertices ? "slots" : "sorted", ofVertices ? slots_.texture : pairs_.texture)
+            .add("counts", counts_.texture)
             .add("totals", totals_[0].texture)
-            .add("known", known_[now_].texture)
+            .add("known", known_.texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
         if (rigid) textures.add("bodies", bodies_.texture);
+        if (rests() && ofVertices) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         setTimes(program, times);
         program.set("substepTime", float(times.substep));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
@@ -161,6 +162,53 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
                      size_t(part.count) * size_t(plan_->groups[contact_->groups[g].group].vertexCount));
         else
             dispatchTouching(program);
+    });
+    settled();
+}
+
+// What rests takes over what is awake has worked out.
+void MoleculeContact::weigh(const Times& times) {
+    Textures textures = bindResponse(weigh_, times);
+    textures.add("pushes", pushes_[0].texture).add("anchors", anchors_.texture).add("slots", slots_.texture);
+    // three quarters of its own weight, so that it wakes when nothing holds it
+    weigh_.set("wakeSpeed", float(std::max(times.restSpeed * 0.375, *contact_->settings.rest)));
+    weigh_.storage("Totals", 0, totals_[0].buffer);
+    weigh_.storage("Partners", 1, partners_.buffer);
+    weigh_.storage("OldPushes", 2, oldPushes_.buffer);
+    weigh_.storage("Known", 3, known_.buffer);
+    weigh_.storage("OldAnchors", 4, oldAnchors_.buffer);
+    weigh_.storage("MarkedSlots", 5, markedSlots_.buffer);
+    if (walls_) weigh_.storage("WallPushes", 6, wallPushes_.buffer);
+    weigh_.storage("MarkGroups", 7, markGroups_);
+    ++dispatches_;
+    weigh_.dispatchIndirect(markGroups_, ofMarked);
+    settled();
+}
+
+void MoleculeContact::rest(Buffers& state, const Times& times) {
+    if (!rests()) return;
+    weigh(times);
+    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
+        if (!contact_->mayRest(plan_->groups[contact_->groups[g].group])) return;
+        const Program& program = groups_[g].rest;
+        Textures(program)
+            .add("slots", slots_.texture)
+            .add("cells", cells_.texture)
+            .add("marks", marks_.texture)
+            .add("totals", totals_[0].texture)
+            .add("oldRecords", part.record);
+        program.set("stepTime", float(times.step));
+        program.set("restTime", float(ContactPlan::restTime));
+        program.set("restDistance", float(*contact_->settings.rest * ContactPlan::restTime));
+        // a tenth of what gravity adds
+        program.set("wakeSpeed", float(std::max(times.restSpeed / 20, *contact_->settings.rest)));
+        program.set("probes", int(groups_[g].probes));
+        program.set("wakes", int(wakes_));
+        program.storage("Loads", 1, loads_.buffer);
+        program.storage("Calm", 2, calm_.buffer);
+        setSpheres(program, g, part, first);
+        store(program, "State", 0, buffers.currentState(part));
+        dispatch(program, size_t(part.count));
     });
     settled();
 }

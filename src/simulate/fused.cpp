@@ -103,6 +103,7 @@ void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);
     for (int i = 0; i < steps; ++i) {
         const Frame piece = pieceOf(frame, i, steps);
+        contact_->begin(piece);
         run(piece, timers);
         if (births_) births_->step(piece, state, timers);
         contact_->step(piece, state, timers);

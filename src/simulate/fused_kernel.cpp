@@ -71,6 +71,7 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
         EXPECTS(contact);
         out.push_back(concat("SPHERES ", contact->spheresOf));
         define(remembers, "REMEMBERS");
+        define(remembers && !options.fragments && plan.contact.mayRest(group), "RESTING");
         if (options.fragments)
             out.insert(out.end(), {"TEXTURES", concat("ROW_BITS ", plan.contact.rowBits())});
     }
@@ -303,16 +304,16 @@ gpu::ProgramOptions kernelProgram(const Plan& plan, size_t index, const KernelOp
     return out;
 }
 
-void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
-                     const Frame& frame) {
+namespace {
+
+// For givenNumbers of shaders/fused/state.glsl.
+std::array<glm::vec4, 7> givenNumbers(const GroupPlan& group, const Frame& frame) {
     const Parameters& parameters = frame.parameters;
     const DragCoefficients drag = dragCoefficients(group, parameters, frame.h);
     const StageCoefficients stage = stageCoefficients(group, parameters, frame.h);
     const ReleaseLimits release = releaseLimits(group, frame);
     const glm::vec2 dragRate = glm::vec2(group.drag.normal, group.drag.tangent) * float(parameters.drag);
-    program.set("givenCounts",
-                glm::ivec4(frame.number, parameters.substeps, int(drag.slips), int(frame.restarts)));
-    const std::array numbers{
+    return {
         glm::vec4(parameters.gravity, parameters.wind),
         glm::vec4(frame.h, parameters.frameTime, group.stiffness * parameters.stiffness,
                   group.damping * parameters.damping),
@@ -322,6 +323,29 @@ void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupP
         glm::vec4(stage.drag.decay, stage.drag.phi),
         glm::vec4(release.force, release.chance, 0, 0),
     };
+}
+
+}  // namespace
+
+std::vector<glm::vec4> stepNumbers(const Plan& plan, const GroupPlan& group, const Frame& frame) {
+    const auto given = givenNumbers(group, frame);
+    std::vector<glm::vec4> out(given.begin(), given.end());
+    out[1].y = 0;  // the frame's length acts on nothing
+    const auto add = [&](const std::vector<glm::vec4>& more) {
+        out.insert(out.end(), more.begin(), more.end());
+    };
+    if (group.needs.fields) add(fieldParameters(plan, frame));
+    if (group.forces.any()) add(forceParameters(plan, group, frame));
+    if (group.needs.collide) add(colliderParameters(plan, group, frame));
+    return out;
+}
+
+void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
+                     const Frame& frame) {
+    const DragCoefficients drag = dragCoefficients(group, frame.parameters, frame.h);
+    program.set("givenCounts",
+                glm::ivec4(frame.number, frame.parameters.substeps, int(drag.slips), int(frame.restarts)));
+    const auto numbers = givenNumbers(group, frame);
     program.set("givenNumbers", std::span<const glm::vec4>(numbers));
     if (group.needs.fields)
         program.set("givenFieldParameters", std::span<const glm::vec4>(fieldParameters(plan, frame)));

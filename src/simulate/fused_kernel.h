@@ -49,6 +49,9 @@ int workgroupMolecules(const GroupPlan& group, const KernelOptions& options);
 
 gpu::ProgramOptions kernelProgram(const Plan& plan, size_t group, const KernelOptions& options);
 
+// Returns all numbers by which something other than contact acts on a group's molecules in a frame.
+std::vector<glm::vec4> stepNumbers(const Plan& plan, const GroupPlan& group, const Frame& frame);
+
 // The numbers of a frame, for a step and for births.
 void setStepUniforms(const gpu::Program& program, const Plan& plan, const GroupPlan& group,
                      const Frame& frame);

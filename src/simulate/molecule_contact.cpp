@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <utility>
 
 #include "gpu/buffer.h"
+#include "simulate/fused_kernel.h"
 
 namespace shoal {
 
@@ -103,6 +105,7 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
     touching_ = zeros(1 + padded_, "in contact");
     touchingGroups_ = zeros(3, "workgroups in contact");
     dropped_ = zeros(1, "contacts left out");
+    if (rests()) markGroups_ = zeros(11, "workgroups of contact marks");
     makeMemory();
     makeExclusions();
     makeMaterials();
@@ -118,27 +121,34 @@ void MoleculeContact::makeMemory() {
         return Array(*context_, texels, texel, label, none.data());
     };
     const size_t entries = padded_ * size_t(listLength_);
-    for (const size_t side : {0, 1}) {
-        slots_[side] = array(padded_, Texel::uint1, "slots");
-        counts_[side] = array(padded_, Texel::uint1, "contacts");
-        known_[side] = array(padded_, Texel::float4, "known impulses");
-        if (side > 0 && !contact_->remembers()) break;
-        lists_[side] = array(entries, Texel::uint1, "contact lists");
-        if (!contact_->remembers()) continue;
-        pushes_[side] = array(entries, Texel::float4, "contact pushes");
-        anchors_[side] = array(entries, Texel::float4, "contact anchors");
-        if (!walls_) continue;
-        // groups that do not collide leave theirs as they are now
-        const size_t texels = 2 * ContactPlan::mostWalls * padded_;
-        const std::vector<glm::vec4> far(texels, glm::vec4(0, 0, 0, 1e30f));
-        nearWalls_[side] = Array(*context_, texels, Texel::float4, "walls", far.data());
-    }
+    slots_ = array(padded_, Texel::uint1, "slots");
+    counts_ = array(padded_, Texel::uint1, "contacts");
+    lists_ = array(entries, Texel::uint1, "contact lists");
+    known_ = array(padded_, Texel::float4, "known impulses");
     for (Array& totals : totals_)
         totals = array(2 * padded_, Texel::float4, "contact totals");
     if (!contact_->remembers()) return;
+    partners_ = array(entries, Texel::uint1, "contact partners");
+    oldPushes_ = array(entries, Texel::float4, "remembered pushes");
+    oldAnchors_ = array(entries, Texel::float4, "remembered anchors");
+    anchors_ = array(entries, Texel::float4, "contact anchors");
+    for (Array& pushes : pushes_)
+        pushes = array(entries, Texel::float4, "contact pushes");
     loads_ = array(padded_, Texel::float4, "contact loads");
     effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
-    if (walls_) wallPushes_ = array(2 * ContactPlan::mostWalls * padded_, Texel::float4, "wall pushes");
+    if (rests()) {
+        calm_ = array(padded_, Texel::float4, "calm places");
+        marks_ = array(padded_, Texel::uint1, "contact marks");
+        awakeSlots_ = array(padded_, Texel::uint1, "awake slots");
+        markedSlots_ = array(padded_, Texel::uint1, "marked slots");
+    }
+    if (walls_) {
+        // groups that do not collide leave theirs as they are now
+        const size_t texels = 2 * ContactPlan::mostWalls * padded_;
+        const std::vector<glm::vec4> far(texels, glm::vec4(0, 0, 0, 1e30f));
+        nearWalls_ = Array(*context_, texels, Texel::float4, "walls", far.data());
+        wallPushes_ = array(texels, Texel::float4, "wall pushes");
+    }
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
     if (!spreads_) return;
     normals_ = array(2 * padded_, Texel::float4, "contact normals");
@@ -147,6 +157,7 @@ void MoleculeContact::makeMemory() {
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
     std::vector<std::string> common = defines(listLength_);
+    if (rests()) common.emplace_back("RESTING");
     gpu::ProgramOptions options;
     options.cache = cache;
     const auto make = [&](const char* file, const char* define = nullptr) {
@@ -170,6 +181,12 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         nearest_ = make("nearest");
         return;
     }
+    if (rests()) {
+        findResting_ = make("find", "AMONG_RESTING");
+        sift_ = make("sift");
+        wake_ = make("wake");
+        weigh_ = make("weigh");
+    }
     prepare_ = make("prepare");
     relax_ = make("relax");
     settle_ = make("settle");
@@ -183,6 +200,8 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
                                  concat("MOST_WALLS ", ContactPlan::mostWalls)});
     if (group.triangles) common.push_back("TRIANGLES");
     if (contact_->remembers()) common.push_back("REMEMBERS");
+    if (rests()) common.push_back("RESTING");
+    if (plan.needs.release) common.push_back("RELEASE");
     const bool rigid = rigid_ && plan.rigid;
     if (rigid) common.push_back("RIGID");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
@@ -202,6 +221,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     common.emplace_back("APPLIES");
     out.apply = make("apply", group.triangles || rigid ? "MANY" : nullptr);
     common.pop_back();
+    if (contact_->mayRest(plan)) out.rest = make("rest");
     if (spreads_) {
         out.effectiveSum = make("effective_sum");
         out.spread = make("spread");
@@ -211,9 +231,9 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
 }
 
 void MoleculeContact::makeExclusions() {
-    if (!self_) return;
+    if (!self_ && !rests()) return;
     const auto [words, groups] = contact_->exclusions();
-    apart_ = Array(*context_, words.size(), Texel::uint1, "contact within", words.data());
+    if (self_) apart_ = Array(*context_, words.size(), Texel::uint1, "contact within", words.data());
     groupsOf_ = Array(*context_, groups.size(), Texel::uint4, "contact groups", groups.data());
 }
 
@@ -245,7 +265,7 @@ size_t MoleculeContact::setSpheres(const Program& program, size_t group, const G
 void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
     const std::vector<glm::vec4> parameters = colliderParameters(*plan_, plan_->groups[group.group], frame);
     program.set("colliderParameters", std::span<const glm::vec4>(parameters));
-    program.storage("Walls", 4, nearWalls_[now_].buffer);
+    program.storage("Walls", 4, nearWalls_.buffer);
 }
 
 void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
@@ -254,11 +274,28 @@ void MoleculeContact::bindLoads(const Program& program, int unit, size_t group,
     if (!contact || !contact_->remembers()) return;
     program.set("firstSphere", contact->firstSphere + part.first * contact->spheresOf);
     program.texture("contactLoads", unit, loads_.texture);
+    if (contact_->mayRest(plan_->groups[group]))
+        program.set("probes", int(groups_[size_t(contact - contact_->groups.data())].probes));
 }
 
 void MoleculeContact::useTouching(const Program& program) const {
     program.storage("Touching", 5, touching_);
     program.storage("Groups", 6, touchingGroups_);
+}
+
+void MoleculeContact::useMarks(const Program& program) const {
+    if (!rests()) return;
+    program.storage("Marks", 3, marks_.buffer);
+    program.storage("MarkGroups", 7, markGroups_);
+}
+
+void MoleculeContact::begin(const Frame& frame) {
+    wakes_ = frame.restarts;
+    for (size_t g = 0; rests() && g < groups_.size(); ++g) {
+        std::vector<glm::vec4> numbers = stepNumbers(*plan_, plan_->groups[contact_->groups[g].group], frame);
+        groups_[g].probes = numbers != groups_[g].numbers;
+        groups_[g].numbers = std::move(numbers);
+    }
 }
 
 void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& state) {
@@ -288,6 +325,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         program.storage("Cells", 3, sphereCells_.buffer);
         if (contact_->remembers()) program.storage("Loads", 6, loads_.buffer);
         if (isRigid(g)) program.storage("Bodies", 7, bodies_.buffer);
+        if (rests()) program.set("wakes", int(wakes_));
         dispatch(program, setSpheres(program, g, part, first));
     });
     settled();
@@ -333,15 +371,15 @@ void MoleculeContact::order(bool staggered) {
     order_.set("count", contact_->spheres);
     order_.storage("Places", 1, places_.buffer);
     order_.storage("Cells", 4, cells_.buffer);
-    order_.storage("Slots", 2, slots_[now_].buffer);
+    order_.storage("Slots", 2, slots_.buffer);
     useTouching(order_);
+    useMarks(order_);
     dispatch(order_, size_t(contact_->spheres));
     settled();
 }
 
 void MoleculeContact::buildGrid(const Frame& frame, Buffers& state) {
     dispatches_ = 0;
-    now_ = 1 - now_;
     for (const bool staggered : {true, false}) {
         if (staggered && !staggered_.buffer) continue;
         makeKeys(staggered, frame, state);
@@ -354,15 +392,18 @@ void MoleculeContact::find(const Program& program, const Times& times) {
     Textures textures(program);
     textures.add("places", places_.texture).add("cells", cells_.texture).add("sorted", pairs_.texture);
     if (&program == &findStaggered_)
-        textures.add("staggered", staggered_.texture).add("slots", slots_[now_].texture);
+        textures.add("staggered", staggered_.texture).add("slots", slots_.texture);
     if (contact_->settings.search == ContactSearch::exact) {
         textures.add("starts", cellStarts_.texture);
         program.set("reach", float(contact_->reach));
         program.set("keyMask", keyMask());
     }
-    if (contact_->remembers())
-        textures.add("oldSlots", slots_[1 - now_].texture).add("oldCounts", counts_[1 - now_].texture);
-    if (contact_->settings.fastest) {
+    if (contact_->remembers()) textures.add("known", known_.texture);
+    if (&program == &findResting_)
+        textures.add("partners", partners_.texture).add("slots", slots_.texture);
+    else if (rests())
+        textures.add("awakeSlots", awakeSlots_.texture);
+    if (contact_->settings.fastest || rests()) {
         textures.add("motions", motions_.texture);
         setTimes(program, times);
     }
@@ -371,16 +412,68 @@ void MoleculeContact::find(const Program& program, const Times& times) {
     program.set("cell", float(contact_->cell));
     program.set("listStride", int(padded_));
     program.set("last", int(!findStaggered_ || &program == &findStaggered_));
-    program.storage("Lists", 0, list().buffer);
-    program.storage("Counts", 1, counts_[now_].buffer);
+    program.storage("Lists", 0, lists_.buffer);
+    program.storage("Counts", 1, counts_.buffer);
     program.storage("Dropped", 2, dropped_);
     useTouching(program);
-    dispatch(program, size_t(contact_->spheres));
+    useMarks(program);
+    if (rests()) program.storage("MarkedSlots", 4, markedSlots_.buffer);
+    if (rests()) {
+        ++dispatches_;
+        program.dispatchIndirect(markGroups_, &program == &findResting_ ? ofMarked : ofAwake);
+    } else {
+        dispatch(program, size_t(contact_->spheres));
+    }
     settled();
 }
 
+void MoleculeContact::sift() {
+    Textures(sift_)
+        .add("cells", cells_.texture)
+        .add("sorted", pairs_.texture)
+        .add("partners", partners_.texture)
+        .add("slots", slots_.texture)
+        .add("known", known_.texture);
+    sift_.set("count", contact_->spheres);
+    sift_.set("listStride", int(padded_));
+    sift_.storage("AwakeSlots", 0, awakeSlots_.buffer);
+    sift_.storage("Counts", 1, counts_.buffer);
+    sift_.storage("MarkedSlots", 4, markedSlots_.buffer);
+    useMarks(sift_);
+    dispatch(sift_, size_t(contact_->spheres));
+    settled();
+}
+
+// As many contacts away from an impact as an impulse gets in a step, and as there are bits for.
+void MoleculeContact::wake() {
+    const int furthest = std::min(contact_->settings.iterations, 24);
+    Textures(wake_)
+        .add("places", places_.texture)
+        .add("cells", cells_.texture)
+        .add("slots", slots_.texture)
+        .add("partners", partners_.texture)
+        .add("known", known_.texture)
+        .add("groupsOf", groupsOf_.texture);
+    wake_.set("count", contact_->spheres);
+    wake_.set("listStride", int(padded_));
+    useMarks(wake_);
+    wake_.storage("MarkedSlots", 4, markedSlots_.buffer);
+    for (int away = 0; away <= furthest; ++away) {
+        wake_.set("contactsAway", away);
+        wake_.set("last", int(away == furthest));
+        ++dispatches_;
+        wake_.dispatchIndirect(markGroups_, ofStruck);
+        settled();
+    }
+}
+
 void MoleculeContact::search(Buffers&, const Times& times) {
+    if (rests()) sift();
     find(find_, times);
+    if (rests()) {
+        wake();
+        find(findResting_, times);
+    }
     if (findStaggered_) find(findStaggered_, times);
 }
 
@@ -407,54 +500,63 @@ static void write(gpu::Buffer& buffer, const std::vector<T>& values) {
 ContactMemory MoleculeContact::memory() const {
     if (!contact_->remembers()) return {};
     const size_t spheres = size_t(contact_->spheres), entries = padded_ * size_t(listLength_);
-    ContactSlots out;
-    out.stride = padded_;
-    out.slots = readBack<uint32_t>(slots_[now_].buffer, spheres);
-    out.counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
-    for (uint32_t& count : out.counts)
-        count = std::min(count & contactsMask, uint32_t(listLength_));
-    if (std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; }))
+    ContactMemory out;
+    out.known = readBack<glm::vec4>(known_.buffer, spheres);
+    for (glm::vec4& known : out.known)
+        out.counts.push_back(uint32_t(std::exchange(known.w, 0.0f)));
+    if (!rests() &&
+        std::all_of(out.counts.begin(), out.counts.end(), [](uint32_t count) { return count == 0; }))
         return {};
-    out.lists = readBack<uint32_t>(lists_[now_].buffer, entries);
-    out.pushes = readBack<glm::vec4>(pushes_[pushed_].buffer, entries);
-    out.anchors = readBack<glm::vec4>(anchors_[now_].buffer, entries);
-    out.known = readBack<glm::vec4>(known_[now_].buffer, padded_);
+    const auto partners = readBack<uint32_t>(partners_.buffer, entries);
+    const auto pushes = readBack<glm::vec4>(oldPushes_.buffer, entries);
+    const auto anchors = readBack<glm::vec4>(oldAnchors_.buffer, entries);
+    for (size_t sphere = 0; sphere < spheres; ++sphere) {
+        for (size_t e = 0; e < out.counts[sphere]; ++e) {
+            const size_t at = e * padded_ + sphere;
+            out.partners.push_back(partners[at]);
+            out.pushes.push_back(pushes[at]);
+            out.anchors.push_back(anchors[at]);
+        }
+    }
     out.loads = readBack<glm::vec4>(loads_.buffer, spheres);
-    if (!walls_) return bySphere(out);
-    out.walls = readBack<glm::vec4>(nearWalls_[now_].buffer, 2 * ContactPlan::mostWalls * spheres);
-    // each has the one before it behind it
-    const auto pushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
-    for (size_t i = 0; i < pushes.size(); i += 2)
-        out.wallPushes.push_back(pushes[i]);
-    return bySphere(out);
+    out.calm = rests() ? readBack<glm::vec4>(calm_.buffer, spheres) : std::vector<glm::vec4>(spheres);
+    if (!walls_) return out;
+    out.walls = readBack<glm::vec4>(nearWalls_.buffer, 2 * ContactPlan::mostWalls * spheres);
+    const auto wallPushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
+    for (size_t i = 0; i < wallPushes.size(); i += 2)
+        out.wallPushes.push_back(wallPushes[i]);
+    forgetLoneWalls(out);
+    return out;
 }
 
 void MoleculeContact::remember(const ContactMemory& memory) {
     if (!contact_->remembers()) return;
     if (memory.counts.size() != size_t(contact_->spheres)) {
-        write(counts_[now_].buffer, std::vector<uint32_t>(padded_));
-        return write(loads_.buffer, std::vector<glm::vec4>(padded_));
+        const std::vector<glm::vec4> none(padded_);
+        write(known_.buffer, none);
+        if (rests()) write(calm_.buffer, none);
+        return write(loads_.buffer, none);
     }
-    const ContactSlots in = bySlot(memory, padded_, size_t(listLength_));
-    write(slots_[now_].buffer, in.slots);
-    write(counts_[now_].buffer, in.counts);
-    write(lists_[now_].buffer, in.lists);
-    write(pushes_[pushed_].buffer, in.pushes);
-    write(anchors_[now_].buffer, in.anchors);
-    write(known_[now_].buffer, in.known);
+    ContactSlots in = bySlot(memory, padded_, size_t(listLength_));
+    for (size_t sphere = 0; sphere < in.known.size(); ++sphere)
+        in.known[sphere].w = float(in.counts[sphere]);
+    write(partners_.buffer, in.lists);
+    write(oldPushes_.buffer, in.pushes);
+    write(oldAnchors_.buffer, in.anchors);
+    write(known_.buffer, in.known);
     write(loads_.buffer, in.loads);
+    if (rests()) write(calm_.buffer, memory.calm);
     if (!walls_ || in.walls.empty()) return;
-    write(nearWalls_[now_].buffer, in.walls);
     std::vector<glm::vec4> pushes;
-    for (const glm::vec4& push : in.wallPushes)
-        pushes.insert(pushes.end(), {push, push});
+    for (size_t i = 0; i < in.wallPushes.size(); ++i)
+        pushes.insert(pushes.end(), {in.wallPushes[i], in.walls[2 * i]});
     write(wallPushes_.buffer, pushes);
 }
 
 std::vector<std::pair<int, int>> MoleculeContact::found() const {
     const size_t spheres = size_t(contact_->spheres);
-    const auto counts = readBack<uint32_t>(counts_[now_].buffer, padded_);
-    const auto lists = readBack<uint32_t>(list().buffer, padded_ * size_t(listLength_));
+    const auto counts = readBack<uint32_t>(counts_.buffer, padded_);
+    const auto lists = readBack<uint32_t>(lists_.buffer, padded_ * size_t(listLength_));
     const auto sorted = readBack<uint32_t>(pairs_.buffer, 2 * padded_);
     std::vector<std::pair<int, int>> out;
     for (size_t slot = 0; slot < spheres; ++slot) {
@@ -470,12 +572,15 @@ std::vector<std::pair<int, int>> MoleculeContact::found() const {
 size_t MoleculeContact::bytes() const {
     size_t out = touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
     const auto add = [&](const Array& array) { out += array.buffer ? array.buffer.bytes() : 0; };
-    for (const Array* array : {&arrivals_, &cellStarts_, &members_, &pairs_, &staggered_, &apart_, &groupsOf_,
-                               &materials_, &spherePlaces_, &sphereCells_, &motions_, &cells_, &places_,
-                               &loads_, &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &wallPushes_})
+    for (const Array* array :
+         {&arrivals_,    &cellStarts_, &members_,         &pairs_,       &staggered_,  &apart_,
+          &groupsOf_,    &materials_,  &spherePlaces_,    &sphereCells_, &motions_,    &cells_,
+          &places_,      &loads_,      &effectiveCounts_, &normals_,     &motionsNow_, &bodies_,
+          &wallPushes_,  &slots_,      &counts_,          &lists_,       &anchors_,    &known_,
+          &nearWalls_,   &partners_,   &oldPushes_,       &oldAnchors_,  &calm_,       &marks_,
+          &markedSlots_, &awakeSlots_})
         add(*array);
-    for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_, &pushes_})
-        std::for_each(sides->begin(), sides->end(), add);
+    std::for_each(pushes_.begin(), pushes_.end(), add);
     std::for_each(totals_.begin(), totals_.end(), add);
     return out;
 }

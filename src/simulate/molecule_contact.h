@@ -7,10 +7,14 @@
 //                                spheres of each cell
 //                      order     places in that order
 //   contact search     find      the spheres that each touches (or `neighbors`, UberFlow's)
+//                      sift      before it, what rests and has touched what is awake
+//                      wake      what an impact wakes
 //   contact response   prepare   what contacts remember of the last step
 //                      relax     the impulses of all contacts, in Jacobi iterations
 //                      settle    what they remember for the next (or, of all three, `nearest`: UberFlow's)
 //                      apply     into the state
+//                      weigh     what pushes on what rests
+//                      rest      which molecules rest, and cost nothing more
 //
 // Only gathers: a repeat gives the same bits.
 //
@@ -42,6 +46,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Spheres that a context holds, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
+    // Before the step of all groups.
+    void begin(const Frame& frame);
     // Binds to the step of a group of the plan what its contacts remember, if it has any.
     void bindLoads(const gpu::Program& program, int unit, size_t group, const GroupBuffers::Part& part) const;
 
@@ -78,8 +84,11 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
         int unit_ = 0;
     };
     struct GroupPrograms {
-        gpu::Program spheres, effectiveSum, spread, apply;
+        gpu::Program spheres, effectiveSum, spread, apply, rest;
         Array shapes;
+        // All that acts on its molecules beside contact, and whether it is other than in the last step.
+        std::vector<glm::vec4> numbers;
+        bool probes = false;
     };
 
     void makeMemory();
@@ -91,11 +100,14 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void buildGrid(const Frame& frame, Buffers& state) override;
     void makeKeys(bool staggered, const Frame& frame, Buffers& state);
     void useTouching(const gpu::Program& program) const;
+    void useMarks(const gpu::Program& program) const;
     void setWalls(const gpu::Program& program, const ContactGroup& group, const Frame& frame) const;
     void sortKeys(bool staggered);
     void order(bool staggered);
     void search(Buffers& state, const Times& times) override;
     void find(const gpu::Program& program, const Times& times);
+    void sift();
+    void wake();
     size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
                       int first) const;
     Textures bindResponse(const gpu::Program& program, const Times& times) const;
@@ -107,6 +119,9 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
     void apply(Buffers& state, const Times& times) override;
+    void rest(Buffers& state, const Times& times) override;
+    void weigh(const Times& times);
+    bool rests() const { return contact_->settings.rest.has_value(); }
     // run(number of the group with contact, its buffers, part, the part's first sphere)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {
@@ -116,7 +131,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
                 run(g, state[group.group], part, group.firstSphere + part.first * group.spheresOf);
         }
     }
-    const Array& list() const { return lists_[contact_->remembers() ? now_ : 0]; }
+    // Where the workgroups of markGroups_ begin, in bytes.
+    static constexpr size_t ofAwake = 0, ofMarked = 3 * sizeof(uint32_t), ofStruck = 6 * sizeof(uint32_t);
     static void settled();  // before what reads what dispatches have written
     void dispatch(const gpu::Program& program, size_t lanes) const;
     void dispatchTouching(const gpu::Program& program) const;
@@ -126,7 +142,9 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     bool counted_;   // the keys are sorted by counting
     size_t padded_;  // spheres, to whole workgroups
     std::vector<GroupPrograms> groups_;
-    gpu::Program starts_, collect_, order_, find_, findStaggered_, nearest_, prepare_, relax_, settle_;
+    gpu::Program starts_, collect_, order_, find_, findStaggered_, findResting_, sift_, wake_, weigh_,
+        nearest_, prepare_, relax_, settle_;
+    bool wakes_ = false;  // all that rests, in this step
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
     Array arrivals_, members_;       // where they are counted
@@ -136,15 +154,17 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     gpu::Buffer touching_, touchingGroups_;  // shaders/contact/touching.glsl
     gpu::Buffer dropped_;                    // contacts that no list had room for, so far
 
-    // The last step leaves these to this one, named as in the shaders; `now_` is this one's.
-    size_t now_ = 0;
-    std::array<Array, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
-    std::array<Array, 2> pushes_;  // the last stage's lie in [pushed_]
-    size_t pushed_ = 0;
-    Array loads_;  // m/s^2, by sphere
+    // The last step leaves these to this one, by sphere (shaders/contact/memory.glsl).
+    Array partners_, oldPushes_, oldAnchors_, known_, wallPushes_;
+    Array loads_;  // m/s^2, and in w whether its molecule rests
+    Array calm_;   // shaders/contact/rest.comp
     // Within a step.
-    std::array<Array, 3> totals_;  // in turn: the last stage's, those before, the next
-    Array effectiveCounts_, normals_, motionsNow_, bodies_, wallPushes_;
+    Array slots_, counts_, lists_, anchors_, nearWalls_;
+    Array marks_, markedSlots_, awakeSlots_;  // shaders/contact/marks.glsl
+    gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
+    std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before
+    std::array<Array, 3> totals_;             // in turn: the last stage's, those before, the next
+    Array effectiveCounts_, normals_, motionsNow_, bodies_;
 };
 
 }  // namespace shoal

@@ -205,7 +205,7 @@ TEST_CASE("what is no checkpoint says so", "[checkpoint]") {
 
     writeCheckpoint(file, plan, startOf(plan));
     change(file, 12, 1);
-    CHECK(message() == file + ": is a checkpoint of version 5, this program reads version 4");
+    CHECK(message() == file + ": is a checkpoint of version 4, this program reads version 5");
     change(file, 12, 1);
     for (const size_t at : {size_t(8), size_t(11)})
         change(file, at, 5);

@@ -624,6 +624,49 @@ TEST_CASE("the shaders of births are sound GLSL, of WebGL 2 as well", "[shaders]
     validator.check();
 }
 
+TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
+    if (!hasValidator()) return;
+    Validator validator;
+    validator.generated = generate({}, everyCollider());
+    const Defines common{"LIST 24",
+                         "NEIGHBORS 4",
+                         concat("NEAR ", ContactPlan::near),
+                         concat("MOST_WALLS ", ContactPlan::mostWalls),
+                         "REMEMBERS",
+                         "BLOCK 16",
+                         "POSITION_ELEMENTS 3",
+                         "VERTICES 4",
+                         "SPHERES 6",
+                         "HISTORY",
+                         "NO_HISTORY 1e30"};
+    const auto add = [&](const char* file, const Defines& set, Defines more = {}) {
+        more.insert(more.end(), set.begin(), set.end());
+        more.insert(more.end(), common.begin(), common.end());
+        more.emplace_back("STATE_ELEMENTS 12");
+        validator.add(concat("contact/", file, ".comp"), more, gpu::header430());
+    };
+    for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
+        for (const char* file : {"order", "find", "prepare", "relax", "settle"})
+            add(file, set);
+        for (const Defines& spread : {Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}})
+            for (const char* file : {"prepare", "relax", "settle"})
+                add(file, set, spread);
+    }
+    for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {
+        for (const char* file : {"sift", "wake", "weigh", "rest"})
+            add(file, set, {"RESTING"});
+        add("find", set, {"RESTING", "AMONG_RESTING"});
+    }
+    for (const Defines& set : combinations({"RESTING", "TRIANGLES", "RIGID", "LIFE"})) {
+        for (const char* file : {"spheres", "effective_sum", "spread"})
+            add(file, set);
+        add("apply", set, {"APPLIES", "MANY"});
+    }
+    add("apply", {"RESTING"}, {"APPLIES"});
+    CHECK(validator.count() > 70);
+    validator.check();
+}
+
 TEST_CASE("the schools' shaders are sound GLSL", "[shaders]") {
     if (!hasValidator()) return;
     Scene scene;

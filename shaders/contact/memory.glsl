@@ -1,0 +1,32 @@
+// What the last step has left of the contacts of a sphere: in fragments in the order of the slots that it had, else by sphere, so
+// that a sphere that rests costs nothing. Needs contact/lists.glsl.
+uniform LISTS oldLists;      // the other sphere, in fragments its slot
+uniform ENTRIES oldPushes;   // Entry::push of contact/respond.glsl
+uniform ENTRIES oldAnchors;  // Entry::anchor
+#ifdef TEXTURES
+uniform UINTS oldSlots;      // of a sphere
+uniform UINTS oldCounts;     // by slot, as `counts`
+uniform FLOATS oldKnown;     // N s, by slot: the sum of what its contacts remember, which has acted as a force since
+
+int memoryOf(int sphere)
+{
+    return int(fetch(oldSlots, sphere).x);
+}
+
+int countAt(int memory)
+{
+    return min(int(fetch(oldCounts, memory).x & CONTACTS), LIST);
+}
+#else
+layout(std430, binding = 3) buffer Known { vec4 known[]; };  // by sphere: xyz that sum; w how many contacts it remembers
+
+int memoryOf(int sphere)
+{
+    return sphere;
+}
+
+int countAt(int memory)
+{
+    return int(known[memory].w);
+}
+#endif

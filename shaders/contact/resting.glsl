@@ -1,0 +1,10 @@
+// Whether the molecule of a slot's sphere rests.
+#include "contact/flags.glsl"
+
+uniform usamplerBuffer cells;  // by slot (contact/records.glsl)
+uniform usamplerBuffer marks;  // by slot
+
+bool rests(int slot)
+{
+    return isResting(texelFetch(cells, slot).w, texelFetch(marks, slot).x);
+}

@@ -1,0 +1,7 @@
+uniform UINTS effectiveCounts;  // by slot, as bits (contact/prepare.glsl)
+
+// Among how many contacts what a sphere gives way is shared; one that rests gives none.
+float shareOf(int slot, Sphere sphere)
+{
+    return sphere.rests ? 1.0 : uintBitsToFloat(fetch(effectiveCounts, slot).x);
+}

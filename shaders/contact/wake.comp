@@ -1,0 +1,34 @@
+// A lane a slot: an impact wakes the molecule that it strikes, and all within as many contacts of it as the response has
+// iterations, because no impulse gets further in a step. Dispatched once for each of these contacts.
+#include "contact/marks.glsl"
+#include "contact/records.glsl"
+
+uniform usamplerBuffer partners;  // oldLists of contact/memory.glsl
+uniform samplerBuffer known;
+uniform usamplerBuffer slots;     // of a sphere
+uniform usamplerBuffer groupsOf;  // contact/touch.glsl
+uniform int listStride;
+uniform int contactsAway;         // of what wakes others in this dispatch
+uniform bool last;
+
+void wakePartners(int sphere)
+{
+    int listed = int(texelFetch(known, sphere).w);
+    for (int e = 0; e < listed; ++e) {
+        int slot = int(texelFetch(slots, int(texelFetch(partners, e * listStride + sphere).x)).x);
+        if ((texelFetch(cells, slot).w & RESTS) != 0u && marks[slot] <= TOUCHED) mark(slot, STRUCK << (contactsAway + 1));
+    }
+}
+
+void main()
+{
+    int slot = min(int(gl_GlobalInvocationID.x), count - 1);
+    if ((marks[slot] & (STRUCK << contactsAway)) == 0u) return;
+    uint label = texelFetch(places, slot).w;
+    ivec2 group = ivec2(texelFetch(groupsOf, int(label >> 26u)).xy);
+    int first = group.x + int(label & 0x3ffffffu) * group.y;
+    for (int sphere = first; sphere < first + group.y; ++sphere) {
+        if (!last) wakePartners(sphere);
+        mark(int(texelFetch(slots, sphere).x), WOKEN);
+    }
+}
