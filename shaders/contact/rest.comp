@@ -5,8 +5,9 @@
 #include "contact/shape.glsl"
 #include "contact/resting.glsl"
 
-uniform usamplerBuffer slots;   // of a sphere
-uniform samplerBuffer totals;   // by slot (contact/totals.glsl)
+uniform usamplerBuffer slots;    // of a sphere
+uniform usamplerBuffer motions;  // by sphere (contact/records.glsl)
+uniform samplerBuffer totals;    // by slot (contact/totals.glsl)
 #ifdef RELEASE
 uniform VALUES oldRecords;
 #endif
@@ -88,7 +89,9 @@ void keepOrWake(int sphere, int first)
 // Lets a molecule that is awake come to rest.
 void rest(int molecule, int sphere, int first)
 {
-    float time = wakes ? 0.0 : calm[sphere].w + stepTime;
+    float time = calm[sphere].w + stepTime;
+    bool isDead = texelFetch(cells, int(texelFetch(slots, sphere).x)).w == 0u;
+    if (wakes || isDead || (texelFetch(motions, sphere).w & FRESH) != 0u) time = 0.0;
     for (int v = 0; v < VERTICES; ++v)
         if (!(distance(stateVector(first, v), calm[sphere + v].xyz) <= restDistance)) time = 0.0;
 #ifdef RELEASE

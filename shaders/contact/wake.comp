@@ -1,5 +1,6 @@
 // A lane a slot: an impact wakes the molecule that it strikes, and all within as many contacts of it as the response has
-// iterations, because no impulse gets further in a step. Dispatched once for each of these contacts.
+// iterations, because no impulse gets further in a step; what these touch in turn is touched by something awake. Dispatched
+// once for each of these contacts.
 #include "contact/marks.glsl"
 #include "contact/records.glsl"
 
@@ -16,7 +17,8 @@ void wakePartners(int sphere)
     int listed = int(texelFetch(known, sphere).w);
     for (int e = 0; e < listed; ++e) {
         int slot = int(texelFetch(slots, int(texelFetch(partners, e * listStride + sphere).x)).x);
-        if ((texelFetch(cells, slot).w & RESTS) != 0u && marks[slot] <= TOUCHED) mark(slot, STRUCK << (contactsAway + 1));
+        if ((texelFetch(cells, slot).w & RESTS) != 0u && marks[slot] <= TOUCHED)
+            mark(slot, last ? TOUCHED : STRUCK << (contactsAway + 1));
     }
 }
 
@@ -28,7 +30,7 @@ void main()
     ivec2 group = ivec2(texelFetch(groupsOf, int(label >> 26u)).xy);
     int first = group.x + int(label & 0x3ffffffu) * group.y;
     for (int sphere = first; sphere < first + group.y; ++sphere) {
-        if (!last) wakePartners(sphere);
+        wakePartners(sphere);
         mark(int(texelFetch(slots, sphere).x), WOKEN);
     }
 }

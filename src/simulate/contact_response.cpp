@@ -195,6 +195,7 @@ void MoleculeContact::rest(Buffers& state, const Times& times) {
             .add("slots", slots_.texture)
             .add("cells", cells_.texture)
             .add("marks", marks_.texture)
+            .add("motions", motions_.texture)
             .add("totals", totals_[0].texture)
             .add("oldRecords", part.record);
         program.set("stepTime", float(times.step));
