@@ -274,17 +274,33 @@ std::vector<Collider> everyCollider() {
     return out;
 }
 
+namespace {
+
+// Reading them all takes seconds, of which their models are most.
+const std::vector<Scene>& everyShippedScene() {
+    static const std::vector<Scene> scenes = [] {
+        std::vector<std::string> files;
+        const std::string folder = concat(sourceFolder, "models");
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+            if (entry.path().string().ends_with(".scene.json")) files.push_back(entry.path().string());
+        std::sort(files.begin(), files.end());
+        std::vector<Scene> out;
+        for (const std::string& file : files)
+            out.push_back(readScene(file));
+        return out;
+    }();
+    return scenes;
+}
+
+}  // namespace
+
 std::vector<FeatureScene> shippedScenes(int mostMolecules, bool fusedOnly) {
-    std::vector<std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(concat(sourceFolder, "models")))
-        if (entry.path().string().ends_with(".scene.json")) files.push_back(entry.path().string());
-    std::sort(files.begin(), files.end());
     std::vector<FeatureScene> out;
-    for (const std::string& file : files) {
-        Scene scene = readScene(file);
-        if (std::any_of(scene.groups.begin(), scene.groups.end(),
+    for (const Scene& shipped : everyShippedScene()) {
+        if (std::any_of(shipped.groups.begin(), shipped.groups.end(),
                         [](const Group& g) { return g.contact || g.life || g.school; }) != fusedOnly)
             continue;
+        Scene scene = shipped;
         for (Group& group : scene.groups) {
             group.count = std::min(group.count, mostMolecules);
             if (group.life) group.life->capacity = std::min(group.life->capacity, 4 * mostMolecules);

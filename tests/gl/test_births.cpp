@@ -467,7 +467,7 @@ TEST_CASE("a group in parts spawns and loses the same molecules as one that is w
             scene.groups[0].life->scale = {0.5, 1};
             scene.groups[0].contact = GroupContact{};
             scene.groups[0].contact->radius = 0.002;
-            scene.solver.substeps = 8;
+            scene.solver.substeps = 4;
         }
         scene.groups[0].count = 700;
         scene.groups[0].place.kind = Placement::Kind::volume;
@@ -479,14 +479,15 @@ TEST_CASE("a group in parts spawns and loses the same molecules as one that is w
         Simulation split(testContext(), SHOAL_SOURCE_DIR "/shaders", plan, options);
         REQUIRE(whole.state().buffers->front().parts().size() == 1);
         REQUIRE(split.state().buffers->front().parts().size() > 6);
-        for (int frame = 0; frame < 15; ++frame) {
+        // a life takes 1 to 6 frames
+        for (int frame = 0; frame < 8; ++frame) {
             run(whole, 1);
             run(split, 1);
             const LifeCounts a = whole.lifeCounts(0), b = split.lifeCounts(0);
             REQUIRE((a.live == b.live && a.mark == b.mark && a.born == b.born && a.lost == b.lost));
             REQUIRE(whole.save().groups == split.save().groups);
         }
-        CHECK(whole.lifeCounts(0).born > 5000);
+        CHECK(whole.lifeCounts(0).born > 3000);
     }
 }
 
