@@ -1,5 +1,6 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
-// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them; with WATER all below its
+// Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them, with
+// WIDE_SHADOWS beyond the molecules too; with WATER all below its
 // surface is under water.
 
 #include "render/sky.glsl"
@@ -31,24 +32,39 @@ struct Surface {
 uniform sampler2DShadow shadowMap;
 uniform mat4 toShadow;      // place -> texture and depth, both in [0, 1]
 uniform vec3 shadowFilter;  // x: filter radius in texture units, y: offset along the normal, z: towards the sun, m
+#ifdef WIDE_SHADOWS
+uniform sampler2DShadow wideShadowMap;  // of what stands still, where the other map ends
+uniform mat4 toWideShadow;
+uniform vec3 wideShadowFilter;
+#endif
 
 // Share of the sun that is seen. Sixteen taps on a Vogel disc, each a bilinear comparison.
-float sunVisibility(vec3 place, vec3 normal)
+float unshaded(sampler2DShadow map, mat4 toMap, vec3 mapFilter, vec3 place, vec3 normal)
 {
     // A surface seen at a grazing angle spans more depth within one texel: shift it more.
     float facing = dot(normal, sunDirection);
     float slope = sqrt(max(1.0 - facing * facing, 0.0));
-    vec3 shifted = place + normal * (sign(facing) * shadowFilter.y * (0.4 + slope)) + sunDirection * shadowFilter.z;
-    vec3 uvz = (toShadow * vec4(shifted, 1.0)).xyz;
+    vec3 shifted = place + normal * (sign(facing) * mapFilter.y * (0.4 + slope)) + sunDirection * mapFilter.z;
+    vec3 uvz = (toMap * vec4(shifted, 1.0)).xyz;
     uvz.z = min(uvz.z, 1.0);  // below the map's far end: shaded by whatever the map holds
     float lit = 0.0;
     for (int i = 0; i < 16; ++i) {
         float radius = sqrt((float(i) + 0.5) / 16.0);
         float angle = 2.3999632 * float(i);
-        vec2 tap = uvz.xy + shadowFilter.x * radius * vec2(cos(angle), sin(angle));
-        lit += texture(shadowMap, vec3(tap, uvz.z));
+        vec2 tap = uvz.xy + mapFilter.x * radius * vec2(cos(angle), sin(angle));
+        lit += texture(map, vec3(tap, uvz.z));
     }
     return lit / 16.0;
+}
+
+float sunVisibility(vec3 place, vec3 normal)
+{
+#ifdef WIDE_SHADOWS
+    vec2 fromMiddle = abs((toShadow * vec4(place, 1.0)).xy - 0.5);
+    if (max(fromMiddle.x, fromMiddle.y) > 0.49)
+        return unshaded(wideShadowMap, toWideShadow, wideShadowFilter, place, normal);
+#endif
+    return unshaded(shadowMap, toShadow, shadowFilter, place, normal);
 }
 #else
 float sunVisibility(vec3 place, vec3 normal)

@@ -1,16 +1,37 @@
 // Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
-// haze instead.
+// haze instead; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h); CUT,
+// out of the colour image by its alpha.
 
 #include "physics/noise.glsl"
 #include "render/light.glsl"
+#ifdef CUT
+#include "render/alpha_cut.glsl"
+#elif defined(COLOR_IMAGE)
+uniform sampler2D image;  // rgb colour, a opacity
+#endif
+#ifdef NORMAL_IMAGE
+uniform sampler2D normalImage;
+uniform float normalScale;
+#endif
+#ifdef ROUGHNESS_IMAGE
+uniform sampler2D roughnessImage;  // g roughness, b metallic
+#endif
+#ifdef EMISSIVE_IMAGE
+uniform sampler2D emissiveImage;
+#endif
+#if defined(COLOR_IMAGE) || defined(NORMAL_IMAGE) || defined(ROUGHNESS_IMAGE) || defined(EMISSIVE_IMAGE)
+in vec2 uv;
+#endif
 
 in vec3 place;
 in vec3 local;
 in vec3 normal;
 in vec3 color;
 
-uniform vec3 meshColor;
+uniform vec4 meshColor;  // a opacity
+uniform vec3 emissive;
 uniform float roughness;
+uniform float metallic;
 uniform float detail;  // strength of the procedural grain, 0 for none
 #ifdef PLANE
 uniform float planeRadius;  // m, where the plane has faded away
@@ -43,11 +64,39 @@ vec3 bumped(vec3 n, vec3 p, float height)
     return normalize(max(abs(det), 1e-12) * n - gradient);
 }
 
+#ifdef NORMAL_IMAGE
+// The normal that an image says, in the frame of its coordinates, which follows from how they change along the
+// surface [Schüler 2006].
+vec3 mapped(vec3 n, vec3 p, vec2 at)
+{
+    vec3 across = cross(dFdy(p), n);
+    vec3 along = cross(n, dFdx(p));
+    vec2 dx = dFdx(at);
+    vec2 dy = dFdy(at);
+    vec3 tangent = across * dx.x + along * dy.x;
+    vec3 bitangent = across * dx.y + along * dy.y;
+    float larger = max(dot(tangent, tangent), dot(bitangent, bitangent));
+    vec3 slope = texture(normalImage, at).xyz * 2.0 - 1.0;
+    slope.xy *= normalScale * inversesqrt(max(larger, 1e-30));
+    return normalize(tangent * slope.x + bitangent * slope.y + n * max(slope.z, 0.05));
+}
+#endif
+
 void main()
 {
     vec3 n = normalize(normal);
     if (dot(n, place) > 0.0) n = -n;
-    vec3 albedo = color * meshColor;
+    vec3 albedo = color * meshColor.rgb;
+    float covered = meshColor.a;
+#ifdef COLOR_IMAGE
+    vec4 texel = texture(image, uv);
+    albedo *= texel.rgb;
+#ifdef CUT
+    covered = coverage(keptAlpha(meshColor.a * texel.a, uv));
+#else
+    covered *= texel.a;
+#endif
+#endif
     float hollow = 1.0;
     vec3 along = n;
 
@@ -84,9 +133,28 @@ void main()
     faded = smoothstep(0.1, 1.0, length(place) / planeRadius);
 #endif
 
-    Surface s = surfaceOf(place, n, albedo, roughness);
+    float rough = roughness;
+    float metal = metallic;
+#ifdef ROUGHNESS_IMAGE
+    vec4 surface = texture(roughnessImage, uv);
+    rough *= surface.g;
+    metal *= surface.b;
+#endif
+#ifdef NORMAL_IMAGE
+    along = mapped(along, place, uv);
+#endif
+    vec3 sent = emissive;
+#ifdef EMISSIVE_IMAGE
+    sent *= texture(emissiveImage, uv).rgb;
+#endif
+#ifdef CUT
+    if (covered <= 0.0) discard;  // after all derivatives
+#endif
+
+    Surface s = surfaceOf(place, n, albedo, rough);
+    s.metallic = metal;
     s.normal = along;
     s.openness *= hollow;
-    vec3 radiance = withHaze(shade(s), place);
-    fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), 1.0);
+    vec3 radiance = withHaze(shade(s) + sent, place);
+    fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), covered);
 }

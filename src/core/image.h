@@ -1,4 +1,5 @@
-// Pictures in memory and as PNG files. Rows run from top to bottom, channels are interleaved.
+// Pictures in memory, as PNG files, and as others' files (decode_image.cpp). Rows run from top to bottom,
+// channels are interleaved.
 #pragma once
 
 #include <cstddef>
@@ -29,6 +30,9 @@ struct HeightImage {
 // Error: no such file, not a PNG, damaged or cut off, above maxImageSide a side or maxImageTexels in all.
 Image readPng(const std::filesystem::path& path);
 Image decodePng(const std::string& bytes, const std::string& file);
+// Any PNG, JPEG, TGA, BMP, GIF or PSD as RGBA, eight bits a channel, as stored (stb_image). Error: none of
+// these, damaged, or too large, as above.
+Image decodeImage(const std::string& bytes, const std::string& file);
 // A grey PNG of up to 16 bits at its full depth, as stored. Error: as above, or a picture in colour.
 HeightImage readHeightPng(const std::filesystem::path& path);
 HeightImage decodeHeightPng(const std::string& bytes, const std::string& file);

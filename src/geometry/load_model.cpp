@@ -16,6 +16,7 @@
 #include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "geometry/load_materials.h"
 
 namespace shoal {
 
@@ -63,7 +64,8 @@ class Collector {
             if (node.mMeshes[i] >= scene_.mNumMeshes) throw fail("names a mesh that it does not hold");
             const aiMesh& part = *scene_.mMeshes[node.mMeshes[i]];
             if (object.name.empty()) object.name = part.mName.C_Str();
-            Mesh::Part piece{part.mName.C_Str(), materialName(part), int(mesh.triangles.size()), 0};
+            Mesh::Part piece{part.mName.C_Str(), materialName(part), int(mesh.triangles.size()), 0,
+                             part.mMaterialIndex < scene_.mNumMaterials ? int(part.mMaterialIndex) : -1};
             append(part, transform);
             piece.triangleCount = int(mesh.triangles.size()) - piece.firstTriangle;
             if (piece.triangleCount > 0) mesh.parts.push_back(std::move(piece));
@@ -120,7 +122,11 @@ class Collector {
         const glm::dmat3 cofactor(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
         const double side = glm::determinant(m) < 0 ? -1 : 1;
         anyColors = anyColors || part.HasVertexColors(0);
-        anyUvs = anyUvs || part.HasTextureCoords(0);
+        TextureCoordinates coordinates;
+        if (part.mMaterialIndex < scene_.mNumMaterials)
+            coordinates = textureCoordinatesOf(*scene_.mMaterials[part.mMaterialIndex]);
+        const unsigned set = part.HasTextureCoords(coordinates.set) ? coordinates.set : 0;
+        anyUvs = anyUvs || part.HasTextureCoords(set);
         for (unsigned i = 0; i < part.mNumVertices; ++i) {
             const glm::dvec3 position(transform * glm::dvec4(vector(part.mVertices[i]), 1));
             if (!finite(position))
@@ -145,7 +151,8 @@ class Collector {
             mesh.colors.push_back(finite(color) ? color : glm::dvec3(1));
 
             glm::dvec3 uv(0);
-            if (part.HasTextureCoords(0)) uv = vector(part.mTextureCoords[0][i]);
+            if (part.HasTextureCoords(set))
+                uv = coordinates.transform * glm::dvec3(glm::dvec2(vector(part.mTextureCoords[set][i])), 1);
             mesh.uvs.push_back(finite(uv) ? glm::dvec2(uv) : glm::dvec2(0));
         }
     }
@@ -198,7 +205,7 @@ bool tellsOfMemory(const std::string& message) {
 Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
     const Location location{file};
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelFiles(std::move(opened)));  // which the importer deletes
+    importer.SetIOHandler(new ModelFiles(opened));  // which the importer deletes
     const aiScene* scene = importer.ReadFile(file, aiProcess_Triangulate);
     if (!scene && tellsOfMemory(importer.GetErrorString())) throw std::bad_alloc();
     if (!scene || !scene->mRootNode)
@@ -210,6 +217,7 @@ Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
     if (mesh.triangles.empty()) throw Error(location, "has no triangles, expected a mesh with at least one");
     if (!collector.anyColors) mesh.colors.clear();
     if (!collector.anyUvs) mesh.uvs.clear();
+    readMaterials(*scene, file, opened, mesh);
     return mesh;
 }
 
@@ -236,7 +244,7 @@ void put(ToParent& parent, const Mesh& mesh) {
     parent.put(mesh.colors);
     parent.put(mesh.uvs);
     parent.put(mesh.triangles);
-    Names objects, parts;
+    Names objects, parts, notes;
     for (const Mesh::Object& object : mesh.objects) {
         objects.add(object.name);
         objects.numbers.insert(objects.numbers.end(), {object.firstTriangle, object.triangleCount});
@@ -244,12 +252,22 @@ void put(ToParent& parent, const Mesh& mesh) {
     for (const Mesh::Part& part : mesh.parts) {
         parts.add(part.mesh);
         parts.add(part.material);
-        parts.numbers.insert(parts.numbers.end(), {part.firstTriangle, part.triangleCount});
+        parts.numbers.insert(parts.numbers.end(), {part.firstTriangle, part.triangleCount, part.look});
     }
-    for (const Names& names : {objects, parts}) {
+    for (const std::string& note : mesh.notes)
+        notes.add(note);
+    notes.numbers = {int(mesh.notes.size())};
+    for (const Names& names : {objects, parts, notes}) {
         parent.put(names.text);
         parent.put(names.numbers);
     }
+    parent.put(mesh.materials);
+    std::vector<glm::ivec2> sizes;
+    for (const Image& image : mesh.images)
+        sizes.emplace_back(image.width, image.height);
+    parent.put(sizes);
+    for (const Image& image : mesh.images)
+        parent.put(image.pixels);
 }
 
 // The child's memory may be another's by now: nothing that it says is taken for granted.
@@ -269,7 +287,21 @@ void checkWhole(const Mesh& mesh, const Location& location) {
     for (const Mesh::Object& object : mesh.objects)
         whole = whole && fits(object.firstTriangle, object.triangleCount);
     for (const Mesh::Part& part : mesh.parts)
-        whole = whole && fits(part.firstTriangle, part.triangleCount);
+        whole = whole && fits(part.firstTriangle, part.triangleCount) && part.look >= -1 &&
+                part.look < int(mesh.materials.size());
+    for (const Image& image : mesh.images)
+        whole = whole && std::min(image.width, image.height) > 0 &&
+                std::max(image.width, image.height) <= largestModelImage &&
+                image.pixels.size() == size_t(image.width) * size_t(image.height) * 4;
+    for (const SurfaceMaterial& look : mesh.materials) {
+        for (const int image : {look.colorImage, look.emissiveImage, look.normalImage, look.roughnessImage})
+            whole = whole && image >= -1 && image < int(mesh.images.size());
+        for (const double number :
+             {look.color.r, look.color.g, look.color.b, look.color.a, look.emissive.r, look.emissive.g,
+              look.emissive.b, look.metallic, look.roughness, look.normalScale, look.alphaCut})
+            whole = whole && std::isfinite(number);
+        whole = whole && int(look.alpha) >= 0 && int(look.alpha) <= int(SurfaceMaterial::Alpha::blend);
+    }
     if (!whole) throw Error(location, "cannot be read: its reader went astray");
 }
 
@@ -288,10 +320,19 @@ Mesh readConfined(const std::string& file) {
     for (size_t i = 0; i + 1 < objects.numbers.size(); i += 2)
         mesh.objects.push_back({objects.next(), objects.numbers[i], objects.numbers[i + 1]});
     Names parts{child.get<char>(), child.get<int>()};
-    for (size_t i = 0; i + 1 < parts.numbers.size(); i += 2) {
+    for (size_t i = 0; i + 2 < parts.numbers.size(); i += 3) {
         std::string name = parts.next(), material = parts.next();
-        mesh.parts.push_back({std::move(name), std::move(material), parts.numbers[i], parts.numbers[i + 1]});
+        mesh.parts.push_back({std::move(name), std::move(material), parts.numbers[i], parts.numbers[i + 1],
+                              parts.numbers[i + 2]});
     }
+    Names notes{child.get<char>(), child.get<int>()};
+    for (int i = 0; !notes.numbers.empty() && i < notes.numbers.front() && notes.at < notes.text.size(); ++i)
+        mesh.notes.push_back(notes.next());
+    mesh.materials = child.get<SurfaceMaterial>();
+    for (const glm::ivec2& size : child.get<glm::ivec2>())
+        mesh.images.push_back({size.x, size.y, 4, {}});
+    for (Image& image : mesh.images)
+        image.pixels = child.get<uint8_t>();
     checkWhole(mesh, location);
     return mesh;
 }

@@ -1,5 +1,6 @@
 // A triangle mesh as loaded from a model file (load_model.cpp): welded by position, node transforms applied;
-// whether it encloses a volume (mesh.cpp), and how thick it is (closest_point.cpp).
+// how its parts look (load_materials.cpp), whether it encloses a volume (mesh.cpp), and how thick it is
+// (closest_point.cpp).
 #pragma once
 
 #include <string>
@@ -7,7 +8,27 @@
 
 #include <glm/glm.hpp>
 
+#include "core/image.h"
+
 namespace shoal {
+
+// How a part of a mesh looks: glTF 2's model of metallic and rough surfaces, into which the materials of
+// other formats are translated. Colours are linear RGB. Images are numbers in Mesh::images, -1 for none;
+// where there is one, what stands beside it multiplies it.
+struct SurfaceMaterial {
+    // How what is not opaque is drawn: cut out where opacity is below alphaCut, or blended with what is
+    // behind.
+    enum class Alpha { opaque, cut, blend };
+    glm::dvec4 color{1};  // and opacity; multiplies the vertices' colours too
+    glm::dvec3 emissive{0};
+    double metallic = 0, roughness = 0.9;  // in [0, 1]
+    double normalScale = 1;                // of the normal image's slopes
+    double alphaCut = 0.5;
+    Alpha alpha = Alpha::opaque;
+    int colorImage = -1, emissiveImage = -1;  // sRGB; alpha is opacity
+    int normalImage = -1;                     // the normal in tangent space, from -1 to 1
+    int roughnessImage = -1;                  // green: roughness; blue: metallic
+};
 
 // Corner attributes (normals, colours, uvs) stay per corner so that welding loses none of them.
 // `weld[corner]` is the welded vertex of each corner: rules and pins that name a corner keep hitting
@@ -34,18 +55,26 @@ struct Mesh {
     struct Part {
         std::string mesh, material;  // the file's names; may be empty
         int firstTriangle = 0, triangleCount = 0;
+        int look = -1;  // its number in `materials`; -1: the file says nothing of it
     };
     std::vector<Part> parts;
+
+    std::vector<SurfaceMaterial> materials;
+    std::vector<Image> images;       // RGBA, at most largestModelImage texels a side
+    std::vector<std::string> notes;  // what is drawn otherwise than the file has it, a sentence each
 
     glm::dvec3 low{0}, high{0};  // bounding box
 };
 
+constexpr int largestModelImage = 2048;  // larger ones are halved when they are read
+
 // All triangles of the file with node transforms applied, one Mesh::Object per node that has triangles.
 // Polygons are cut into triangles; lines and points are ignored. Vertex colours become linear: OBJ and PLY
-// files hold them in sRGB by custom, glTF and the others linear.
-// The file is read in a child process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty.
-// Error: no such file, not readable as a model within limits of time and memory, a position that is not
-// finite or beyond 1e30 m, no triangles.
+// files hold them in sRGB by custom, glTF and the others linear. Images are embedded, or lie where the file
+// says; a path that leads nowhere is looked for by its name beside the model. The file is read in a child
+// process (core/confined.h), unless SHOAL_TRUST_MODELS is set and not empty. Error: no such file, not
+// readable as a model within limits of time and memory, a position that is not finite or beyond 1e30 m, no
+// triangles.
 Mesh loadMesh(const std::string& file);
 
 // Fills what follows from positions and triangles: missing normals (zero or an empty array), the weld

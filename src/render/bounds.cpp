@@ -89,7 +89,9 @@ struct ExtentOf {
 
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     SceneBounds bounds;
-    bounds.casters = emptyBox;
+    bounds.casters = bounds.models = emptyBox;
+    for (const Model& model : scene.models)
+        if (model.draw) include(bounds.models, model.mesh.low, model.mesh.high);
     Box crown = emptyBox;
     for (const GroupPlan& group : plan.groups) {
         if (group.start.anchors.empty()) continue;
@@ -119,12 +121,9 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
         for (const ColliderPath::Keyframe& frame : frames)
             includePlaced(bounds.casters, *box, frame.pose);
     }
-    if (isEmpty(bounds.casters)) {
-        for (const Model& model : scene.models) {
-            if (model.draw) include(bounds.casters, model.mesh.low, model.mesh.high);
-        }
-    }
+    if (isEmpty(bounds.casters)) bounds.casters = bounds.models;
     if (isEmpty(bounds.casters)) bounds.casters = Box{};
+    if (isEmpty(bounds.models)) bounds.models = bounds.casters;
     if (!isEmpty(crown)) {
         const glm::dvec3 half = 0.5 * (crown.high - crown.low);
         bounds.crown = {0.5 * (crown.low + crown.high), (half.x + half.y + half.z) / 3};

@@ -13,7 +13,7 @@ glm::dvec3 towardsSun(const Light& light) {
     return length > 0 ? -light.direction / length : glm::dvec3(0, 1, 0);
 }
 
-Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const ShadowMap* shadow,
+Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadows& shadows,
                    const WaterLight* water, bool blends)
     : towardsSun_(shoal::towardsSun(scene.light)),
       sun_(scene.light.color * scene.light.intensity),
@@ -22,13 +22,14 @@ Lighting::Lighting(const Scene& scene, const BoundingSphere& crown, const Shadow
       ground_(scene.sky.ground * scene.sky.intensity),
       fog_(float(scene.sky.fog)),
       crown_(crown),
-      shadow_(shadow),
+      shadows_(shadows),
       water_(water),
       blends_(blends) {}
 
 std::vector<std::string> Lighting::defines(bool shadows) const {
     std::vector<std::string> out = toneDefines();
-    if (shadows && shadow_ != nullptr) out.emplace_back("SHADOWS");
+    if (shadows && shadows_.near != nullptr) out.emplace_back("SHADOWS");
+    if (shadows && shadows_.wide != nullptr) out.emplace_back("WIDE_SHADOWS");
     if (water_ != nullptr) out.emplace_back("WATER");
     return out;
 }
@@ -66,10 +67,14 @@ void Lighting::applyBeams(const gpu::Program& program, const Eye& eye) const {
 void Lighting::apply(const gpu::Program& program, const Eye& eye) const {
     applyBeams(program, eye);
     program.set("crown", glm::vec4(glm::vec3(crown_.center - eye.origin.exact), float(crown_.radius)));
-    if (shadow_ == nullptr) return;
-    program.texture("shadowMap", unit::shadowMap, shadow_->depth());
-    program.set("toShadow", shadow_->toTexture(eye.origin));
-    program.set("shadowFilter", shadow_->filter());
+    if (shadows_.near == nullptr) return;
+    program.texture("shadowMap", unit::shadowMap, shadows_.near->depth());
+    program.set("toShadow", shadows_.near->toTexture(eye.origin));
+    program.set("shadowFilter", shadows_.near->filter());
+    if (shadows_.wide == nullptr) return;
+    program.texture("wideShadowMap", unit::wideShadowMap, shadows_.wide->depth());
+    program.set("toWideShadow", shadows_.wide->toTexture(eye.origin));
+    program.set("wideShadowFilter", shadows_.wide->filter());
 }
 
 // ---- The shadow map
@@ -96,6 +101,16 @@ ShadowMap::ShadowMap(gpu::Context& context, int size, const Box& casters, const 
     const double reach = 1.15 * std::max({half.x, half.y, 1e-3}), depth = 1.15 * std::max(half.z, 1e-3);
     toClip_ = glm::mat4(glm::ortho(-reach, reach, -reach, reach, -depth, depth) * glm::dmat4(toLight));
     pixelsPerMeter_ = float(size / (2 * reach));
+}
+
+bool ShadowMap::covers(const Box& box) const {
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::bvec3 high(corner & 1, corner & 2, corner & 4);
+        const glm::dvec4 place(glm::mix(box.low, box.high, high) - origin_.exact, 1);
+        const glm::dvec4 clip = glm::dmat4(toClip_) * place;
+        if (!(std::max(std::abs(clip.x), std::abs(clip.y)) <= 1)) return false;
+    }
+    return true;
 }
 
 void ShadowMap::begin() const {

@@ -19,7 +19,8 @@ class WaterLight;
 // Texture units, one for each sampler of the room.
 namespace unit {
 constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
-              order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12;
+              order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12,
+              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16;
 }
 
 struct BoundingSphere {
@@ -31,6 +32,7 @@ struct SceneBounds {
     // Bounds of the shadow casters: molecules, the models that carry them, and drawn colliders with an end.
     // All drawn models where there is none of these.
     Box casters;
+    Box models;  // of all drawn models
     // Around the molecules that are placed densely on a model and hide the sky from one another.
     BoundingSphere crown;
 };
@@ -38,13 +40,16 @@ struct SceneBounds {
 // From the start state: cheap and constant.
 SceneBounds boundsOf(const Scene& scene, const Plan& plan);
 
-// Depth as the sun sees it: one orthographic map around whatever casts the shadows that matter.
+// Depth as the sun sees it: an orthographic map around a box.
 class ShadowMap {
   public:
     ShadowMap(gpu::Context& context, int size, const Box& casters, const glm::dvec3& towardsSun);
 
     void begin() const;  // binds and clears; OpenGL's state for casters
     void end() const;
+
+    // Whether the sun's light into all of a box goes through the map.
+    bool covers(const Box& box) const;
 
     const Origin& origin() const { return origin_; }  // what `toClip` is relative to
     const glm::mat4& toClip() const { return toClip_; }
@@ -66,12 +71,19 @@ class ShadowMap {
     float pixelsPerMeter_ = 1;
 };
 
+// What the sun casts. Borrows.
+struct Shadows {
+    const ShadowMap* near = nullptr;  // of everything, about what moves; null: the sun casts no shadows
+    const ShadowMap* wide =
+        nullptr;  // of what stands still, where `near` ends; null: it does not end in view
+};
+
 class Lighting {
   public:
-    // `shadow` may be null: the sun casts none; `water` too: all is in the air. `blends`: something is
+    // `water` may be null: all is in the air. `blends`: something is
     // blended, so light is stored as it is. Borrows.
-    Lighting(const Scene& scene, const BoundingSphere& crown, const ShadowMap* shadow,
-             const WaterLight* water, bool blends);
+    Lighting(const Scene& scene, const BoundingSphere& crown, const Shadows& shadows, const WaterLight* water,
+             bool blends);
 
     // Returns the defines of programs that light surfaces; without `shadows`, of the sky's.
     std::vector<std::string> defines(bool shadows = true) const;
@@ -87,7 +99,7 @@ class Lighting {
     glm::vec3 towardsSun_{0}, sun_{0}, zenith_{0}, horizon_{0}, ground_{0};
     float fog_ = 0;
     BoundingSphere crown_;
-    const ShadowMap* shadow_;
+    Shadows shadows_;
     const WaterLight* water_;
     bool blends_;
 };

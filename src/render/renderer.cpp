@@ -8,11 +8,11 @@
 
 namespace shoal {
 
-static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Scene& scene, const Plan& plan,
+static std::unique_ptr<ShadowMap> makeShadowMap(gpu::Context& context, const Scene& scene, const Box& box,
                                                 const RenderOptions& options) {
     if (!scene.light.shadows || scene.light.intensity <= 0) return nullptr;
     const int size = std::min(options.shadowSize, context.info().maxTextureSize);
-    return std::make_unique<ShadowMap>(context, size, boundsOf(scene, plan).casters, towardsSun(scene.light));
+    return std::make_unique<ShadowMap>(context, size, box, towardsSun(scene.light));
 }
 
 static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const std::string& shaderRoot,
@@ -33,14 +33,26 @@ static double pixelsPerMeterAt(const Camera& camera, int height) {
     return height / (2 * std::tan(camera.fieldOfView / 2) * distance);
 }
 
+// Models may reach beyond what moves.
+static std::unique_ptr<ShadowMap> makeWideMap(gpu::Context& context, const Scene& scene, const Box& models,
+                                              const RenderOptions& options, const ShadowMap* near) {
+    if (!near || near->covers(models)) return nullptr;
+    return makeShadowMap(context, scene, models, options);
+}
+
 Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
                    const RenderOptions& options)
+    : Renderer(context, shaderRoot, scene, plan, options, boundsOf(scene, plan)) {}
+
+Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
+                   const RenderOptions& options, const SceneBounds& bounds)
     : context_(&context),
       options_(options),
-      shadow_(makeShadowMap(context, scene, plan, options)),
+      shadow_(makeShadowMap(context, scene, bounds.casters, options)),
+      wideShadow_(makeWideMap(context, scene, bounds.models, options, shadow_.get())),
       water_(makeWater(context, shaderRoot, scene)),
-      lighting_(scene, boundsOf(scene, plan).crown, shadow_.get(), water_.get(),
-                DrawnGroups::blends(scene, plan)),
+      lighting_(scene, bounds.crown, {shadow_.get(), wideShadow_.get()}, water_.get(),
+                DrawnGroups::blends(scene, plan) || SurfaceDrawer::blends(scene)),
       surfaces_(context, shaderRoot, scene, lighting_, shadow_.get(), options.grid || scene.models.empty()),
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
               pixelsPerMeterAt(scene.camera, options.height)),
@@ -52,6 +64,10 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
+    if (!wideShadow_) return;
+    wideShadow_->begin();
+    surfaces_.drawShadows(*wideShadow_, {});
+    wideShadow_->end();
 }
 
 void Renderer::resize(int width, int height) {
@@ -94,7 +110,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     glClear(GL_DEPTH_BUFFER_BIT);
     {
         const auto timer = timers_.time("surfaces");
-        surfaces_.draw(eye, lighting_, view.time);
+        surfaces_.draw(eye, lighting_, view.time, inputs.multisampled);
     }
     {
         const auto timer = timers_.time("molecules");
@@ -110,7 +126,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         samples_.blitDepthTo(sceneDepthTarget_);
         samples_.bind();
     }
-    if (groups_.blends()) drawBlended(state, inputs);
+    if (groups_.blends() || surfaces_.blends()) drawBlended(state, inputs, view.time);
     samples_.blitTo(lightTarget_);
     if (beams_) {
         const auto timer = timers_.time("beams");
@@ -141,10 +157,11 @@ void Renderer::drawSky(const Eye& eye) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs) {
+void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs, double time) {
     const auto timer = timers_.time("blended");
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
+    if (surfaces_.blends()) surfaces_.drawBlended(inputs.eye, lighting_, time);
     groups_.drawBlended(state, inputs);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);

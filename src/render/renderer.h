@@ -76,15 +76,18 @@ class Renderer {
     const gpu::Framebuffer& target() const { return pictureTarget_; }
 
   private:
+    Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
+             const RenderOptions& options, const SceneBounds& bounds);
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
-    void drawBlended(const StateView& state, const DrawInputs& inputs);
+    void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
     void drawPicture(double exposure);
 
     gpu::Context* context_;
     RenderOptions options_;
-    std::unique_ptr<ShadowMap> shadow_;  // null: the sun casts none
-    std::unique_ptr<WaterLight> water_;  // null: all is in the air
+    std::unique_ptr<ShadowMap> shadow_;      // null: the sun casts none
+    std::unique_ptr<ShadowMap> wideShadow_;  // drawn once; null: not needed
+    std::unique_ptr<WaterLight> water_;      // null: all is in the air
     Lighting lighting_;
     SurfaceDrawer surfaces_;
     DrawnGroups groups_;

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <utility>
+
+#include "render/picture.h"
 
 namespace shoal {
 
@@ -13,10 +16,16 @@ struct SurfaceMesh {
         glm::vec3 position{0};  // m, relative to the origin
         glm::vec3 normal{0};    // unit
         glm::vec3 color{1};     // linear RGB
+        glm::vec2 uv{0};
+    };
+    struct Piece {
+        int material = -1;  // its number in the mesh; -1: none
+        int firstIndex = 0, indexCount = 0;
     };
     glm::dvec3 origin{0};  // m
     std::vector<Corner> corners;
     std::vector<uint32_t> indices;
+    std::vector<Piece> pieces;  // empty: one of all
 };
 
 namespace {
@@ -39,11 +48,25 @@ SurfaceMesh meshOf(const Mesh& mesh) {
         corner.position = glm::vec3(mesh.positions[i] - out.origin);
         corner.normal = glm::vec3(mesh.normals[i]);
         if (!mesh.colors.empty()) corner.color = glm::vec3(mesh.colors[i]);
+        if (!mesh.uvs.empty()) corner.uv = glm::vec2(mesh.uvs[i]);
         out.corners.push_back(corner);
     }
+    // The triangles of each material one after another; of two that look alike, they are one piece.
+    std::vector<int> materialOf(mesh.triangles.size(), -1);
+    for (const Mesh::Part& part : mesh.parts)
+        std::fill_n(materialOf.begin() + part.firstTriangle, part.triangleCount, part.look);
+    std::vector<size_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](size_t a, size_t b) { return materialOf[a] < materialOf[b]; });
     out.indices.reserve(mesh.triangles.size() * 3);
-    for (const glm::ivec3& t : mesh.triangles)
+    for (const size_t i : order) {
+        if (out.pieces.empty() || out.pieces.back().material != materialOf[i])
+            out.pieces.push_back({materialOf[i], int(out.indices.size()), 0});
+        out.pieces.back().indexCount += 3;
+        const glm::ivec3& t = mesh.triangles[i];
         out.indices.insert(out.indices.end(), {uint32_t(t[0]), uint32_t(t[1]), uint32_t(t[2])});
+    }
     return out;
 }
 
@@ -69,7 +92,7 @@ SurfaceMesh meshOf(const SphereCollider& sphere) {
         const double polar = pi * i / rings;
         const glm::dvec3 n(std::sin(polar) * std::sin(turn), std::cos(polar),
                            std::sin(polar) * std::cos(turn));
-        return SurfaceMesh::Corner{glm::vec3(sphere.radius * n), glm::vec3(n), glm::vec3(1)};
+        return SurfaceMesh::Corner{glm::vec3(sphere.radius * n), glm::vec3(n)};
     });
     return out;
 }
@@ -87,7 +110,7 @@ SurfaceMesh meshOf(const BoxCollider& box) {
             const uint32_t first = uint32_t(out.corners.size());
             for (const glm::dvec2 at : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}}) {
                 const glm::dvec3 place = 0.5 * box.size * (n + at.x * u + at.y * v);
-                out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n), glm::vec3(1)});
+                out.corners.push_back({glm::vec3(turn * place), glm::vec3(turn * n)});
             }
             out.indices.insert(out.indices.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
         }
@@ -109,8 +132,8 @@ SurfaceMesh meshOf(const CapsuleCollider& capsule) {
         const double polar = pi * (far ? i : i - 1) / (2 * (rings - 1));
         const glm::dvec3 n =
             std::cos(polar) * axis + std::sin(polar) * (std::cos(turn) * u + std::sin(turn) * v);
-        return SurfaceMesh::Corner{glm::vec3(capsule.radius * n + (far ? span : glm::dvec3(0))), glm::vec3(n),
-                                   glm::vec3(1)};
+        return SurfaceMesh::Corner{glm::vec3(capsule.radius * n + (far ? span : glm::dvec3(0))),
+                                   glm::vec3(n)};
     });
     return out;
 }
@@ -124,7 +147,7 @@ SurfaceMesh meshOf(const PlaneCollider& plane) {
     addRings(out, rings + 1, segments, [&, &u = along, &v = across](int i, double turn) {
         const double radius = std::pow(double(i) / rings, 3);
         const glm::dvec3 place = radius * (std::cos(turn) * u + std::sin(turn) * v);
-        return SurfaceMesh::Corner{glm::vec3(place), glm::vec3(normal), glm::vec3(1)};
+        return SurfaceMesh::Corner{glm::vec3(place), glm::vec3(normal)};
     });
     return out;
 }
@@ -151,56 +174,91 @@ glm::dvec3 placed(const Pose& pose, const glm::dvec3& x) {
 
 }  // namespace
 
+static bool blended(const SurfaceMaterial& material) {
+    return material.alpha == SurfaceMaterial::Alpha::blend;
+}
+
+bool SurfaceDrawer::blends(const Scene& scene) {
+    return std::any_of(scene.models.begin(), scene.models.end(), [](const Model& model) {
+        return model.draw && std::any_of(model.mesh.materials.begin(), model.mesh.materials.end(), blended);
+    });
+}
+
+static gpu::Texture imageTexture(gpu::Context& context, Image image, bool srgb, const std::string& label) {
+    turnOver(image);
+    gpu::Texture texture(context, srgb ? gpu::Format::srgb8a8 : gpu::Format::rgba8, image.width, image.height,
+                         label.c_str());
+    texture.upload(gpu::Traffic::Kind::parameters, 0, 0, image.width, image.height, image.pixels.data(),
+                   image.pixels.size());
+    texture.setLinear(true, true);
+    return texture;
+}
+
+SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Model& model) {
+    Drawn drawn;
+    drawn.detail = float(model.grain);
+    const Mesh& mesh = model.mesh;
+    std::vector<bool> colors(mesh.images.size());
+    for (const SurfaceMaterial& material : mesh.materials)
+        for (const int image : {material.colorImage, material.emissiveImage})
+            if (image >= 0) colors[size_t(image)] = true;
+    for (size_t i = 0; i < mesh.images.size(); ++i)
+        drawn.images.push_back(imageTexture(context, mesh.images[i], colors[i], model.name));
+    return drawn;
+}
+
 SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
                              const Lighting& lighting, const ShadowMap* shadow, bool grid) {
     for (const Model& model : scene.models) {
         if (!model.draw || model.mesh.triangles.empty()) continue;
-        Drawn drawn;
-        drawn.color = glm::vec3(model.color);
-        drawn.roughness = float(model.roughness);
-        drawn.detail = float(model.grain);
-        add(context, meshOf(model.mesh), std::move(drawn), model.name.c_str());
+        Drawn drawn = drawnModel(context, model);
+        const SurfaceMesh mesh = meshOf(model.mesh);
+        for (const SurfaceMesh::Piece& piece : mesh.pieces) {
+            Look look;
+            if (piece.material >= 0) look.material = model.mesh.materials[size_t(piece.material)];
+            look.material.color *= glm::dvec4(model.color, 1);
+            if (model.roughness) look.material.roughness = *model.roughness;
+            look.firstIndex = piece.firstIndex;
+            look.indexCount = piece.indexCount;
+            drawn.looks.push_back(look);
+        }
+        add(context, mesh, std::move(drawn), model.name.c_str());
     }
-    bool planes = false;
     for (const Collider& collider : scene.colliders) {
         if (!collider.draw) continue;
         const SurfaceMesh mesh = std::visit([](const auto& kind) { return meshOf(kind); }, *collider.shape);
         if (mesh.indices.empty()) continue;
         Drawn drawn;
-        drawn.color = glm::vec3(collider.color);
+        Look look;
+        look.material.color = glm::dvec4(collider.color, 1);
+        look.indexCount = int(mesh.indices.size());
         drawn.path = collider.path;
         if (const auto* plane = std::get_if<PlaneCollider>(&*collider.shape)) {
             drawn.plane = *plane;
             drawn.casts = false;
             drawn.detail = grid ? 0.35f : 0.9f;
-            planes = true;
         } else {
-            drawn.roughness = 0.5f;
+            look.material.roughness = 0.5;
         }
+        drawn.looks.push_back(look);
         add(context, mesh, std::move(drawn), collider.name.c_str());
     }
-    if (surfaces_.empty()) return;
-
-    gpu::ProgramOptions options{
-        "render/surface.vert", "render/surface.frag", lighting.defines(), {}, "surfaces"};
-    lit_ = gpu::Program(context, shaderRoot, options);
-    if (planes) {
-        options.defines.push_back("PLANE");
-        options.label = "planes";
-        litPlane_ = gpu::Program(context, shaderRoot, options);
-        litPlane_.use();
-        litPlane_.set("grid", int(grid));
-    }
-    if (shadow != nullptr)
-        depth_ = gpu::Program(
-            context, shaderRoot,
-            {"render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"});
+    choosePrograms(context, shaderRoot, lighting, shadow != nullptr, grid);
 }
 
 void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label) {
     using Corner = SurfaceMesh::Corner;
     drawn.origin = mesh.origin;
-    drawn.indexCount = int(mesh.indices.size());
+    for (Look& look : drawn.looks) {
+        glm::vec3 low(INFINITY), high(-INFINITY);
+        for (int i = 0; i < look.indexCount; ++i) {
+            const glm::vec3& at = mesh.corners[mesh.indices[size_t(look.firstIndex + i)]].position;
+            low = glm::min(low, at);
+            high = glm::max(high, at);
+        }
+        look.middle = 0.5f * (low + high);
+        blends_ = blends_ || blended(look.material);
+    }
     drawn.corners =
         gpu::Buffer(context, gpu::Buffer::Use::vertex, std::span<const Corner>(mesh.corners), label);
     drawn.indices =
@@ -209,25 +267,70 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
     drawn.array.attribute(0, drawn.corners, 3, sizeof(Corner), offsetof(Corner, position));
     drawn.array.attribute(1, drawn.corners, 3, sizeof(Corner), offsetof(Corner, normal));
     drawn.array.attribute(2, drawn.corners, 3, sizeof(Corner), offsetof(Corner, color));
+    drawn.array.attribute(3, drawn.corners, 2, sizeof(Corner), offsetof(Corner, uv));
     drawn.array.indices(drawn.indices);
     surfaces_.push_back(std::move(drawn));
 }
 
-void SurfaceDrawer::submit(const Drawn& surface) const {
-    surface.array.bind();
-    glDrawElements(GL_TRIANGLES, surface.indexCount, GL_UNSIGNED_INT, nullptr);
+// A program for each set of images that a material has.
+void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& shaderRoot,
+                                   const Lighting& lighting, bool shadows, bool grid) {
+    using Alpha = SurfaceMaterial::Alpha;
+    for (Drawn& surface : surfaces_) {
+        for (Look& look : surface.looks) {
+            const SurfaceMaterial& material = look.material;
+            gpu::ProgramOptions lit{
+                "render/surface.vert", "render/surface.frag", lighting.defines(), {}, "surfaces"};
+            const auto define = [&](bool needed, const char* name) {
+                if (needed) lit.defines.emplace_back(name);
+            };
+            define(surface.plane.has_value(), "PLANE");
+            define(material.colorImage >= 0, "COLOR_IMAGE");
+            define(material.normalImage >= 0, "NORMAL_IMAGE");
+            define(material.roughnessImage >= 0, "ROUGHNESS_IMAGE");
+            define(material.emissiveImage >= 0, "EMISSIVE_IMAGE");
+            define(material.alpha == Alpha::cut && material.colorImage >= 0, "CUT");
+            if (surface.plane) lit.label = "planes";
+            look.lit = &programs_.get(context, shaderRoot, lit);
+            if (surface.plane) {
+                look.lit->use();
+                look.lit->set("grid", int(grid));
+            }
+            if (!shadows || !surface.casts || blended(material)) continue;
+            gpu::ProgramOptions depth{
+                "render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"};
+            if (material.alpha == Alpha::cut && material.colorImage >= 0)
+                depth.defines.insert(depth.defines.end(), {"COLOR_IMAGE", "CUT"});
+            look.depth = &programs_.get(context, shaderRoot, depth);
+        }
+    }
 }
 
-void SurfaceDrawer::drawShadows(const ShadowMap& shadow, double time) const {
+void SurfaceDrawer::submit(const Drawn& surface, const Look& look) const {
+    surface.array.bind();
+    glDrawElements(GL_TRIANGLES, look.indexCount, GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(size_t(look.firstIndex) * sizeof(uint32_t)));
+}
+
+void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> time) const {
     for (const Drawn& surface : surfaces_) {
-        if (!surface.casts) continue;
-        depth_.use();
-        depth_.set("toClip", shadow.toClip());
-        const Pose pose = poseOf(surface.path, time);
-        depth_.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
-        depth_.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
-        depth_.set("meshScale", 1.0f);
-        submit(surface);
+        if (surface.path && !time) continue;
+        const Pose pose = poseOf(surface.path, time.value_or(0));
+        for (const Look& look : surface.looks) {
+            if (!look.depth) continue;
+            const gpu::Program& program = *look.depth;
+            program.use();
+            program.set("toClip", shadow.toClip());
+            program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
+            program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
+            program.set("meshScale", 1.0f);
+            if (look.material.alpha == SurfaceMaterial::Alpha::cut && look.material.colorImage >= 0) {
+                program.texture("image", unit::image, surface.images[size_t(look.material.colorImage)]);
+                program.set("alphaCut", float(look.material.alphaCut));
+                program.set("meshColor", glm::vec4(look.material.color));
+            }
+            submit(surface, look);
+        }
     }
 }
 
@@ -251,27 +354,72 @@ void SurfaceDrawer::placePlane(const gpu::Program& program, const PlaneCollider&
     program.set("grainOffset", glm::vec3(foot - kilometres));
 }
 
-void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time) const {
-    for (const Drawn& surface : surfaces_) {
-        const gpu::Program& program = surface.plane ? litPlane_ : lit_;
-        program.use();
-        lighting.apply(program, eye);
-        program.set("toClip", eye.toClip);
-        program.set("meshColor", surface.color);
-        program.set("roughness", surface.roughness);
-        program.set("detail", surface.detail);
-        const Pose pose = poseOf(surface.path, time);
-        program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
-        if (surface.plane) {
-            placePlane(program, {placed(pose, surface.plane->point), pose.rotation * surface.plane->normal},
-                       eye);
-        } else {
-            program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - eye.origin.exact));
-            program.set("meshScale", 1.0f);
-            program.set("grainOffset", glm::vec3(0));
-        }
-        submit(surface);
+void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& eye, const Lighting& lighting,
+                             double time) const {
+    const gpu::Program& program = *look.lit;
+    const SurfaceMaterial& material = look.material;
+    program.use();
+    lighting.apply(program, eye);
+    program.set("toClip", eye.toClip);
+    program.set("meshColor", glm::vec4(material.color));
+    program.set("emissive", glm::vec3(material.emissive));
+    program.set("roughness", float(material.roughness));
+    program.set("metallic", float(material.metallic));
+    program.set("detail", surface.detail);
+    const auto image = [&](const char* name, int textureUnit, int number) {
+        if (number >= 0) program.texture(name, textureUnit, surface.images[size_t(number)]);
+    };
+    image("image", unit::image, material.colorImage);
+    image("normalImage", unit::normalImage, material.normalImage);
+    image("roughnessImage", unit::roughnessImage, material.roughnessImage);
+    image("emissiveImage", unit::emissiveImage, material.emissiveImage);
+    if (material.normalImage >= 0) program.set("normalScale", float(material.normalScale));
+    if (material.alpha == SurfaceMaterial::Alpha::cut && material.colorImage >= 0)
+        program.set("alphaCut", float(material.alphaCut));
+    const Pose pose = poseOf(surface.path, time);
+    program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
+    if (surface.plane) {
+        placePlane(program, {placed(pose, surface.plane->point), pose.rotation * surface.plane->normal}, eye);
+    } else {
+        program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - eye.origin.exact));
+        program.set("meshScale", 1.0f);
+        program.set("grainOffset", glm::vec3(0));
     }
+    submit(surface, look);
+}
+
+void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time, bool multisampled) const {
+    for (const Drawn& surface : surfaces_)
+        for (const Look& look : surface.looks) {
+            if (blended(look.material)) continue;
+            const bool covers = multisampled && look.material.alpha == SurfaceMaterial::Alpha::cut;
+            if (covers) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+            drawLook(surface, look, eye, lighting, time);
+            if (covers) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+        }
+}
+
+void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double time) const {
+    struct Far {
+        double distance;
+        const Drawn* surface;
+        const Look* look;
+    };
+    std::vector<Far> order;
+    for (const Drawn& surface : surfaces_)
+        for (const Look& look : surface.looks)
+            if (blended(look.material))
+                order.push_back(
+                    {glm::distance(placed(poseOf(surface.path, time), surface.origin + look.middle),
+                                   eye.origin.exact),
+                     &surface, &look});
+    std::stable_sort(order.begin(), order.end(),
+                     [](const Far& a, const Far& b) { return a.distance > b.distance; });
+    glEnable(GL_BLEND);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    for (const Far& one : order)
+        drawLook(*one.surface, *one.look, eye, lighting, time);
+    glDisable(GL_BLEND);
 }
 
 }  // namespace shoal

@@ -7,6 +7,7 @@
 
 #include "gpu/buffer.h"
 #include "gpu/program.h"
+#include "gpu/texture.h"
 #include "render/lighting.h"
 #include "render/view.h"
 #include "scene/collider_kinds.h"
@@ -21,28 +22,47 @@ class SurfaceDrawer {
     SurfaceDrawer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene,
                   const Lighting& lighting, const ShadowMap* shadow, bool grid);
 
-    void drawShadows(const ShadowMap& shadow, double time) const;
-    void draw(const Eye& eye, const Lighting& lighting, double time) const;
+    static bool blends(const Scene& scene);  // whether a model has a part that is blended with what is behind
+    bool blends() const { return blends_; }
+
+    // Without a time: of what stands still.
+    void drawShadows(const ShadowMap& shadow, std::optional<double> time) const;
+    void draw(const Eye& eye, const Lighting& lighting, double time, bool multisampled) const;
+    void drawBlended(const Eye& eye, const Lighting& lighting, double time) const;  // from back to front
 
   private:
+    // The triangles of a mesh that look alike.
+    struct Look {
+        SurfaceMaterial material;
+        int firstIndex = 0, indexCount = 0;
+        glm::dvec3 middle{0};  // m, relative to the mesh's origin: orders what is blended
+        const gpu::Program* lit = nullptr;
+        const gpu::Program* depth = nullptr;  // null: casts no shadow
+    };
     struct Drawn {
         glm::dvec3 origin{0};  // m, of the mesh
-        glm::vec3 color{1};
-        float roughness = 0.9f, detail = 0;
+        float detail = 0;
         bool casts = true;
-        int indexCount = 0;
+        std::vector<Look> looks;
+        std::vector<gpu::Texture> images;  // as the materials number them
         gpu::Buffer corners, indices;
         gpu::VertexArray array;
         std::optional<PlaneCollider> plane;  // the mesh follows the eye along it
         std::optional<ColliderPath> path;    // of a collider that moves
     };
 
+    static Drawn drawnModel(gpu::Context& context, const Model& model);
     void add(gpu::Context& context, const SurfaceMesh& mesh, Drawn drawn, const char* label);
-    void submit(const Drawn& surface) const;
+    void choosePrograms(gpu::Context& context, const std::string& shaderRoot, const Lighting& lighting,
+                        bool shadows, bool grid);
+    void submit(const Drawn& surface, const Look& look) const;
+    void drawLook(const Drawn& surface, const Look& look, const Eye& eye, const Lighting& lighting,
+                  double time) const;
     void placePlane(const gpu::Program& program, const PlaneCollider& plane, const Eye& eye) const;
 
-    gpu::Program lit_, litPlane_, depth_;
+    gpu::Programs programs_;
     std::vector<Drawn> surfaces_;
+    bool blends_ = false;
 };
 
 }  // namespace shoal

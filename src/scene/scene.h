@@ -37,9 +37,9 @@ struct Model {
     glm::dquat rotation{1, 0, 0, 0};
     double scale = 1;
     bool draw = true;
-    glm::dvec3 color{1};  // multiplies the vertex colours
-    double roughness = 0.9;
-    double grain = 1;  // strength of the drawn grain: soil and grass on what faces up, else bark; in [0, 1]
+    glm::dvec3 color{1};              // multiplies its own
+    std::optional<double> roughness;  // in [0, 1]; nothing: as its materials say
+    double grain = 0;  // strength of the drawn grain: soil and grass on what faces up, else bark; in [0, 1]
     Mesh mesh;         // in scene coordinates: position, rotation and scale applied
 };
 

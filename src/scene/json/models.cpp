@@ -26,13 +26,15 @@ void placeMesh(Mesh& mesh, const Model& model) {
     }
 }
 
-void load(Model& model, const Where& where) {
+void load(Model& model, const Where& where, SceneReading& reading) {
     if (!where.given("name")) model.name = std::filesystem::path(model.file).stem().string();
     try {
         model.mesh = loadMesh(model.file);
     } catch (const Error& error) {
         throw Error(where.at("file"), error.what());
     }
+    for (const std::string& note : model.mesh.notes)
+        reading.warnings.push_back({where.at("file"), concat("model \"", model.name, "\": ", note)});
     placeMesh(model.mesh, model);
 }
 
@@ -72,7 +74,7 @@ const Description& describe(const Model*) {
                     {"the name of a file",
                      "Any format that Assimp reads, within [limits of time and "
                      "memory](architecture.md#errors); transforms of nodes are applied, "
-                     "and vertices are welded by position."},
+                     "and vertices are welded by position. [Materials](#materials-of-models) come with it."},
                     readFileOf)
             .needed()
             .key("name", &Model::name, {"", "Its name; no two have the same."})
@@ -81,8 +83,10 @@ const Description& describe(const Model*) {
             .rotation("rotation", &Model::rotation, {"", "How it is turned."})
             .key("scale", &Model::scale, {"", "Its size.", aboveZero()})
             .key("draw", &Model::draw, {"", "Whether it is drawn."})
-            .color("color", &Model::color, {"", "What multiplies the colours of its vertices."})
+            .color("color", &Model::color,
+                   {"", "What multiplies the colours of its materials, images and vertices."})
             .key("roughness", &Model::roughness, {"", "How dull it is.", Range::between(0, 1)})
+            .usually("as its materials say, else 0.9")
             .key("grain", &Model::grain,
                  {"", "The strength of the drawn grain: soil and grass on what faces up, else bark.",
                   Range::between(0, 1)})

@@ -1,0 +1,326 @@
+#include "geometry/load_materials.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include <assimp/GltfMaterial.h>
+#include <assimp/scene.h>
+
+#include "core/error.h"
+#include "core/file.h"
+#include "geometry/mesh.h"
+
+namespace shoal {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+// Half as wide and high; each texel is the mean of four.
+Image halved(const Image& image) {
+    Image out{std::max(image.width / 2, 1), std::max(image.height / 2, 1), 4, {}};
+    out.pixels.reserve(size_t(out.width) * size_t(out.height) * 4);
+    const auto texel = [&](int x, int y, int channel) {
+        const size_t at = size_t(std::min(y, image.height - 1)) * size_t(image.width) +
+                          size_t(std::min(x, image.width - 1));
+        return int(image.pixels[at * 4 + size_t(channel)]);
+    };
+    for (int y = 0; y < out.height; ++y)
+        for (int x = 0; x < out.width; ++x)
+            for (int c = 0; c < 4; ++c)
+                out.pixels.push_back(
+                    uint8_t((texel(2 * x, 2 * y, c) + texel(2 * x + 1, 2 * y, c) +
+                             texel(2 * x, 2 * y + 1, c) + texel(2 * x + 1, 2 * y + 1, c) + 2) /
+                            4));
+    return out;
+}
+
+// The texels of an embedded image that the file holds as they are.
+Image uncompressed(const aiTexture& texture) {
+    Image out{int(texture.mWidth), int(texture.mHeight), 4, {}};
+    if (out.width > maxImageSide || out.height > maxImageSide ||
+        size_t(out.width) * size_t(out.height) > maxImageTexels)
+        throw Error("is ", out.width, " x ", out.height, " texels large");
+    for (size_t i = 0; i < size_t(out.width) * size_t(out.height); ++i) {
+        const aiTexel& t = texture.pcData[i];
+        out.pixels.insert(out.pixels.end(), {t.r, t.g, t.b, t.a});
+    }
+    return out;
+}
+
+bool anyTransparent(const Image& image) {
+    for (size_t i = 3; i < image.pixels.size(); i += 4)
+        if (image.pixels[i] < 250) return true;
+    return false;
+}
+
+class MaterialReader {
+  public:
+    MaterialReader(const aiScene& scene, const std::string& file, const std::function<void(uint64_t)>& opened,
+                   Mesh& mesh)
+        : scene_(scene), folder_(fs::path(file).parent_path()), opened_(opened), mesh_(mesh) {}
+
+    void read(const aiMaterial& material) {
+        material_ = &material;
+        aiString name;
+        material.Get(AI_MATKEY_NAME, name);
+        name_ = name.C_Str();
+        SurfaceMaterial out;
+        // What Assimp puts in where the file has no material says nothing of the model.
+        if (name_ != AI_DEFAULT_MATERIAL_NAME) {
+            out.colorImage = imageOf("colour", {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE});
+            readColor(out);
+            readSurface(out);
+            readAlpha(out);
+            tellDropped();
+        }
+        mesh_.materials.push_back(out);
+    }
+
+  private:
+    void note(const std::string& what) { mesh_.notes.push_back(concat("material \"", name_, "\": ", what)); }
+
+    template <typename T, typename... Key>
+    std::optional<T> get(Key... key) const {
+        T value{};
+        if (material_->Get(key..., value) != AI_SUCCESS) return std::nullopt;
+        return value;
+    }
+    std::optional<double> number(const char* key, unsigned type, unsigned index) const {
+        const std::optional<float> value = get<float>(key, type, index);
+        if (!value || !std::isfinite(*value)) return std::nullopt;
+        return double(*value);
+    }
+    std::optional<double> share(const char* key, unsigned type, unsigned index) const {
+        const std::optional<double> value = number(key, type, index);
+        if (!value) return std::nullopt;
+        return std::clamp(*value, 0.0, 1.0);
+    }
+    std::optional<glm::dvec3> color(const char* key, unsigned type, unsigned index) const {
+        const std::optional<aiColor4D> c = get<aiColor4D>(key, type, index);
+        if (!c || !std::isfinite(c->r + c->g + c->b)) return std::nullopt;
+        return glm::max(glm::dvec3(c->r, c->g, c->b), 0.0);
+    }
+
+    void readColor(SurfaceMaterial& out) {
+        std::optional<glm::dvec3> base = color(AI_MATKEY_BASE_COLOR);
+        if (!base) {
+            base = color(AI_MATKEY_COLOR_DIFFUSE);
+            // Exporters leave the factor of an image at black.
+            if (base == glm::dvec3(0) && out.colorImage >= 0) base.reset();
+        }
+        out.color = glm::dvec4(glm::min(base.value_or(glm::dvec3(1)), 1.0), 1);
+        out.emissive = color(AI_MATKEY_COLOR_EMISSIVE).value_or(glm::dvec3(0));
+        const bool black = out.emissive == glm::dvec3(0);
+        if (black && get<aiString>(AI_MATKEY_GLTF_ALPHAMODE)) return;  // in glTF the factor counts
+        out.emissiveImage = imageOf("emissive", {aiTextureType_EMISSION_COLOR, aiTextureType_EMISSIVE});
+        if (black && out.emissiveImage >= 0) out.emissive = glm::dvec3(1);
+    }
+
+    void readSurface(SurfaceMaterial& out) {
+        out.metallic = share(AI_MATKEY_METALLIC_FACTOR).value_or(0);
+        if (const auto roughness = share(AI_MATKEY_ROUGHNESS_FACTOR)) {
+            out.roughness = *roughness;
+        } else if (const auto gloss = share(AI_MATKEY_GLOSSINESS_FACTOR)) {
+            out.roughness = 1 - *gloss;
+        } else if (const auto exponent = number(AI_MATKEY_SHININESS); exponent && *exponent > 0) {
+            // Blinn and Phong's exponent n is as wide a lobe as roughness^4 = 2 / (n + 2) [Karis 2013].
+            out.roughness = std::clamp(std::pow(2 / (*exponent + 2), 0.25), 0.2, 1.0);
+        }
+        out.roughnessImage = imageOf("roughness", {aiTextureType_METALNESS, aiTextureType_DIFFUSE_ROUGHNESS});
+        if (out.roughnessImage < 0 &&
+            material_->GetTextureCount(aiTextureType_UNKNOWN) > 0)  // glTF's, where Assimp has no name for it
+            out.roughnessImage = imageOf("roughness", {aiTextureType_UNKNOWN});
+        out.normalImage = imageOf("normal", {aiTextureType_NORMAL_CAMERA, aiTextureType_NORMALS});
+        out.normalScale = number(AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
+    }
+
+    void readAlpha(SurfaceMaterial& out) {
+        const double opacity = share(AI_MATKEY_OPACITY).value_or(1);
+        if (const std::optional<aiString> mode = get<aiString>(AI_MATKEY_GLTF_ALPHAMODE)) {
+            const std::string word = mode->C_Str();
+            out.alpha = word == "BLEND"  ? SurfaceMaterial::Alpha::blend
+                        : word == "MASK" ? SurfaceMaterial::Alpha::cut
+                                         : SurfaceMaterial::Alpha::opaque;
+            out.alphaCut = share(AI_MATKEY_GLTF_ALPHACUTOFF).value_or(0.5);
+            if (out.alpha != SurfaceMaterial::Alpha::opaque) out.color.a = opacity;
+            return;
+        }
+        if (opacity <= 0) {
+            note("it is wholly transparent in the file, and drawn opaque");
+        } else if (opacity < 1) {
+            out.alpha = SurfaceMaterial::Alpha::blend;
+            out.color.a = opacity;
+        }
+        const int mask = imageOf("opacity", {aiTextureType_OPACITY});
+        if (mask >= 0) out.colorImage = masked(out.colorImage, mask);
+        if (out.alpha == SurfaceMaterial::Alpha::opaque && out.colorImage >= 0 &&
+            anyTransparent(mesh_.images[size_t(out.colorImage)]))
+            out.alpha = SurfaceMaterial::Alpha::cut;
+    }
+
+    // A colour image whose alpha is another's: its alpha, or its brightness where it has none. Its number.
+    int masked(int colorImage, int mask) {
+        if (colorImage == mask) return colorImage;
+        Image out = mesh_.images[size_t(mask)];
+        const bool hasAlpha = anyTransparent(out);
+        const Image* colors = colorImage >= 0 ? &mesh_.images[size_t(colorImage)] : nullptr;
+        for (int y = 0; y < out.height; ++y)
+            for (int x = 0; x < out.width; ++x) {
+                uint8_t* texel = &out.pixels[(size_t(y) * size_t(out.width) + size_t(x)) * 4];
+                if (!hasAlpha) texel[3] = std::max({texel[0], texel[1], texel[2]});
+                const uint8_t white[3] = {255, 255, 255};
+                const uint8_t* from = white;
+                if (colors) {
+                    const size_t u = size_t(x) * size_t(colors->width) / size_t(out.width);
+                    const size_t v = size_t(y) * size_t(colors->height) / size_t(out.height);
+                    from = &colors->pixels[(v * size_t(colors->width) + u) * 4];
+                }
+                std::copy_n(from, 3, texel);
+            }
+        mesh_.images.push_back(std::move(out));
+        return int(mesh_.images.size()) - 1;
+    }
+
+    void tellDropped() {
+        std::string dropped;
+        const auto drop = [&](aiTextureType type, const char* name) {
+            if (material_->GetTextureCount(type) > 0)
+                dropped += (dropped.empty() ? "" : ", ") + std::string(name);
+        };
+        drop(aiTextureType_AMBIENT_OCCLUSION, "occlusion");
+        drop(aiTextureType_LIGHTMAP, "occlusion");
+        drop(aiTextureType_HEIGHT, "bumps");
+        drop(aiTextureType_DISPLACEMENT, "displacement");
+        drop(aiTextureType_SPECULAR, "specular");
+        drop(aiTextureType_SHININESS, "shininess");
+        drop(aiTextureType_REFLECTION, "reflection");
+        drop(aiTextureType_CLEARCOAT, "clear coat");
+        drop(aiTextureType_SHEEN, "sheen");
+        drop(aiTextureType_TRANSMISSION, "transmission");
+        if (!dropped.empty()) note(concat("its images of ", dropped, " are not drawn"));
+    }
+
+    // The number of the first image of one of these types; -1: there is none, or it cannot be read.
+    int imageOf(const char* what, std::initializer_list<aiTextureType> types) {
+        for (const aiTextureType type : types) {
+            aiString path;
+            unsigned uvs = 0;
+            if (material_->GetTexture(type, 0, &path, nullptr, &uvs) != AI_SUCCESS) continue;
+            if (const unsigned first = textureCoordinatesOf(*material_).set; uvs != first)
+                note(concat("its ", what, " image lies by set ", first,
+                            " of its texture coordinates, where the colour lies, not by set ", uvs));
+            return load(path.C_Str(), what);
+        }
+        return -1;
+    }
+
+    int load(const std::string& path, const char* what) {
+        const auto [known, fresh] = numbers_.try_emplace(path, -1);
+        if (!fresh) return known->second;
+        try {
+            Image image = read(path);
+            while (std::max(image.width, image.height) > largestModelImage)
+                image = halved(image);
+            mesh_.images.push_back(std::move(image));
+            known->second = int(mesh_.images.size()) - 1;
+        } catch (const Error& error) {
+            note(concat("its ", what, " image is left out: ", error.what()));
+        }
+        return known->second;
+    }
+
+    Image read(const std::string& path) const {
+        if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
+            if (embedded->mHeight > 0) return uncompressed(*embedded);
+            const auto* bytes = reinterpret_cast<const char*>(embedded->pcData);
+            return decodeImage(std::string(bytes, embedded->mWidth), path.empty() ? "an image" : path);
+        }
+        const fs::path file = find(path);
+        std::error_code code;
+        const uint64_t bytes = fs::file_size(file, code);
+        if (!code) opened_(bytes);
+        return decodeImage(readFile(file), file.string());
+    }
+
+    // Paths are of the machine on which the model was made, whose names may not tell "A" from "a".
+    fs::path find(std::string path) const {
+        std::replace(path.begin(), path.end(), '\\', '/');
+        const fs::path written(path), name = written.filename();
+        std::error_code code;
+        const auto readable = [&](const fs::path& at) {
+            return mayOpen(at) && fs::is_regular_file(at, code);
+        };
+        if (readable(folder_ / written)) return folder_ / written;
+        for (const fs::path& folder : {folder_, folder_ / "textures", folder_.parent_path() / "textures"}) {
+            if (readable(folder / name)) return folder / name;
+            const fs::path beside = folder.empty() ? "." : folder;
+            for (fs::directory_iterator at(beside, code), end; !code && at != end; at.increment(code))
+                if (lowered(at->path().filename()) == lowered(name) && readable(at->path()))
+                    return at->path();
+        }
+        throw Error("there is no ", name.empty() ? fs::path("file") : name, " beside the model");
+    }
+
+    static std::string lowered(const fs::path& name) {
+        std::string text = name.string();
+        std::transform(text.begin(), text.end(), text.begin(),
+                       [](unsigned char c) { return std::tolower(c); });
+        return text;
+    }
+
+    const aiScene& scene_;
+    fs::path folder_;
+    const std::function<void(uint64_t)>& opened_;
+    Mesh& mesh_;
+    const aiMaterial* material_ = nullptr;
+    std::string name_;
+    std::map<std::string, int> numbers_;  // of images, by their paths in the file
+};
+
+}  // namespace
+
+TextureCoordinates textureCoordinatesOf(const aiMaterial& material) {
+    TextureCoordinates out;
+    for (unsigned i = 1; i <= AI_TEXTURE_TYPE_MAX; ++i) {  // those of colour come first
+        const auto type = aiTextureType(i);
+        aiString path;
+        if (material.GetTexture(type, 0, &path, nullptr, &out.set) != AI_SUCCESS) continue;
+        aiUVTransform moved;
+        if (material.Get(AI_MATKEY_UVTRANSFORM(type, 0), moved) != AI_SUCCESS) break;
+        const double c = std::cos(moved.mRotation), s = std::sin(moved.mRotation);
+        const glm::dvec2 scale(moved.mScaling.x, moved.mScaling.y);
+        glm::dvec2 offset(moved.mTranslation.x, moved.mTranslation.y);
+        aiString mode;
+        if (material.Get(AI_MATKEY_GLTF_ALPHAMODE, mode) == AI_SUCCESS) {
+            // Assimp has turned glTF's shift, of images whose v points down, into one about the image's
+            // middle.
+            offset.x -= 0.5 * scale.x * (1 - c - s);
+            offset.y -= 0.5 * scale.y * (c - s - 1) + 1 - scale.y;
+            const glm::dmat3 upsideDown(1, 0, 0, 0, -1, 0, 0, 1, 1);
+            const glm::dmat3 turned(c * scale.x, s * scale.x, 0, -s * scale.y, c * scale.y, 0, offset.x,
+                                    -offset.y, 1);
+            out.transform = upsideDown * turned * upsideDown;
+        } else {
+            out.transform =
+                glm::dmat3(c * scale.x, s * scale.x, 0, -s * scale.y, c * scale.y, 0, offset.x, offset.y, 1);
+        }
+        for (int column = 0; column < 3; ++column)
+            if (!std::isfinite(glm::dot(out.transform[column], glm::dvec3(1)))) out.transform = glm::dmat3(1);
+        break;
+    }
+    return out;
+}
+
+void readMaterials(const aiScene& scene, const std::string& file, const std::function<void(uint64_t)>& opened,
+                   Mesh& mesh) {
+    MaterialReader reader(scene, file, opened, mesh);
+    for (unsigned i = 0; i < scene.mNumMaterials; ++i)
+        reader.read(*scene.mMaterials[i]);
+}
+
+}  // namespace shoal
