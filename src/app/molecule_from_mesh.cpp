@@ -44,8 +44,10 @@ void checkOutput(const MoleculeOptions& options) {
 
 MadeMolecule make(const std::string& file, const Mesh& mesh, const MoleculeOptions& options) {
     MadeMolecule made;
+    FromMesh asked = options.fromMesh;
+    asked.images = options.texture.empty() && options.color.empty();
     try {
-        made = makeMolecule(mesh, options.fromMesh);
+        made = makeMolecule(mesh, asked);
     } catch (const Error& error) {
         throw Error(Location{file, 0, 0, {}}, error.message());
     }
@@ -58,6 +60,19 @@ MadeMolecule make(const std::string& file, const Mesh& mesh, const MoleculeOptio
     if (!options.texture.empty() && !options.output.empty())
         readPng(fs::path(options.output).parent_path() / options.texture);
     return made;
+}
+
+// The image of the skin's colours, beside the molecule's file.
+void writeImage(const MoleculeOptions& options, MadeMolecule& made) {
+    if (!made.image) return;
+    const fs::path file = fs::path(options.output).replace_extension(".png");
+    std::error_code code;
+    if (fs::exists(file, code) && !options.force)
+        throw Error(Location{file.string(), 0, 0, {}},
+                    "is there already, and would hold the skin's colours: give --force to write over it, or "
+                    "--texture to use it");
+    writePng(file, *made.image);
+    made.molecule.material.texture = file.filename().string();
 }
 
 // Reads the written file back for the report, so that anything lost in writing would show.
@@ -109,7 +124,10 @@ std::string asText(const Report& r) {
     if (!molecule.skin.empty())
         out += concat("\n  skin: ", many(molecule.skin.vertices.size(), "vertex", "vertices"), ", ",
                       many(molecule.skin.triangles.size(), "triangle", "triangles"), ", at rest within ",
-                      round3(made.skinError / molecule.size()), " of its size");
+                      round3(made.skinError / molecule.size()), " of its size",
+                      made.image ? concat(", coloured by an image of ", made.image->width, " x ",
+                                          made.image->height, " texels")
+                                 : "");
     out += "\n";
     for (const std::string& note : made.notes)
         out += "  note: " + printable(note) + "\n";
@@ -158,7 +176,10 @@ int moleculeFromMeshCommand(const Options& options) {
     report.sourceTriangles = mesh.triangles.size();
     report.sourceVertices = mesh.weldedPositions.size();
     report.made = make(report.file, mesh, options.molecule);
-    if (!report.output.empty()) write(options.molecule, report.made);
+    if (!report.output.empty()) {
+        writeImage(options.molecule, report.made);
+        write(options.molecule, report.made);
+    }
     report.analysis = analyse(report.made.molecule, false);
     report.warnings = check(report.made.molecule);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -278,12 +278,36 @@ class Maker {
         for (const glm::ivec3& t : coarse_.triangles)
             molecule().triangles.push_back({t.x, t.y, t.z});
         molecule().name = options_.name;
+        chooseLooks();
+    }
+
+    // The means over vertices and over the triangles of parts: what a molecule has for all of them.
+    void chooseLooks() {
+        Material& looks = molecule().material;
+        glm::dvec3 color(1);
         if (!mesh_.colors.empty()) {
-            glm::dvec3 sum(0);
-            for (const glm::dvec3& color : mesh_.colors)
-                sum += glm::clamp(color, 0.0, 1.0) / double(mesh_.colors.size());
-            molecule().material.color = glm::round(sum * 1e3) / 1e3;
+            color = glm::dvec3(0);
+            for (const glm::dvec3& one : mesh_.colors)
+                color += glm::clamp(one, 0.0, 1.0) / double(mesh_.colors.size());
         }
+        glm::dvec3 factor(0);
+        double roughness = 0, metallic = 0;
+        int known = 0;
+        for (const Mesh::Part& part : mesh_.parts) {
+            if (part.look < 0) continue;
+            const SurfaceMaterial& material = mesh_.materials[size_t(part.look)];
+            factor += double(part.triangleCount) * glm::dvec3(material.color);
+            roughness += part.triangleCount * material.roughness;
+            metallic += part.triangleCount * material.metallic;
+            known += part.triangleCount;
+        }
+        const auto rounded3 = [](double value) { return std::round(value * 1e3) / 1e3; };
+        const bool said = !mesh_.colors.empty() || (known > 0 && factor != glm::dvec3(known));
+        if (known > 0) color *= factor / double(known);
+        if (said) looks.color = glm::round(color * 1e3) / 1e3;
+        if (known == 0) return;
+        if (roughness != known * SurfaceMaterial().roughness) looks.roughness = rounded3(roughness / known);
+        looks.metallic = rounded3(metallic / known);
     }
 
     double extentAlong(const glm::dvec3& axis) const {
@@ -362,6 +386,11 @@ class Maker {
     }
 
     void addSkin() {
+        if (options_.images) {
+            made_.notes.insert(made_.notes.end(), mesh_.notes.begin(), mesh_.notes.end());
+            made_.image = gatherColors(mesh_, made_.notes);
+            if (made_.image) molecule().material.color = glm::dvec3(1);
+        }
         const SkinMesh mesh = skinMeshOf(mesh_, options_.skinTriangles);
         molecule().skin = bindSkin(molecule(), mesh);
         double lever = 0;  // how far a skin vertex moves by how far the simulated ones do

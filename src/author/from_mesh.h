@@ -2,7 +2,7 @@
 // itself as a skin that moves with them.
 //
 //   mesh -> coarse mesh (coarse.h) -> springs -> masses -> pins (pins.cpp) -> braces -> stiffness
-//        -> skin (skin_mesh.cpp, molecule/skin.h)
+//        -> colours (skin_colors.cpp) -> skin (skin_mesh.cpp, molecule/skin.h)
 //
 // Stiffness and mass are those of a named material (material_scale.cpp).
 #pragma once
@@ -60,6 +60,7 @@ struct FromMesh {
     std::optional<double> damping;    // ratio of the lowest mode; nothing: the material's
     bool centre = false;              // the middle of its box to the origin
     bool skin = true;
+    bool images = true;                // the skin is drawn with the colours of the mesh's materials
     std::optional<int> skinTriangles;  // the skin is simplified to about so many; nothing: all
     PinChoice pins;
     std::string name;
@@ -82,6 +83,7 @@ struct MadeMolecule {
     double skinError = 0;            // m, how far the skin lies off the mesh at rest, at most
     std::string material;            // as used
     std::vector<std::string> notes;  // what was done that was not asked for
+    std::optional<Image> image;      // the skin's colours, by its texture coordinates
 };
 
 // Error: a number that is out of range, two that exclude each other, more vertices than the fused path holds.
@@ -103,6 +105,11 @@ std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const P
 // (quadric edge collapse, meshoptimizer), or as far as its seams let it. Error: more than a molecule file
 // holds.
 SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles);
+
+// The colours of a mesh's parts in one image, sRGB, its holes where those of the parts' images are. The
+// mesh's texture coordinates become those of that image, and its triangles share no corners any more.
+// Nothing, and the mesh stays as it is: all of it has one colour. `notes` get what the image does not show.
+std::optional<Image> gatherColors(Mesh& mesh, std::vector<std::string>& notes);
 
 // A named material, from soft to stiff. Rounded values of handbooks. A sheet has the thickness; a body is as
 // thick as it is.

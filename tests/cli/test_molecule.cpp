@@ -63,6 +63,32 @@ TEST_CASE("molecule from-mesh: the shipped minnow is what its command makes", "[
         CHECK(a.items[7].items[i].number == Approx(b.items[7].items[i].number).margin(1e-6));
 }
 
+TEST_CASE("molecule from-mesh: a mesh of several materials comes with an image of their colours",
+          "[cli][molecule][material]") {
+    const Scratch scratch;
+    std::string painted = tray;
+    painted.insert(painted.find("f 1 4"), "mtllib tray.mtl\nusemtl red\n");
+    painted.insert(painted.find("f 2 3"), "usemtl blue\n");
+    const std::string file = scratch.write("tray.obj", painted), out = scratch.path("made.json");
+    scratch.write("tray.mtl", "newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\nmap_Kd none.png\n");
+    const Outcome made = runShoal({"molecule", "from-mesh", file, "-o", out});
+    INFO(made.err);
+    REQUIRE(made.code == 0);
+    CHECK(made.out.find("coloured by an image of") != std::string::npos);
+    CHECK(made.out.find("note: material \"blue\": its colour image is left out: there is no \"none.png\"") !=
+          std::string::npos);
+    CHECK(readFile(out).find("\"texture\": \"made.png\"") != std::string::npos);
+    CHECK(runShoal({"check", out}).code == 0);
+    // An image that is there already is kept, and so is the molecule.
+    std::filesystem::remove(out);
+    refusal({"molecule", "from-mesh", file, "-o", out}, "made.png: is there already");
+    CHECK_FALSE(std::filesystem::exists(out));
+    // A colour that is asked for needs none.
+    REQUIRE(runShoal({"molecule", "from-mesh", file, "-o", scratch.path("green.json"), "--color", "green"})
+                .code == 0);
+    CHECK_FALSE(std::filesystem::exists(scratch.path("green.png")));
+}
+
 TEST_CASE("molecule from-mesh: leaves files alone", "[cli][molecule]") {
     const Scratch scratch;
     const std::string out = scratch.write("there.json", "mine");
