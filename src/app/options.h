@@ -30,7 +30,7 @@ struct MoleculeOptions {
     bool force = false;  // write over a file that is there
     std::string texture;
     std::string color;
-    std::string springs = "surface";
+    std::string springs = "auto";
     std::vector<std::string> pinRules;
     // show
     std::string sheet;  // its size in pixels; empty: the usual

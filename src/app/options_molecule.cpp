@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include <algorithm>
+
 #include "app/options.h"
 #include "author/from_mesh.h"
 
@@ -22,10 +24,12 @@ void addFromMesh(CLI::App& command, Options& options) {
     addFile(command, "mesh", options.files, "Mesh of any format that Assimp reads")->required()->expected(1);
     addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
     command.add_flag("--force", molecule.force, "Write over a file that is there");
-    count("--vertices", make.vertices, "At most so many are simulated (default 24)");
+    count("--vertices", make.vertices, "At most so many are simulated (default 24, of a cage 40)");
     count("--rings", make.rings, "Instead: so many rings of four vertices along the longest side");
-    command.add_option("--springs", molecule.springs, "lattice: tetrahedra that fill the volume")
-        ->type_name("surface|lattice")
+    command
+        .add_option("--springs", molecule.springs,
+                    "lattice: tetrahedra that fill the volume; cage: about all parts")
+        ->type_name("auto|surface|lattice|cage")
         ->capture_default_str();
     std::vector<std::string> names;
     for (const ScaledMaterial& one : materialScale())
@@ -81,10 +85,12 @@ auto valueOf(const char* option, Read&& read) {
 
 void finishFromMesh(MoleculeOptions& molecule, const std::string& file) {
     FromMesh& make = molecule.fromMesh;
-    if (molecule.springs != "surface" && molecule.springs != "lattice")
-        throw Error(concat("--springs: expected surface or lattice, found \"", molecule.springs, "\"",
-                           suggestion(molecule.springs, {"surface", "lattice"})));
-    make.springs = molecule.springs == "lattice" ? FromMesh::Springs::lattice : FromMesh::Springs::surface;
+    const std::vector<std::string> springs = {"auto", "surface", "lattice", "cage"};
+    const auto found = std::find(springs.begin(), springs.end(), molecule.springs);
+    if (found == springs.end())
+        throw Error(concat("--springs: expected auto, surface, lattice or cage, found \"", molecule.springs,
+                           "\"", suggestion(molecule.springs, springs)));
+    make.springs = FromMesh::Springs(found - springs.begin());
     for (const std::string& text : molecule.pinRules)
         make.pins.rules.push_back(valueOf("--pin", [&] { return parsePinRule(text); }));
     for (const std::string& text : make.pins.paints)

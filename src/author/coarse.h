@@ -1,5 +1,5 @@
 // A mesh of few vertices in the shape of one of many: simplified (coarse.cpp), of rings (rings.cpp), or the
-// surface of a lattice (lattice.cpp).
+// surface of a lattice (lattice.cpp) or of a cage (cage.cpp).
 #pragma once
 
 #include <array>
@@ -61,6 +61,14 @@ struct Lattice {
 // As fine as `vertices` allow: of all lattices over the box the one that fills most with at most so many
 // vertices. Error: the shape is too thin for any.
 Lattice latticeIn(const Mesh& mesh, const Inside& inside, int vertices);
+
+// The surface of cells, and they.
+Lattice latticeOf(std::vector<glm::dvec3> places, std::vector<std::array<int, 4>> cells);
+
+// Around any mesh, of one part or many, closed or not: all cells through which its surface passes or, with
+// `inside`, that hold some of its volume; as fine as `vertices` allow while they hang together by faces.
+// Their vertices are drawn in towards the surface. Error: no such cage has so few vertices.
+Lattice cageAround(const Mesh& mesh, const Inside* inside, int vertices);
 
 // Fills map and source from positions: by the way along the mesh's edges, else by distance.
 void mapToCoarse(const Mesh& mesh, CoarseMesh& coarse);

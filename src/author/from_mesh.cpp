@@ -182,6 +182,10 @@ void fold(CoarseMesh& coarse, double height) {
         coarse.positions[v] += 0.5 * height * side[v] * normal;
 }
 
+struct TornSkin : Error {
+    using Error::Error;
+};
+
 // One run of makeMolecule, step by step.
 class Maker {
   public:
@@ -233,18 +237,22 @@ class Maker {
     }
 
     void makeCoarse() {
-        if (options_.rings)
+        using Springs = FromMesh::Springs;
+        const int usual = options_.springs == Springs::cage ? cageVertices : usualMadeVertices;
+        const int vertices = options_.vertices.value_or(usual);
+        if (options_.rings) {
             coarse_ = ringsOf(mesh_, *options_.rings);
-        else if (options_.springs == FromMesh::Springs::lattice) {
-            Lattice lattice = latticeIn(mesh_, *inside_, options_.vertices);
+        } else if (options_.springs == Springs::lattice || options_.springs == Springs::cage) {
+            Lattice lattice = options_.springs == Springs::cage ? cageAround(mesh_, inside_.get(), vertices)
+                                                                : latticeIn(mesh_, *inside_, vertices);
             coarse_ = std::move(lattice.surface);
             cells_ = std::move(lattice.cells);
         } else {
-            coarse_ = simplify(mesh_, options_.vertices);
+            coarse_ = simplify(mesh_, vertices);
         }
         if (coarse_.positions.size() < 3) throw Error("the mesh has no shape that three vertices could hold");
         mapToCoarse(mesh_, coarse_);
-        if (made_.solid) return;
+        if (made_.solid || !cells_.empty()) return;
         // Without it every bend of a flat sheet would be free.
         constexpr double leastFlatness = 0.05, height = 0.12;
         if (coarse_.positions.size() < 4 || flatness(coarse_.positions) >= leastFlatness) return;
@@ -319,8 +327,10 @@ class Maker {
         return high - low;
     }
 
-    // A surface that encloses nothing and still has three extents: a shell.
-    bool bulky() const { return flatness(mesh_.weldedPositions) > 0.2; }
+    // A surface that encloses nothing and still has three extents, a shell, or is held by cells.
+    bool bulky() const {
+        return options_.springs == FromMesh::Springs::cage || flatness(mesh_.weldedPositions) > 0.2;
+    }
 
     glm::dvec2 uvAt(size_t coarse) const {
         for (size_t v = 0; v < mesh_.weld.size(); ++v)
@@ -392,8 +402,13 @@ class Maker {
             if (made_.image) molecule().material.color = glm::dvec3(1);
         }
         const SkinMesh mesh = skinMeshOf(mesh_, options_.skinTriangles);
-        molecule().skin = bindSkin(molecule(), mesh);
-        double lever = 0;  // how far a skin vertex moves by how far the simulated ones do
+        if (options_.springs == FromMesh::Springs::cage) {
+            molecule().skin = bindToCells(molecule(), mesh, cells_);
+            placeSkin(molecule());
+        } else {
+            molecule().skin = bindSkin(molecule(), mesh);
+        }
+        double& lever = made_.skinLever;
         for (size_t i = 0; i < mesh.positions.size(); ++i) {
             const SkinVertex& vertex = molecule().skin.vertices[i];
             made_.skinError = std::max(made_.skinError, glm::distance(mesh.positions[i], vertex.position));
@@ -403,10 +418,11 @@ class Maker {
         constexpr double mostError = 1e-3, mostLever = 10;
         const double off = made_.skinError / molecule().size();
         if (off > mostError || lever > mostLever)
-            throw Error("the skin would tear: with ", molecule().vertices.size(), " simulated vertices it ",
-                        off > mostError ? concat("would hang ", off, " of the size off the mesh")
-                                        : concat("would move ", lever, " times as far as one of them"),
-                        ". Ask for more vertices, for rings, or for no skin");
+            throw TornSkin("the skin would tear: with ", molecule().vertices.size(),
+                           " simulated vertices it ",
+                           off > mostError ? concat("would hang ", off, " of the size off the mesh")
+                                           : concat("would move ", lever, " times as far as one of them"),
+                           ". Ask for more vertices, for rings, or for no skin");
     }
 
     const FromMesh& options_;
@@ -439,7 +455,7 @@ void checkOptions(const FromMesh& o) {
         throw Error("expected a damping ratio from 0 to 2, found ", *o.damping);
     if (!o.material.empty()) scaledMaterial(o.material);
     if (o.mass && o.density) throw Error("expected either a mass or a density, found both");
-    const int asked = o.rings ? 4 * *o.rings : o.vertices;
+    const int asked = o.rings ? 4 * *o.rings : o.vertices.value_or(usualMadeVertices);
     if (o.skinTriangles && *o.skinTriangles < 4)
         throw Error("expected at least 4 triangles of the skin, found ", *o.skinTriangles);
     if (o.skinTriangles && !o.skin)
@@ -451,13 +467,38 @@ void checkOptions(const FromMesh& o) {
         throw Error("a molecule of ", asked, " vertices is larger than the fused path holds: at most ",
                     mostMadeVertices(),
                     o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : "");
-    if (o.rings && o.springs == FromMesh::Springs::lattice)
+    if (o.rings && (o.springs == FromMesh::Springs::lattice || o.springs == FromMesh::Springs::cage))
         throw Error("expected either rings or a lattice, found both");
 }
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     checkOptions(options);
-    return Maker(mesh, options).run();
+    if (options.springs != FromMesh::Springs::automatic || options.rings || !options.skin)
+        return Maker(mesh, options).run();
+    // Beyond, what hangs over the ends of the simulated surface swings about, or hangs on another part's.
+    constexpr double mostLever = 2;
+    std::string why;
+    std::optional<MadeMolecule> plain;
+    try {
+        plain = Maker(mesh, options).run();
+        if (plain->skinLever <= mostLever) return std::move(*plain);
+        why = concat("with ", plain->molecule.vertices.size(),
+                     " vertices along the surface the skin would move ",
+                     std::round(10 * plain->skinLever) / 10, " times as far as one of them");
+    } catch (const TornSkin& torn) {
+        why = torn.message();
+    }
+    FromMesh inCage = options;
+    inCage.springs = FromMesh::Springs::cage;
+    try {
+        MadeMolecule made = Maker(mesh, inCage).run();
+        made.notes.push_back(concat(why, ": a cage of cells around the mesh holds it instead"));
+        return made;
+    } catch (const Error& error) {
+        if (!plain) throw Error(concat(why, "; and ", error.message()));
+    }
+    plain->notes.push_back(why);
+    return std::move(*plain);
 }
 
 }  // namespace shoal

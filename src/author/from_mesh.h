@@ -7,6 +7,7 @@
 // Stiffness and mass are those of a named material (material_scale.cpp).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -46,12 +47,14 @@ struct PinChoice {
 
 struct FromMesh {
     enum class Springs {
-        surface,  // along the coarse surface, across its edges, and through the inside
-        lattice,  // tetrahedra on a body-centred cubic lattice within the mesh
+        automatic,  // along the surface, or of a cage where the skin would tear there
+        surface,    // along the coarse surface, across its edges, and through the inside
+        lattice,    // tetrahedra on a body-centred cubic lattice within the mesh
+        cage,       // those about the mesh and all of its parts
     };
-    int vertices = 24;         // at most so many are simulated
-    std::optional<int> rings;  // instead: so many rings of four vertices along the longest axis
-    Springs springs = Springs::surface;
+    std::optional<int> vertices;  // at most so many are simulated; nothing: 24, of a cage cageVertices
+    std::optional<int> rings;     // instead: so many rings of four vertices along the longest axis
+    Springs springs = Springs::automatic;
     std::string material;             // of the material scale; empty: flesh for a body, leaf for a sheet
     std::optional<double> size;       // m, of the longest side of its box; nothing: the file's
     std::optional<double> mass;       // kg, in all; nothing: from the material's density
@@ -68,7 +71,9 @@ struct FromMesh {
 
 // The fewest vertices that can hold a body, and the most that the fused path runs on every device
 // (compile/path.h).
-constexpr int leastMadeVertices = 4;
+constexpr int leastMadeVertices = 4, usualMadeVertices = 24;
+constexpr int cageVertices =
+    40;  // which CPU rasterisers compile with the implicit solvers that stiff springs need
 int mostMadeVertices();
 
 struct MadeMolecule {
@@ -81,6 +86,7 @@ struct MadeMolecule {
     double lowestFrequency = 0;      // Hz, of the free molecule
     double dampingRatio = 0;         // of that mode; at most the material's
     double skinError = 0;            // m, how far the skin lies off the mesh at rest, at most
+    double skinLever = 0;            // how far the skin moves by how far a vertex does, at most
     std::string material;            // as used
     std::vector<std::string> notes;  // what was done that was not asked for
     std::optional<Image> image;      // the skin's colours, by its texture coordinates
@@ -110,6 +116,11 @@ SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles);
 // mesh's texture coordinates become those of that image, and its triangles share no corners any more.
 // Nothing, and the mesh stays as it is: all of it has one colour. `notes` get what the image does not show.
 std::optional<Image> gatherColors(Mesh& mesh, std::vector<std::string>& notes);
+
+// The skin that hangs on the corners of the cell, of these of the molecule, that holds each of its vertices,
+// or is nearest to it.
+Skin bindToCells(const Molecule& molecule, const SkinMesh& mesh,
+                 const std::vector<std::array<int, 4>>& cells);
 
 // A named material, from soft to stiff. Rounded values of handbooks. A sheet has the thickness; a body is as
 // thick as it is.

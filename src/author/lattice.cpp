@@ -145,16 +145,26 @@ class Builder {
 };
 
 Lattice assemble(const std::vector<Cell>& kept, const Builder& builder) {
-    Lattice out;
+    std::vector<glm::dvec3> places;
+    std::vector<Cell> cells;
     std::map<int, int> numbers;
     for (Cell cell : kept) {
         for (int& v : cell) {
-            const auto [entry, isNew] = numbers.try_emplace(v, int(out.surface.positions.size()));
-            if (isNew) out.surface.positions.push_back(builder.place(v));
+            const auto [entry, isNew] = numbers.try_emplace(v, int(places.size()));
+            if (isNew) places.push_back(builder.place(v));
             v = entry->second;
         }
-        out.cells.push_back(cell);
+        cells.push_back(cell);
     }
+    return latticeOf(std::move(places), std::move(cells));
+}
+
+}  // namespace
+
+Lattice latticeOf(std::vector<glm::dvec3> places, std::vector<Cell> cells) {
+    Lattice out;
+    out.surface.positions = std::move(places);
+    out.cells = std::move(cells);
     std::map<std::array<int, 3>, glm::ivec3> faces;  // of one cell so far
     for (const Cell& cell : out.cells)
         for (size_t apex = 0; apex < 4; ++apex) {
@@ -170,8 +180,6 @@ Lattice assemble(const std::vector<Cell>& kept, const Builder& builder) {
         out.surface.triangles.push_back(face);
     return out;
 }
-
-}  // namespace
 
 Lattice latticeIn(const Mesh& mesh, const Inside& inside, int vertices) {
     const glm::dvec3 extent = mesh.high - mesh.low;

@@ -1,6 +1,7 @@
 #include "author/from_mesh.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "author/coarse.h"
 #include "molecule/molecule_file.h"
@@ -74,6 +75,49 @@ SkinMesh packed(const SkinMesh& mesh) {
 }
 
 }  // namespace
+
+Skin bindToCells(const Molecule& molecule, const SkinMesh& mesh,
+                 const std::vector<std::array<int, 4>>& cells) {
+    // Of a cell: the point's weights follow from its first corner and these.
+    struct Frame {
+        glm::dvec3 first{0};
+        glm::dmat3 toWeights{1};
+    };
+    std::vector<Frame> frames;
+    const auto place = [&](int v) { return molecule.vertices[size_t(v)].position; };
+    for (const std::array<int, 4>& cell : cells) {
+        const glm::dvec3 first = place(cell[0]);
+        frames.push_back({first, glm::inverse(glm::dmat3(place(cell[1]) - first, place(cell[2]) - first,
+                                                         place(cell[3]) - first))});
+    }
+    Skin out;
+    for (size_t i = 0; i < mesh.positions.size(); ++i) {
+        std::array<double, 4> best{};
+        size_t bestCell = 0;
+        double least = 1e300;  // the sum of the weights' sizes: 1 inside
+        for (size_t c = 0; c < cells.size(); ++c) {
+            const glm::dvec3 w = frames[c].toWeights * (mesh.positions[i] - frames[c].first);
+            const double first = 1 - w.x - w.y - w.z;
+            const double sum = std::abs(first) + std::abs(w.x) + std::abs(w.y) + std::abs(w.z);
+            if (sum >= least - 1e-9) continue;
+            least = sum;
+            bestCell = c;
+            best = {first, w.x, w.y, w.z};
+        }
+        SkinVertex vertex;
+        vertex.uv = mesh.uvs[i];
+        double rest = 1;
+        for (size_t k = 1; k < 4; ++k) {
+            const double weight = std::round(best[k] * 1e7) / 1e7;
+            vertex.weights.push_back({cells[bestCell][k], weight});
+            rest -= weight;
+        }
+        vertex.weights.push_back({cells[bestCell][0], std::round(rest * 1e7) / 1e7});
+        out.vertices.push_back(std::move(vertex));
+    }
+    out.triangles = mesh.triangles;
+    return out;
+}
 
 SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles) {
     SkinMesh out = joined(mesh);

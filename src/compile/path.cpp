@@ -192,7 +192,12 @@ PathChoice choosePath(const Plan& plan, Path wanted, const PathLimits& limits) {
     }
     const std::optional<Error> fused = complaintOf([&] { checkFused(plan, limits); });
     if (!fused) return {Path::fused, "each molecule is read and written once a frame"};
-    const std::optional<Error> fragments = complaintOf([&] { checkFragments(plan, limits); });
+    // What a CPU rasteriser would compile for too long as compute shaders, it would for longer as fragments.
+    const bool tooLong = limits.compute && limits.software &&
+                         std::any_of(plan.groups.begin(), plan.groups.end(),
+                                     [&](const GroupPlan& group) { return takesLong(plan, group); });
+    const std::optional<Error> fragments =
+        tooLong ? fused : complaintOf([&] { checkFragments(plan, limits); });
     if (!fragments) return {Path::fragments, fused->message()};
     const std::optional<Error> other = complaintOf([&] { checkPingPong(plan, limits); });
     const Error& first = limits.compute ? *fused : *fragments;

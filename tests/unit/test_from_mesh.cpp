@@ -12,6 +12,7 @@
 #include "support/catch.h"
 #include "support/meshes.h"
 #include "support/message_of.h"
+#include "support/solids.h"
 
 using namespace shoal;
 using namespace shoal::test;
@@ -463,6 +464,55 @@ TEST_CASE("a skin that would tear is refused", "[from-mesh]") {
     CHECK(refused(prism, options).empty());
 }
 
+TEST_CASE("a body with legs of its own parts is held by a cage, and no part moves further than it is moved",
+          "[from-mesh][cage]") {
+    Mesh mesh;
+    addSphere(mesh, {0, 0, 0}, 0.3, 16, 9);
+    for (int leg = 0; leg < 6; ++leg) {
+        const double side = leg % 2 ? 1 : -1, along = 0.3 * (leg / 2 - 1);
+        addBox(mesh, {side * 0.62 - 0.3, -0.03, along - 0.03}, {side * 0.62 + 0.3, 0.03, along + 0.03});
+    }
+    completeMesh(mesh);
+    FromMesh options;
+    options.springs = FromMesh::Springs::surface;
+    CHECK(makeMolecule(mesh, options).skinLever > 2);
+    options.springs = FromMesh::Springs::automatic;
+    const MadeMolecule out = made(mesh, options);
+    REQUIRE_FALSE(out.notes.empty());
+    CHECK_THAT(out.notes.back(), Catch::Contains("times as far as one of them: a cage of cells"));
+    CHECK(out.skinLever <= 1.2);
+    CHECK(out.skinError < 1e-6 * out.molecule.size());
+    CHECK(int(out.molecule.vertices.size()) <= cageVertices);
+    CHECK(analyse(out.molecule, false).zeroModes == 0);
+    CHECK(check(out.molecule).empty());
+    for (const SkinVertex& vertex : out.molecule.skin.vertices) {
+        double sum = 0;
+        for (const SkinWeight& weight : vertex.weights)
+            sum += weight.weight;
+        CHECK(std::abs(sum - 1) < 1e-6);
+        CHECK(vertex.weights.size() <= 4);
+    }
+    // More vertices, finer cells; too few hold nothing.
+    options.springs = FromMesh::Springs::cage;
+    options.vertices = 120;
+    const MadeMolecule fine = made(mesh, options);
+    CHECK(fine.molecule.vertices.size() > 60);
+    CHECK(fine.molecule.vertices.size() <= 120);
+    CHECK(fine.skinLever <= 1.2);
+    options.vertices = 5;
+    CHECK(refused(mesh, options) ==
+          "no cage of at most 5 vertices holds all parts of this mesh: take more vertices");
+    // A sheet, which encloses nothing, has cells about it.
+    Mesh sheet;
+    sheet.positions = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    sheet.triangles = {{0, 1, 2}, {0, 2, 3}};
+    completeMesh(sheet);
+    options.vertices = 40;
+    const MadeMolecule flat = made(sheet, options);
+    CHECK(flat.skinError < 1e-6);
+    CHECK(analyse(flat.molecule, false).zeroModes == 0);
+}
+
 // Assimp's own models are not ours to ship: Debian has them in the package assimp-testmodels.
 TEST_CASE("meshes that others made become molecules or are refused with a reason", "[from-mesh][models]") {
     const std::string folder = "/usr/share/assimp/models/";
@@ -489,7 +539,8 @@ TEST_CASE("meshes that others made become molecules or are refused with a reason
             FromMesh options;
             options.size = 0.2;
             const MadeMolecule out = made(loadMesh(folder + model.file), options);
-            CHECK(out.molecule.vertices.size() <= 24);
+            CHECK(int(out.molecule.vertices.size()) <= cageVertices);
+            CHECK(out.skinLever <= 2);
             CHECK(analyse(out.molecule, false).zeroModes == 0);
             CHECK(out.skinError < 1e-5 * out.molecule.size());
             parseMolecule(writeMolecule(out.molecule), "again.json");
