@@ -160,8 +160,8 @@ JsonValue asJson(const Report& r) {
         key("rigidModes", r.analysis.rigidModes), key("stableStepLeapfrog", r.analysis.stableStepLeapfrog),
         key("substepsAt60Hz", substeps(r)), key("skinVertices", molecule.skin.vertices.size()),
         key("skinTriangles", molecule.skin.triangles.size()),
-        key("skinError", made.skinError / molecule.size()), key("notes", made.notes),
-        key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
+        key("skinError", made.skinError / molecule.size()), key("skinLever", made.skinLever),
+        key("notes", made.notes), key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ std::vector<glm::dvec3> placesOn(const Mesh& mesh, double step) {
         const glm::dvec3 a = mesh.positions[size_t(t.x)], ab = mesh.positions[size_t(t.y)] - a,
                          ac = mesh.positions[size_t(t.z)] - a;
         const double longest = std::max({glm::length(ab), glm::length(ac), glm::length(ac - ab)});
-        const int n = int(std::min(std::ceil(longest / step), 400.0));
+        const int n = int(std::clamp(std::ceil(longest / step), 1.0, 400.0));
         for (int i = 0; i <= n; ++i)
             for (int j = 0; i + j <= n; ++j)
                 out.push_back(a + (double(i) / n) * ab + (double(j) / n) * ac);

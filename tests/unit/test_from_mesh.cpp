@@ -492,6 +492,9 @@ TEST_CASE("a body with legs of its own parts is held by a cage, and no part move
         CHECK(std::abs(sum - 1) < 1e-6);
         CHECK(vertex.weights.size() <= 4);
     }
+    Mesh degenerate = mesh;
+    degenerate.triangles.insert(degenerate.triangles.begin(), 5, glm::ivec3(7));  // which have no extent
+    CHECK(writeMolecule(made(degenerate, options).molecule) == writeMolecule(out.molecule));
     // More vertices, finer cells; too few hold nothing.
     options.springs = FromMesh::Springs::cage;
     options.vertices = 120;
