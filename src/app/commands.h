@@ -21,6 +21,7 @@ int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
 int editCommand(const Options& options);
 int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mesh
+int moleculeNewCommand(const Options& options);       // shoal molecule new
 int moleculeShowCommand(const Options& options);      // shoal molecule show
 
 // With --sandbox: from now on only what lies in the folder of `file`, in the shipped data, in the cache and

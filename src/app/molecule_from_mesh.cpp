@@ -1,10 +1,11 @@
-// `shoal molecule from-mesh`: makes a molecule, says what it made, and writes it.
+// `shoal molecule from-mesh` and `new`: makes a molecule, says what it made, and writes it.
 #include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 
 #include "app/commands.h"
+#include "author/shapes.h"
 #include "core/error.h"
 #include "core/file.h"
 #include "core/image.h"
@@ -166,13 +167,11 @@ JsonValue asJson(const Report& r) {
 
 }  // namespace
 
-int moleculeFromMeshCommand(const Options& options) {
-    const auto start = std::chrono::steady_clock::now();
-    checkOutput(options.molecule);
+static int makeOf(const std::string& what, const Mesh& mesh, const Options& options,
+                  std::chrono::steady_clock::time_point start) {
     Report report;
-    report.file = options.files.front();
+    report.file = what;
     report.output = options.molecule.output;
-    const Mesh mesh = loadMesh(report.file);
     report.sourceTriangles = mesh.triangles.size();
     report.sourceVertices = mesh.weldedPositions.size();
     report.made = make(report.file, mesh, options.molecule);
@@ -185,6 +184,29 @@ int moleculeFromMeshCommand(const Options& options) {
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
+}
+
+int moleculeFromMeshCommand(const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    checkOutput(options.molecule);
+    const std::string& file = options.files.front();
+    return makeOf(file, loadMesh(file), options, start);
+}
+
+// Every vertex of the shape is simulated, and its triangles are drawn.
+int moleculeNewCommand(const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    checkOutput(options.molecule);
+    const Shape& shape = shapeNamed(options.molecule.shape);
+    const Mesh mesh = shapeMesh(shape, options.molecule.divisions.value_or(shape.divisions));
+    Options made = options;
+    FromMesh& make = made.molecule.fromMesh;
+    constexpr double usualSize = 0.2;  // m
+    make.size = make.size.value_or(usualSize);
+    make.vertices = std::max(int(mesh.weldedPositions.size()), leastMadeVertices);
+    make.skin = false;
+    if (make.material.empty()) make.material = shape.material;
+    return makeOf(shape.name, mesh, made, start);
 }
 
 }  // namespace shoal::app

@@ -24,7 +24,7 @@ constexpr int headlessFrames = 240;  // unless --frames says otherwise
 
 // The options of `shoal molecule COMMAND`.
 struct MoleculeOptions {
-    // from-mesh
+    // from-mesh and new
     FromMesh fromMesh;
     std::string output;  // empty: nothing is written
     bool force = false;  // write over a file that is there
@@ -32,6 +32,9 @@ struct MoleculeOptions {
     std::string color;
     std::string springs = "auto";
     std::vector<std::string> pinRules;
+    // new
+    std::string shape = "sheet";
+    std::optional<int> divisions;
     // show
     std::string sheet;  // its size in pixels; empty: the usual
 };

@@ -7,54 +7,75 @@
 
 #include "app/options.h"
 #include "author/from_mesh.h"
+#include "author/shapes.h"
 
 namespace shoal::app {
 
 namespace {
 
-void addFromMesh(CLI::App& command, Options& options) {
+// What is made of a mesh, whichever it is.
+void addMaking(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
     FromMesh& make = molecule.fromMesh;
     const auto number = [&](const char* name, std::optional<double>& value, const std::string& what) {
         addNumber(command, name, value, what, "a number");
     };
-    const auto count = [&](const char* name, auto& value, const std::string& what) {
-        addWhole(command, name, value, what);
-    };
-    addFile(command, "mesh", options.files, "Mesh of any format that Assimp reads")->required()->expected(1);
-    addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
     command.add_flag("--force", molecule.force, "Write over a file that is there");
-    count("--vertices", make.vertices, "At most so many are simulated (default 24, of a cage 40)");
-    count("--rings", make.rings, "Instead: so many rings of four vertices along the longest side");
-    command
-        .add_option("--springs", molecule.springs,
-                    "lattice: tetrahedra that fill the volume; cage: about all parts")
-        ->type_name("auto|surface|lattice|cage")
-        ->capture_default_str();
     std::vector<std::string> names;
     for (const ScaledMaterial& one : materialScale())
         names.emplace_back(one.name);
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
         ->type_name(joined(names, "|"));
-    number("--size", make.size, "m, of the longest side (default: as in the file)");
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");
     number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");
     number("--damping", make.damping, "Ratio of the lowest frequency, instead of the material's");
-    command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
     command.add_option("--pin", molecule.pinRules,
                        "Pin what meets a rule: y<0.1 (share of the box) or y<0.02m (metres); repeatable");
-    command.add_option("--pin-name", make.pins.names, "Pin an object, mesh or material of the file by name");
-    command.add_option("--pin-paint", make.pins.paints,
-                       "Pin what is painted in this vertex colour: red, or 1,0.5,0");
     command.add_option("--name", make.name, "Of the molecule (default: that of the file)");
     addFile(command, "--texture", molecule.texture, "PNG beside the molecule file");
     command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
+    command.add_flag("--json", options.json, "Report as JSON on standard output");
+}
+
+void addFromMesh(CLI::App& command, Options& options) {
+    MoleculeOptions& molecule = options.molecule;
+    FromMesh& make = molecule.fromMesh;
+    addFile(command, "mesh", options.files, "Mesh of any format that Assimp reads")->required()->expected(1);
+    addFile(command, "-o,--output", molecule.output, "Molecule file (.json); without it nothing is written");
+    addWhole(command, "--vertices", make.vertices,
+             "At most so many are simulated (default 24, of a cage 40)");
+    addWhole(command, "--rings", make.rings,
+             "Instead: so many rings of four vertices along the longest side");
+    command
+        .add_option("--springs", molecule.springs,
+                    "lattice: tetrahedra that fill the volume; cage: about all parts")
+        ->type_name("auto|surface|lattice|cage")
+        ->capture_default_str();
+    addNumber(command, "--size", make.size, "m, of the longest side (default: as in the file)", "a number");
+    command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
+    command.add_option("--pin-name", make.pins.names, "Pin an object, mesh or material of the file by name");
+    command.add_option("--pin-paint", make.pins.paints,
+                       "Pin what is painted in this vertex colour: red, or 1,0.5,0");
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
-    count("--skin-triangles", make.skinTriangles,
-          "Simplify the skin to about so many, for large numbers of molecules");
-    command.add_flag("--json", options.json, "Report as JSON on standard output");
+    addWhole(command, "--skin-triangles", make.skinTriangles,
+             "Simplify the skin to about so many, for large numbers of molecules");
+    addMaking(command, options);
+}
+
+void addNew(CLI::App& command, Options& options) {
+    MoleculeOptions& molecule = options.molecule;
+    std::vector<std::string> names;
+    for (const Shape& shape : shapes())
+        names.emplace_back(shape.name);
+    addFile(command, "molecule", options.files, "Molecule file to write (.json)")->required()->expected(1);
+    command.add_option("--shape", molecule.shape, "What it begins as")
+        ->type_name(joined(names, "|"))
+        ->capture_default_str();
+    addWhole(command, "--divisions", molecule.divisions, "Of its longest side (default: the shape's)");
+    addNumber(command, "--size", molecule.fromMesh.size, "m, of the longest side (default 0.2)", "a number");
+    addMaking(command, options);
 }
 
 void addShow(CLI::App& command, Options& options) {
@@ -83,7 +104,7 @@ auto valueOf(const char* option, Read&& read) {
     }
 }
 
-void finishFromMesh(MoleculeOptions& molecule, const std::string& file) {
+void finishMaking(MoleculeOptions& molecule, const std::string& file, const char* command) {
     FromMesh& make = molecule.fromMesh;
     const std::vector<std::string> springs = {"auto", "surface", "lattice", "cage"};
     const auto found = std::find(springs.begin(), springs.end(), molecule.springs);
@@ -98,7 +119,7 @@ void finishFromMesh(MoleculeOptions& molecule, const std::string& file) {
     if (!molecule.color.empty()) valueOf("--color", [&] { return parsePaint(molecule.color); });
     if (make.name.empty())
         make.name = std::filesystem::path(molecule.output.empty() ? file : molecule.output).stem().string();
-    valueOf("molecule from-mesh", [&] {
+    valueOf(command, [&] {
         checkOptions(make);
         return 0;
     });
@@ -111,6 +132,7 @@ void addMolecule(CLI::App& app, Options& options) {
     molecule->require_subcommand(1);
     addFromMesh(*molecule->add_subcommand("from-mesh", "Make a molecule, with its skin, from any mesh"),
                 options);
+    addNew(*molecule->add_subcommand("new", "Make a molecule of a plain shape, to be changed"), options);
     addShow(*molecule->add_subcommand("show", "Draw a molecule, its springs and motions on one sheet"),
             options);
 }
@@ -120,7 +142,12 @@ void finishMolecule(const CLI::App& app, Options& options) {
     if (!molecule->parsed()) return;
     if (molecule->get_subcommand("from-mesh")->parsed()) {
         options.command = moleculeFromMeshCommand;
-        finishFromMesh(options.molecule, options.files.front());
+        finishMaking(options.molecule, options.files.front(), "molecule from-mesh");
+    }
+    if (molecule->get_subcommand("new")->parsed()) {
+        options.command = moleculeNewCommand;
+        options.molecule.output = options.files.front();
+        finishMaking(options.molecule, options.files.front(), "molecule new");
     }
     if (molecule->get_subcommand("show")->parsed()) {
         options.command = moleculeShowCommand;

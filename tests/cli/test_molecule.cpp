@@ -89,6 +89,37 @@ TEST_CASE("molecule from-mesh: a mesh of several materials comes with an image o
     CHECK_FALSE(std::filesystem::exists(scratch.path("green.png")));
 }
 
+TEST_CASE("molecule new: every shape is a molecule without a warning, which runs", "[cli][molecule]") {
+    const Scratch scratch;
+    for (const std::string shape : {"sheet", "rod", "box", "cross", "tetrahedron", "fish"}) {
+        INFO(shape);
+        const std::string out = scratch.path(shape + ".json");
+        const Outcome made = runShoal({"molecule", "new", out, "--shape", shape, "--json"});
+        INFO(made.err);
+        REQUIRE(made.code == 0);
+        const JsonValue report = made.json();
+        CHECK(member(report, "zeroModes").number == 0);
+        CHECK(member(report, "warnings").items.empty());
+        CHECK(runShoal({"check", out}).code == 0);
+        CHECK(runShoal({"molecule", "show", out, "--capture", scratch.path("sheet.png")}).code == 0);
+    }
+    const std::string fine = scratch.path("fine.json");
+    const Outcome made =
+        runShoal({"molecule", "new", fine, "--divisions", "4", "--size", "0.5", "--pin", "z<0.01", "--json"});
+    REQUIRE(made.code == 0);
+    CHECK(member(made.json(), "vertices").number == 25);
+    const JsonValue file = readJson(fine);
+    int pinned = 0;
+    for (const JsonValue& vertex : member(file, "vertices").items)
+        pinned += vertex.find("pinned") != nullptr;
+    CHECK(pinned == 5);
+    refusal({"molecule", "new", fine}, "is there already: give --force");
+    refusal({"molecule", "new", scratch.path("x.json"), "--shape", "rodd"}, "did you mean \"rod\"?");
+    refusal({"molecule", "new", scratch.path("x.json"), "--divisions", "99"},
+            "takes 1 to 14 divisions, found 99");
+    CHECK_FALSE(std::filesystem::exists(scratch.path("x.json")));
+}
+
 TEST_CASE("molecule from-mesh: leaves files alone", "[cli][molecule]") {
     const Scratch scratch;
     const std::string out = scratch.write("there.json", "mine");
