@@ -107,9 +107,47 @@ bool seesAnything(const Scene& scene, const Plan& plan) {
     return seen;
 }
 
+// Whether something of a group dies in the end.
+bool dies(const Group& group) {
+    return group.life && (group.life->life.y < longestLife || group.life->within || group.life->afterContact);
+}
+
+void findIdleEmitters(const Scene& scene, std::vector<Warning>& out) {
+    for (const Group& group : scene.groups) {
+        if (!group.life) continue;
+        for (const Emitter& emitter : group.life->emitters) {
+            const auto tell = [&](const std::string& why) {
+                out.push_back({emitter.location, "the emitter never emits: " + why});
+            };
+            if (emitter.from == Emitter::From::death) {
+                const auto source = std::find_if(scene.groups.begin(), scene.groups.end(),
+                                                 [&](const Group& g) { return g.name == emitter.group; });
+                if (source != scene.groups.end() && !dies(*source))
+                    tell(concat("nothing of \"", emitter.group, "\" dies"));
+            } else if (emitter.bursts.empty() && !(emitter.rate > 0)) {
+                tell("its \"rate\" is 0, and it has no \"bursts\"");
+            }
+        }
+    }
+}
+
+// Drawing is what costs then, and nobody sees what it draws.
+void findTooManyTriangles(const Scene& scene, std::vector<Warning>& out) {
+    constexpr double pixels = 1280.0 * 720, most = 2 * pixels;
+    for (const Group& group : scene.groups) {
+        const double each = double(group.molecule.skin.triangles.size());
+        const double count = group.life ? group.life->capacity : double(group.count);
+        if (each * count <= most) continue;
+        out.push_back({group.location,
+                       concat("the skins of \"", group.name, "\" have ", std::round(each * count / 1e5) / 10,
+                              " million triangles, and a picture of 1280 x 720 has 0.9 million pixels: "
+                              "\"molecule from-mesh --skin-triangles\" makes a skin of fewer")});
+    }
+}
+
 // Warns where 5 % of a group or more start wholly inside a collider or below the ground, and of a camera that
-// sees neither a molecule nor a model nor an emitter. Of large groups and models only some thousand vertices
-// are looked at.
+// sees neither a molecule nor a model nor an emitter, of emitters that never emit, of more triangles than can
+// be seen, and of darkness. Of large groups and models only some thousand vertices are looked at.
 std::vector<Warning> checkStart(const Scene& scene, const Plan& plan) {
     std::vector<Warning> out;
     for (const GroupPlan& group : plan.groups)
@@ -118,6 +156,11 @@ std::vector<Warning> checkStart(const Scene& scene, const Plan& plan) {
         out.push_back(
             {{scene.file, 0, 0, "$.camera"},
              "the camera sees no molecule, emitter or model at the start: turn its \"target\" towards them"});
+    findIdleEmitters(scene, out);
+    findTooManyTriangles(scene, out);
+    if (scene.light.intensity <= 0 && scene.sky.intensity <= 0)
+        out.push_back({{scene.file, 0, 0, "$.light"},
+                       "nothing lights the scene: the \"intensity\" of \"light\" and of \"sky\" is 0"});
     return out;
 }
 

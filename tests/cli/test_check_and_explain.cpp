@@ -164,12 +164,53 @@ TEST_CASE("check warns of how a scene starts", "[cli]") {
     CHECK_THAT(check(plane, below, R"("collide": false, )"), !Catch::Contains("warning"));
     CHECK_THAT(check(R"("camera": {"eye": [0, 1, 5], "target": [0, 1, 9]}, )", there),
                Catch::Contains("the camera sees no molecule"));
+    CHECK_THAT(check(R"("light": {"intensity": 0}, )", there), !Catch::Contains("warning"));
+    CHECK_THAT(check(R"("light": {"intensity": 0}, "sky": {"intensity": 0}, )", there),
+               Catch::Contains("nothing lights the scene"));
     CHECK_THAT(check(R"("fields": [{"type": "uniform", "velocity": [1, 0, 0]}], )", there),
                Catch::Contains("has no \"drag\", through which fields would move it"));
     CHECK_THAT(check(R"("forces": [{"type": "wind", "velocity": [1, 0, 0]}], )", there),
                Catch::Contains("has no \"drag\", through which wind would move it"));
     CHECK_THAT(check(R"("forces": [{"type": "wind", "velocity": [1, 0, 0]}], )", there, R"("drag": 1, )"),
                !Catch::Contains("warning"));
+}
+
+TEST_CASE("check warns of emitters that never emit and of more triangles than can be seen", "[cli][check]") {
+    const Scratch scratch;
+    scratch.write(
+        "dot.json",
+        R"({"format": "shoal-molecule-1", "name": "dot", "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
+    const auto check = [&](const std::string& emitter, const std::string& firstLife) {
+        const std::string scene =
+            scratch.write("s.scene.json", concat(R"({"format": "shoal-scene-1", "groups": [
+                {"name": "first", "molecule": "dot.json", "life": {"capacity": 9)",
+                                                 firstLife, R"(}, "emitters": [)", emitter, R"(]},
+                {"name": "second", "molecule": "dot.json", "life": {"capacity": 9},
+                 "emitters": [{"from": "death", "of": "first"}]}],
+                "camera": {"eye": [0, 0, 3], "target": [0, 0, 0]}})"));
+        const Outcome outcome = runShoal({"check", scene});
+        INFO(outcome.err);
+        CHECK(outcome.code == 0);
+        return outcome.out;
+    };
+    const std::string mortal = R"(, "span": 1)";
+    const std::string steady = R"({"from": "point", "position": [0, 0, 0], "rate": )";
+    CHECK_THAT(check(steady + "5}", mortal), !Catch::Contains("warning"));
+    CHECK_THAT(check(steady + "5}", ""), Catch::Contains("never emits: nothing of \"first\" dies"));
+    CHECK_THAT(check(steady + "0}", mortal), Catch::Contains("never emits: its \"rate\" is 0"));
+
+    const std::string minnow = sourceFile("molecules/minnow.json");
+    for (const auto& [count, warns] : {std::pair(1000, false), std::pair(1100, true)}) {
+        const std::string scene = scratch.write(
+            "many.scene.json",
+            concat(R"({"format": "shoal-scene-1", "groups": [{"name": "minnows", "molecule": ")", minnow,
+                   R"(", "count": )", count,
+                   R"(, "place": {"on": "volume", "box": {"low": [-1, -1, -1], "high": [1, 1, 1]}}}]})"));
+        const Outcome outcome = runShoal({"check", scene});
+        CHECK(outcome.code == 0);
+        CHECK((outcome.out.find("the skins of \"minnows\" have 2 million triangles") != std::string::npos) ==
+              warns);
+    }
 }
 
 TEST_CASE("a scene has the passes that it needs", "[cli]") {
