@@ -1,4 +1,5 @@
 // Pictures of any format that stb_image reads.
+#include <algorithm>
 #include <memory>
 
 #include <stb_image.h>
@@ -7,6 +8,15 @@
 #include "core/image.h"
 
 namespace shoal {
+
+size_t texelsOf(const std::string& bytes) {
+    int width = 0, height = 0, channels = 0;
+    if (bytes.size() > size_t(INT32_MAX) ||
+        stbi_info_from_memory(reinterpret_cast<const stbi_uc*>(bytes.data()), int(bytes.size()), &width,
+                              &height, &channels) == 0)
+        return 0;
+    return size_t(std::max(width, 0)) * size_t(std::max(height, 0));
+}
 
 Image decodeImage(const std::string& bytes, const std::string& file) {
     const Location location{file};

@@ -33,6 +33,8 @@ Image decodePng(const std::string& bytes, const std::string& file);
 // Any PNG, JPEG, TGA, BMP, GIF or PSD as RGBA, eight bits a channel, as stored (stb_image). Error: none of
 // these, damaged, or too large, as above.
 Image decodeImage(const std::string& bytes, const std::string& file);
+// How many texels such a picture has, by its head; 0: it is none.
+size_t texelsOf(const std::string& bytes);
 // A grey PNG of up to 16 bits at its full depth, as stored. Error: as above, or a picture in colour.
 HeightImage readHeightPng(const std::filesystem::path& path);
 HeightImage decodeHeightPng(const std::string& bytes, const std::string& file);

@@ -23,19 +23,18 @@ namespace fs = std::filesystem;
 // Half as wide and high; each texel is the mean of four.
 Image halved(const Image& image) {
     Image out{std::max(image.width / 2, 1), std::max(image.height / 2, 1), 4, {}};
-    out.pixels.reserve(size_t(out.width) * size_t(out.height) * 4);
-    const auto texel = [&](int x, int y, int channel) {
-        const size_t at = size_t(std::min(y, image.height - 1)) * size_t(image.width) +
-                          size_t(std::min(x, image.width - 1));
-        return int(image.pixels[at * 4 + size_t(channel)]);
+    out.pixels.resize(size_t(out.width) * size_t(out.height) * 4);
+    uint8_t* to = out.pixels.data();
+    const auto row = [&](int y) {
+        return image.pixels.data() + size_t(std::min(y, image.height - 1)) * size_t(image.width) * 4;
     };
-    for (int y = 0; y < out.height; ++y)
-        for (int x = 0; x < out.width; ++x)
-            for (int c = 0; c < 4; ++c)
-                out.pixels.push_back(
-                    uint8_t((texel(2 * x, 2 * y, c) + texel(2 * x + 1, 2 * y, c) +
-                             texel(2 * x, 2 * y + 1, c) + texel(2 * x + 1, 2 * y + 1, c) + 2) /
-                            4));
+    const size_t right = image.width > 1 ? 4 : 0;
+    for (int y = 0; y < out.height; ++y) {
+        const uint8_t *above = row(2 * y), *below = row(2 * y + 1);
+        for (int x = 0; x < out.width; ++x, above += 8, below += 8, to += 4)
+            for (size_t c = 0; c < 4; ++c)
+                to[c] = uint8_t((above[c] + above[right + c] + below[c] + below[right + c] + 2) / 4);
+    }
     return out;
 }
 
@@ -238,13 +237,19 @@ class MaterialReader {
         if (const aiTexture* embedded = scene_.GetEmbeddedTexture(path.c_str())) {
             if (embedded->mHeight > 0) return uncompressed(*embedded);
             const auto* bytes = reinterpret_cast<const char*>(embedded->pcData);
-            return decodeImage(std::string(bytes, embedded->mWidth), path.empty() ? "an image" : path);
+            return decoded(std::string(bytes, embedded->mWidth), path.empty() ? "an image" : path);
         }
         const fs::path file = find(path);
-        std::error_code code;
-        const uint64_t bytes = fs::file_size(file, code);
-        if (!code) opened_(bytes);
-        return decodeImage(readFile(file), file.string());
+        const std::string bytes = readFile(file);
+        opened_(bytes.size());
+        return decoded(bytes, file.string());
+    }
+
+    // An image may be packed into much fewer bytes than reading it takes: it is worth as much as a file that
+    // holds a tenth of its texels' bytes.
+    Image decoded(const std::string& bytes, const std::string& file) const {
+        opened_(std::min(texelsOf(bytes), maxImageTexels) * 4 / 10);
+        return decodeImage(bytes, file);
     }
 
     // Paths are of the machine on which the model was made, whose names may not tell "A" from "a".

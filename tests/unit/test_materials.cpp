@@ -160,6 +160,17 @@ TEST_CASE("an image with holes cuts, one beside the colour becomes its alpha, an
     CHECK(small.images[0].pixels[0] == 100);
 }
 
+TEST_CASE("the largest image that is read fits what its model may take, however well it is packed",
+          "[model][material][confined]") {
+    const Scratch scratch;
+    writePng(scratch.path("large.png"), plain(8192, 8192, {0, 0, 255, 255}));
+    const Mesh mesh = withMaterial(scratch, "map_Kd large.png\n");
+    CHECK(notesOf(mesh) == "");
+    REQUIRE(mesh.images.size() == 1);
+    CHECK(mesh.images[0].width == largestModelImage);
+    CHECK(mesh.images[0].pixels[2] == 255);
+}
+
 TEST_CASE("what of a material is not drawn is told", "[model][material]") {
     const Scratch scratch;
     writePng(scratch.path("grey.png"), plain(1, 1, {128, 128, 128, 255}));
