@@ -212,7 +212,7 @@ TEST_CASE("bash completes commands, options, their words and scenes, and expands
     };
     const std::string shoal = SHOAL_COMMAND;
     CHECK(completed(shoal + " me") == std::set<std::string>{"measure"});
-    CHECK(completed(shoal + " molecule ''") == std::set<std::string>{"--help", "from-mesh", "show"});
+    CHECK(completed(shoal + " molecule ''") == std::set<std::string>{"--help", "from-mesh", "new", "show"});
     CHECK(completed(shoal + " run hello --conte") == std::set<std::string>{"--context"});
     CHECK(completed(shoal + " run hello --context e") == std::set<std::string>{"egl"});
     CHECK(completed(shoal + " bench c") == std::set<std::string>{"collide"});
