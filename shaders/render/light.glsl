@@ -1,7 +1,6 @@
 // Light on a surface: the sun through its shadow map, the sky all around, light through thin things, haze.
 // Places are relative to the eye, in the scene's directions. With SHADOWS the sun casts them, with
-// WIDE_SHADOWS beyond the molecules too; with WATER all below its
-// surface is under water.
+// WIDE_SHADOWS beyond the molecules too; with WATER all below its surface is under water.
 
 #include "render/sky.glsl"
 #include "render/tone.glsl"

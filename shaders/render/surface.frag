@@ -1,6 +1,6 @@
 // Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
-// haze instead; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h); CUT,
-// out of the colour image by its alpha.
+// haze instead; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h), and
+// IMAGES with any of them; CUT, out of the colour image by its alpha.
 
 #include "physics/noise.glsl"
 #include "render/light.glsl"
@@ -19,7 +19,7 @@ uniform sampler2D roughnessImage;  // g roughness, b metallic
 #ifdef EMISSIVE_IMAGE
 uniform sampler2D emissiveImage;
 #endif
-#if defined(COLOR_IMAGE) || defined(NORMAL_IMAGE) || defined(ROUGHNESS_IMAGE) || defined(EMISSIVE_IMAGE)
+#ifdef IMAGES
 in vec2 uv;
 #endif
 

@@ -1,11 +1,10 @@
-// A triangle mesh of the scene: host models, terrain, colliders. Variants: DEPTH_ONLY; COLOR_IMAGE, NORMAL_IMAGE,
-// ROUGHNESS_IMAGE, EMISSIVE_IMAGE, which lie by texture coordinates.
+// A triangle mesh of the scene: host models, terrain, colliders. Variants: DEPTH_ONLY; IMAGES, which lie
+// by texture coordinates.
 
 layout(location = 0) in vec3 corner;  // m, relative to the mesh's own origin
 layout(location = 1) in vec3 cornerNormal;
 layout(location = 2) in vec3 cornerColor;
-#if defined(COLOR_IMAGE) || defined(NORMAL_IMAGE) || defined(ROUGHNESS_IMAGE) || defined(EMISSIVE_IMAGE)
-#define IMAGES
+#ifdef IMAGES
 layout(location = 3) in vec2 cornerUv;
 out vec2 uv;
 #endif

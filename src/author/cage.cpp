@@ -1,7 +1,6 @@
 // A cage: the cells of a body-centred cubic lattice through which a surface passes, or which it encloses.
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 #include "author/coarse.h"
@@ -11,37 +10,9 @@ namespace shoal {
 
 namespace {
 
-// One tetrahedron: between the centre of a cube and that of the next along an axis, one of the four about
-// their common face.
-struct Key {
-    glm::ivec3 cube{0};
-    int axis = 0, quarter = 0;
-    auto operator<=>(const Key& o) const {
-        return std::tie(cube.x, cube.y, cube.z, axis, quarter) <=>
-               std::tie(o.cube.x, o.cube.y, o.cube.z, o.axis, o.quarter);
-    }
-    bool operator==(const Key& o) const { return (*this <=> o) == std::strong_ordering::equal; }
-};
-
-// Corners in halves of the spacing: those of cubes are even, their centres odd.
-std::array<glm::ivec3, 4> cornersOf(const Key& key) {
-    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-    std::array<glm::ivec3, 4> out;
-    out[0] = out[1] = out[2] = out[3] = 2 * key.cube + 1;
-    out[1][key.axis] += 2;
-    for (int i = 0; i < 2; ++i) {
-        glm::ivec3& corner = out[size_t(2 + i)];
-        const int* sides = turn[(key.quarter + i) % 4];
-        corner[key.axis] += 1;
-        corner[(key.axis + 1) % 3] += sides[0];
-        corner[(key.axis + 2) % 3] += sides[1];
-    }
-    return out;
-}
-
 // The cell that holds a point, whose unit is the spacing.
-Key cellAt(const glm::dvec3& point) {
-    Key out;
+LatticeCell cellAt(const glm::dvec3& point) {
+    LatticeCell out;
     const glm::dvec3 cube = glm::floor(point), from = point - cube - 0.5;
     out.cube = glm::ivec3(cube);
     for (int axis = 1; axis < 3; ++axis)
@@ -73,80 +44,63 @@ struct Lattices {
     glm::dvec3 scaled(const glm::dvec3& place) const { return (place - origin) / spacing; }
 };
 
-// The cells of one part each, which hang together by faces.
-std::vector<int> partsOf(const std::vector<Key>& cells) {
-    std::vector<int> parent(cells.size());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&](int i) {
-        while (parent[size_t(i)] != i)
-            i = parent[size_t(i)] = parent[size_t(parent[size_t(i)])];
-        return i;
-    };
-    std::map<std::array<int, 9>, int> faces;
-    for (size_t c = 0; c < cells.size(); ++c) {
-        const std::array<glm::ivec3, 4> corners = cornersOf(cells[c]);
-        for (size_t apex = 0; apex < 4; ++apex) {
-            std::array<std::array<int, 3>, 3> face;
-            for (size_t i = 0; i < 3; ++i) {
-                const glm::ivec3& corner = corners[(apex + 1 + i) % 4];
-                face[i] = {corner.x, corner.y, corner.z};
-            }
-            std::sort(face.begin(), face.end());
-            std::array<int, 9> key;
-            for (size_t i = 0; i < 9; ++i)
-                key[i] = face[i / 3][i % 3];
-            const auto [entry, isNew] = faces.try_emplace(key, int(c));
-            if (!isNew) parent[size_t(root(int(c)))] = root(entry->second);
+struct Numbered {
+    std::vector<glm::ivec3> corners;  // in halves of the spacing
+    std::vector<std::array<int, 4>> cells;
+
+    bool whole() const {
+        const std::vector<size_t> parts = partsOf(cells);
+        return std::all_of(parts.begin(), parts.end(), [&](size_t part) { return part == parts[0]; });
+    }
+};
+
+Numbered numbered(const std::set<LatticeCell>& cells) {
+    Numbered out;
+    std::map<std::array<int, 3>, int> numbers;
+    for (const LatticeCell& cell : cells) {
+        std::array<int, 4>& four = out.cells.emplace_back();
+        const std::array<glm::ivec3, 4> corners = cell.corners();
+        for (size_t i = 0; i < 4; ++i) {
+            const glm::ivec3& corner = corners[i];
+            const auto [entry, isNew] =
+                numbers.try_emplace({corner.x, corner.y, corner.z}, int(out.corners.size()));
+            if (isNew) out.corners.push_back(corner);
+            four[i] = entry->second;
         }
     }
-    for (size_t c = 0; c < cells.size(); ++c)
-        parent[c] = root(int(c));
-    return parent;
+    return out;
 }
 
 // Adds every cell about the corners at which parts meet: hinges would bend without resistance.
-bool joinAtCorners(std::set<Key>& cells) {
-    const std::vector<Key> list(cells.begin(), cells.end());
-    const std::vector<int> parts = partsOf(list);
-    if (std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts[0]; })) return false;
-    std::map<std::array<int, 3>, std::set<int>> at;
-    for (size_t c = 0; c < list.size(); ++c)
-        for (const glm::ivec3& corner : cornersOf(list[c]))
-            at[{corner.x, corner.y, corner.z}].insert(parts[c]);
-    const size_t before = cells.size();
-    for (const auto& [corner, here] : at) {
-        if (here.size() < 2) continue;
-        const glm::dvec3 place = 0.5 * glm::dvec3(corner[0], corner[1], corner[2]);
+void joinAtCorners(std::set<LatticeCell>& cells, const Numbered& now) {
+    const std::vector<size_t> parts = partsOf(now.cells);
+    std::vector<std::set<size_t>> at(now.corners.size());
+    for (size_t c = 0; c < parts.size(); ++c)
+        for (const int corner : now.cells[c])
+            at[size_t(corner)].insert(parts[c]);
+    for (size_t corner = 0; corner < at.size(); ++corner) {
+        if (at[corner].size() < 2) continue;
+        const glm::dvec3 place = 0.5 * glm::dvec3(now.corners[corner]);
         // The cells about a place have points this near to it in every direction.
         for (int i = 0; i < 7 * 7 * 7; ++i) {
             const glm::dvec3 way = glm::dvec3(i % 7, i / 7 % 7, i / 49) - 3.0 + glm::dvec3(0.01, 0.02, 0.03);
             cells.insert(cellAt(place + 0.05 * way));
         }
     }
-    return cells.size() > before;
-}
-
-size_t cornerCount(const std::set<Key>& cells) {
-    std::set<std::array<int, 3>> all;
-    for (const Key& key : cells)
-        for (const glm::ivec3& corner : cornersOf(key))
-            all.insert({corner.x, corner.y, corner.z});
-    return all.size();
 }
 
 // In one part; empty: in several, or with more than so many vertices.
-std::set<Key> cellsThrough(const std::vector<glm::dvec3>& places, const Lattices& lattice, size_t most) {
-    std::set<Key> cells;
+Numbered cellsThrough(const std::vector<glm::dvec3>& places, const Lattices& lattice, size_t most) {
+    std::set<LatticeCell> cells;
     for (const glm::dvec3& place : places)
         cells.insert(cellAt(lattice.scaled(place)));
+    Numbered out = numbered(cells);
     constexpr int rounds = 3;
-    for (int round = 0; round < rounds && cells.size() < 8 * most && joinAtCorners(cells); ++round) {
+    for (int round = 0; round < rounds && cells.size() < 8 * most && !out.whole(); ++round) {
+        joinAtCorners(cells, out);
+        out = numbered(cells);
     }
-    if (cornerCount(cells) > most) return {};
-    const std::vector<int> parts = partsOf({cells.begin(), cells.end()});
-    return std::all_of(parts.begin(), parts.end(), [&](int part) { return part == parts[0]; })
-               ? cells
-               : std::set<Key>();
+    return out.corners.size() <= most && out.whole() ? out : Numbered();
 }
 
 // Draws the vertices in to the surface, by which things touch, as far as no cell loses much of its volume.
@@ -185,25 +139,6 @@ void drawIn(Lattice& lattice, const std::vector<glm::dvec3>& places) {
         }
 }
 
-Lattice assembled(const std::set<Key>& cells, const Lattices& at) {
-    std::map<std::array<int, 3>, int> numbers;
-    std::vector<glm::dvec3> places;
-    std::vector<std::array<int, 4>> out;
-    for (const Key& key : cells) {
-        std::array<int, 4> cell;
-        const std::array<glm::ivec3, 4> corners = cornersOf(key);
-        for (size_t i = 0; i < 4; ++i) {
-            const glm::ivec3& corner = corners[i];
-            const auto [entry, isNew] =
-                numbers.try_emplace({corner.x, corner.y, corner.z}, int(places.size()));
-            if (isNew) places.push_back(at.origin + 0.5 * at.spacing * glm::dvec3(corner));
-            cell[i] = entry->second;
-        }
-        out.push_back(cell);
-    }
-    return latticeOf(std::move(places), std::move(out));
-}
-
 }  // namespace
 
 Lattice cageAround(const Mesh& mesh, const Inside* inside, int vertices) {
@@ -216,7 +151,7 @@ Lattice cageAround(const Mesh& mesh, const Inside* inside, int vertices) {
         for (size_t i = 0; i < samples.size(); i += every)
             all.push_back(samples[i]);
     }
-    std::set<Key> best;
+    Numbered best;
     Lattices bestAt;
     int worse = 0;  // spacings in a row that give nothing
     for (double spacing = longest; spacing > longest / 30 && worse < 5; spacing *= 0.92) {
@@ -224,20 +159,24 @@ Lattice cageAround(const Mesh& mesh, const Inside* inside, int vertices) {
         for (const double offset : {0.0, 0.3, 0.6}) {
             const Lattices at{spacing,
                               0.5 * (mesh.low + mesh.high) + spacing * glm::dvec3(offset, 0.7 * offset, 0.4)};
-            std::set<Key> cells = cellsThrough(all, at, size_t(vertices));
-            if (cells.empty()) continue;
+            Numbered found = cellsThrough(all, at, size_t(vertices));
+            if (found.cells.empty()) continue;
             worse = 0;
-            if (bestAt.spacing > spacing || best.empty() || cornerCount(cells) > cornerCount(best)) {
-                best = std::move(cells);
+            if (bestAt.spacing > spacing || best.cells.empty() ||
+                found.corners.size() > best.corners.size()) {
+                best = std::move(found);
                 bestAt = at;
             }
         }
-        if (best.empty()) worse = 0;  // too coarse still, or in parts
+        if (best.cells.empty()) worse = 0;  // too coarse still, or in parts
     }
-    if (best.empty())
+    if (best.cells.empty())
         throw Error("no cage of at most ", vertices,
                     " vertices holds all parts of this mesh: take more vertices");
-    Lattice out = assembled(best, bestAt);
+    std::vector<glm::dvec3> corners;
+    for (const glm::ivec3& corner : best.corners)
+        corners.push_back(bestAt.origin + 0.5 * bestAt.spacing * glm::dvec3(corner));
+    Lattice out = latticeOf(std::move(corners), std::move(best.cells));
     drawIn(out, surface);
     return out;
 }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "geometry/sample_grid.h"
@@ -61,6 +62,24 @@ struct Lattice {
 // As fine as `vertices` allow: of all lattices over the box the one that fills most with at most so many
 // vertices. Error: the shape is too thin for any.
 Lattice latticeIn(const Mesh& mesh, const Inside& inside, int vertices);
+
+// A tetrahedron of that lattice: between the centre of a cube and that of the next along an axis, one of the
+// four about their common face.
+struct LatticeCell {
+    glm::ivec3 cube{0};
+    int axis = 0, quarter = 0;
+
+    // In halves of the spacing: both centres, which are odd, and two corners of cubes, which are even.
+    std::array<glm::ivec3, 4> corners() const;
+    bool operator<(const LatticeCell& o) const {
+        return std::tie(cube.x, cube.y, cube.z, axis, quarter) <
+               std::tie(o.cube.x, o.cube.y, o.cube.z, o.axis, o.quarter);
+    }
+};
+
+// The part of each cell, by one of its cells. Those of a part hang together by faces: hinges would bend
+// without resistance.
+std::vector<size_t> partsOf(const std::vector<std::array<int, 4>>& cells);
 
 // The surface of cells, and they.
 Lattice latticeOf(std::vector<glm::dvec3> places, std::vector<std::array<int, 4>> cells);

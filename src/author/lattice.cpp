@@ -66,24 +66,14 @@ class Builder {
         return entry->second;
     }
 
-    // The four tetrahedra between the centre of a cube and that of the next along an axis, about their common
-    // face.
+    // The four tetrahedra between the centre of a cube and that of the next along an axis.
     std::array<Cell, 4> around(const glm::ivec3& cube, int axis) {
-        const glm::ivec3 centre = 2 * cube + 1;
-        glm::ivec3 next = centre;
-        next[axis] += 2;
-        std::array<int, 4> corners;
-        constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
-        for (int i = 0; i < 4; ++i) {
-            glm::ivec3 corner = centre;
-            corner[axis] += 1;
-            corner[(axis + 1) % 3] += turn[i][0];
-            corner[(axis + 2) % 3] += turn[i][1];
-            corners[size_t(i)] = vertex(corner);
-        }
         std::array<Cell, 4> out;
-        for (size_t i = 0; i < 4; ++i)
-            out[i] = {vertex(centre), vertex(next), corners[i], corners[(i + 1) % 4]};
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            const std::array<glm::ivec3, 4> corners = LatticeCell{cube, axis, quarter}.corners();
+            for (size_t i = 0; i < 4; ++i)
+                out[size_t(quarter)][i] = vertex(corners[i]);
+        }
         return out;
     }
 
@@ -106,33 +96,17 @@ class Builder {
         return size_t(std::unique(all.begin(), all.end()) - all.begin());
     }
 
-    // Cells that hang together by faces: hinges would bend without resistance.
     static std::vector<Cell> largestPart(const std::vector<Cell>& cells) {
-        std::vector<size_t> parent(cells.size());
-        std::iota(parent.begin(), parent.end(), size_t{0});
-        const auto root = [&](size_t i) {
-            while (parent[i] != i)
-                i = parent[i] = parent[parent[i]];
-            return i;
-        };
-        std::map<std::array<int, 3>, size_t> faces;
-        for (size_t c = 0; c < cells.size(); ++c)
-            for (size_t out = 0; out < 4; ++out) {
-                std::array<int, 3> face = {cells[c][(out + 1) % 4], cells[c][(out + 2) % 4],
-                                           cells[c][(out + 3) % 4]};
-                std::sort(face.begin(), face.end());
-                const auto [entry, isNew] = faces.try_emplace(face, c);
-                if (!isNew) parent[root(c)] = root(entry->second);
-            }
+        const std::vector<size_t> parts = partsOf(cells);
         std::map<size_t, size_t> sizes;
         for (size_t c = 0; c < cells.size(); ++c)
-            ++sizes[root(c)];
+            ++sizes[parts[c]];
         size_t best = 0;
         for (const auto& [part, size] : sizes)
             if (!sizes.contains(best) || size > sizes[best]) best = part;
         std::vector<Cell> out;
         for (size_t c = 0; c < cells.size(); ++c)
-            if (root(c) == best) out.push_back(cells[c]);
+            if (parts[c] == best) out.push_back(cells[c]);
         return out;
     }
 
@@ -160,6 +134,43 @@ Lattice assemble(const std::vector<Cell>& kept, const Builder& builder) {
 }
 
 }  // namespace
+
+std::array<glm::ivec3, 4> LatticeCell::corners() const {
+    constexpr int turn[4][2] = {{1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+    std::array<glm::ivec3, 4> out;
+    out[0] = out[1] = out[2] = out[3] = 2 * cube + 1;
+    out[1][axis] += 2;
+    for (int i = 0; i < 2; ++i) {
+        glm::ivec3& corner = out[size_t(2 + i)];
+        const int* sides = turn[(quarter + i) % 4];
+        corner[axis] += 1;
+        corner[(axis + 1) % 3] += sides[0];
+        corner[(axis + 2) % 3] += sides[1];
+    }
+    return out;
+}
+
+std::vector<size_t> partsOf(const std::vector<Cell>& cells) {
+    std::vector<size_t> parent(cells.size());
+    std::iota(parent.begin(), parent.end(), size_t{0});
+    const auto root = [&](size_t i) {
+        while (parent[i] != i)
+            i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::map<std::array<int, 3>, size_t> faces;
+    for (size_t c = 0; c < cells.size(); ++c)
+        for (size_t out = 0; out < 4; ++out) {
+            std::array<int, 3> face = {cells[c][(out + 1) % 4], cells[c][(out + 2) % 4],
+                                       cells[c][(out + 3) % 4]};
+            std::sort(face.begin(), face.end());
+            const auto [entry, isNew] = faces.try_emplace(face, c);
+            if (!isNew) parent[root(c)] = root(entry->second);
+        }
+    for (size_t c = 0; c < cells.size(); ++c)
+        parent[c] = root(c);
+    return parent;
+}
 
 Lattice latticeOf(std::vector<glm::dvec3> places, std::vector<Cell> cells) {
     Lattice out;

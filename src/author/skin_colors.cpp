@@ -4,6 +4,7 @@
 #include <map>
 
 #include "author/from_mesh.h"
+#include "core/srgb.h"
 
 namespace shoal {
 
@@ -15,16 +16,12 @@ constexpr int plainTexels = 8;        // a side of a tile of one colour
 constexpr double mostRepeats = 8;     // of an image across a tile
 constexpr double withinImage = 1e-4;  // how far coordinates may reach beyond an image that is not repeated
 
-// From linear to sRGB (IEC 61966-2-1), 0 to 255.
 uint8_t encoded(double linear) {
-    const double c = std::clamp(linear, 0.0, 1.0);
-    const double srgb = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    return uint8_t(std::lround(255 * srgb));
+    return uint8_t(std::lround(255 * srgbOfLinear(std::clamp(linear, 0.0, 1.0))));
 }
 
 double decoded(uint8_t srgb) {
-    const double c = srgb / 255.0;
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+    return linearOfSrgb(srgb / 255.0);
 }
 
 struct Tile {
@@ -101,6 +98,8 @@ class Gathering {
 
     // From now on each triangle has corners of its own, whose coordinates begin within the image.
     void separateCorners() {
+        // The tiles point to the images, which are large: they stay where they are.
+        std::vector<Image> images = std::move(mesh_.images);
         Mesh out = mesh_;
         out.positions.clear(), out.normals.clear(), out.uvs.clear(), out.colors.clear(), out.weld.clear();
         for (glm::ivec3& triangle : out.triangles) {
@@ -120,7 +119,7 @@ class Gathering {
                 if (!mesh_.colors.empty()) out.colors.push_back(mesh_.colors[from]);
             }
         }
-        out.images = std::move(mesh_.images);  // the tiles point to its elements, which do not move
+        out.images = std::move(images);
         mesh_ = std::move(out);
     }
 

@@ -16,6 +16,7 @@
 #include "core/confined.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/srgb.h"
 #include "geometry/load_materials.h"
 
 namespace shoal {
@@ -36,11 +37,6 @@ glm::dvec3 vector(const aiVector3D& v) {
 
 bool finite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
-// From sRGB (IEC 61966-2-1) to linear.
-double linear(double c) {
-    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
 }
 
 bool holdsSrgb(const std::string& file) {
@@ -146,7 +142,7 @@ class Collector {
             if (part.HasVertexColors(0)) {
                 const aiColor4D& c = part.mColors[0][i];
                 color = {c.r, c.g, c.b};
-                if (srgb_) color = {linear(color.r), linear(color.g), linear(color.b)};
+                if (srgb_) color = {linearOfSrgb(color.r), linearOfSrgb(color.g), linearOfSrgb(color.b)};
             }
             mesh.colors.push_back(finite(color) ? color : glm::dvec3(1));
 

@@ -178,6 +178,11 @@ static bool blended(const SurfaceMaterial& material) {
     return material.alpha == SurfaceMaterial::Alpha::blend;
 }
 
+// Whether its image has holes.
+static bool cutOut(const SurfaceMaterial& material) {
+    return material.alpha == SurfaceMaterial::Alpha::cut && material.colorImage >= 0;
+}
+
 bool SurfaceDrawer::blends(const Scene& scene) {
     return std::any_of(scene.models.begin(), scene.models.end(), [](const Model& model) {
         return model.draw && std::any_of(model.mesh.materials.begin(), model.mesh.materials.end(), blended);
@@ -275,7 +280,6 @@ void SurfaceDrawer::add(gpu::Context& context, const SurfaceMesh& mesh, Drawn dr
 // A program for each set of images that a material has.
 void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& shaderRoot,
                                    const Lighting& lighting, bool shadows, bool grid) {
-    using Alpha = SurfaceMaterial::Alpha;
     for (Drawn& surface : surfaces_) {
         for (Look& look : surface.looks) {
             const SurfaceMaterial& material = look.material;
@@ -289,7 +293,10 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& sha
             define(material.normalImage >= 0, "NORMAL_IMAGE");
             define(material.roughnessImage >= 0, "ROUGHNESS_IMAGE");
             define(material.emissiveImage >= 0, "EMISSIVE_IMAGE");
-            define(material.alpha == Alpha::cut && material.colorImage >= 0, "CUT");
+            define(std::max({material.colorImage, material.normalImage, material.roughnessImage,
+                             material.emissiveImage}) >= 0,
+                   "IMAGES");
+            define(cutOut(material), "CUT");
             if (surface.plane) lit.label = "planes";
             look.lit = &programs_.get(context, shaderRoot, lit);
             if (surface.plane) {
@@ -299,8 +306,7 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& sha
             if (!shadows || !surface.casts || blended(material)) continue;
             gpu::ProgramOptions depth{
                 "render/surface.vert", "render/surface_shadow.frag", {"DEPTH_ONLY"}, {}, "surface depth"};
-            if (material.alpha == Alpha::cut && material.colorImage >= 0)
-                depth.defines.insert(depth.defines.end(), {"COLOR_IMAGE", "CUT"});
+            if (cutOut(material)) depth.defines.insert(depth.defines.end(), {"IMAGES", "CUT"});
             look.depth = &programs_.get(context, shaderRoot, depth);
         }
     }
@@ -324,7 +330,7 @@ void SurfaceDrawer::drawShadows(const ShadowMap& shadow, std::optional<double> t
             program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
             program.set("meshOrigin", glm::vec3(placed(pose, surface.origin) - shadow.origin().exact));
             program.set("meshScale", 1.0f);
-            if (look.material.alpha == SurfaceMaterial::Alpha::cut && look.material.colorImage >= 0) {
+            if (cutOut(look.material)) {
                 program.texture("image", unit::image, surface.images[size_t(look.material.colorImage)]);
                 program.set("alphaCut", float(look.material.alphaCut));
                 program.set("meshColor", glm::vec4(look.material.color));
@@ -374,8 +380,7 @@ void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& 
     image("roughnessImage", unit::roughnessImage, material.roughnessImage);
     image("emissiveImage", unit::emissiveImage, material.emissiveImage);
     if (material.normalImage >= 0) program.set("normalScale", float(material.normalScale));
-    if (material.alpha == SurfaceMaterial::Alpha::cut && material.colorImage >= 0)
-        program.set("alphaCut", float(material.alphaCut));
+    if (cutOut(material)) program.set("alphaCut", float(material.alphaCut));
     const Pose pose = poseOf(surface.path, time);
     program.set("meshTurn", glm::mat3(glm::mat3_cast(pose.rotation)));
     if (surface.plane) {
@@ -392,7 +397,7 @@ void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time, 
     for (const Drawn& surface : surfaces_)
         for (const Look& look : surface.looks) {
             if (blended(look.material)) continue;
-            const bool covers = multisampled && look.material.alpha == SurfaceMaterial::Alpha::cut;
+            const bool covers = multisampled && cutOut(look.material);
             if (covers) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
             drawLook(surface, look, eye, lighting, time);
             if (covers) glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
