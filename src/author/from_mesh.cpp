@@ -468,7 +468,8 @@ void checkOptions(const FromMesh& o) {
                     mostMadeVertices(),
                     o.rings ? concat(", which are ", mostMadeVertices() / 4, " rings") : "");
     if (o.rings && (o.springs == FromMesh::Springs::lattice || o.springs == FromMesh::Springs::cage))
-        throw Error("expected either rings or a lattice, found both");
+        throw Error("expected either rings or a ", o.springs == FromMesh::Springs::cage ? "cage" : "lattice",
+                    ", found both");
 }
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
