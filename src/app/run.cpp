@@ -173,7 +173,10 @@ class HeadlessRun {
         tellDropped();
         tellStopped();
         if (options_.json) {
-            std::cout << writeJson(asJson(report_, simulation_, passTimes(), hash));
+            JsonValue out = asJson(report_, simulation_, passTimes(), hash);
+            if (options_.timings && drawn_ > 0)
+                append(out, key("drawnPrimitives", renderer_->drawnPrimitives()));
+            std::cout << writeJson(out);
             return;
         }
         std::cout << many(simulation_.frames() - first_, "frame", "frames") << ", " << simulation_.time()
@@ -186,6 +189,9 @@ class HeadlessRun {
         for (const gpu::PassTime& pass : passTimes())
             std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
                       << " ms, median " << pass.median * 1e3 << " ms\n";
+        if (options_.timings && drawn_ > 0)
+            std::cout << "  molecules in the last picture: " << renderer_->drawnPrimitives()
+                      << " points and triangles\n";
     }
 
   private:

@@ -79,12 +79,6 @@ ContactGroup groupOf(const Group& source, const GroupPlan& plan) {
     return out;
 }
 
-float largestScale(const GroupPlan& group) {
-    const std::vector<float>& scales = group.constants.scales;
-    const float born = group.life ? float(group.life->cycle.scale.y) : 0;
-    return scales.empty() ? 1 : std::max(born, *std::max_element(scales.begin(), scales.end()));
-}
-
 float smallestScale(const GroupPlan& group) {
     const std::vector<float>& scales = group.constants.scales;
     const float born = group.life ? float(group.life->cycle.scale.x) : scales.empty() ? 1 : scales[0];

@@ -187,6 +187,10 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
         else
             out << "  fused    once a frame         " << kernelParts(group) << "\n";
         if (choice.path == Path::fused) out << "  lanes    " << lanesText(plan, group) << "\n";
+        if (group.skinTriangleCount > 0)
+            out << "  drawn    as a skin of " << many(group.skinTriangleCount, "triangle", "triangles")
+                << ", " << int64_t(group.skinTriangleCount) * group.count
+                << " in all near the camera, fewer where a pixel hides the difference\n";
         tellSchool(out, plan, g);
         listBirths(out, group);
         const std::string absent = leftOut(group, choice.path != Path::pingPong);

@@ -75,6 +75,7 @@ GroupPlan layOut(const Scene& scene, size_t index, const CompileOptions& options
     out.vertexCount = int(group.molecule.vertices.size());
     out.springCount = int(group.molecule.springs.size());
     out.triangleCount = int(group.molecule.triangles.size());
+    out.skinTriangleCount = int(group.molecule.skin.triangles.size());
     out.needs = findNeeds(scene, group, options);
     out.forces = generateForces(scene.forces, group.name, out.needs.drag);
     out.needs.forces = !out.forces.pulls.empty();
@@ -426,6 +427,12 @@ int substepsNeeded(const Plan& plan, double frameTime, double stiffnessFactor, d
         if (group.needs.springs) needed = std::max(needed, std::ceil(frameTime * factor / group.stableStep));
     }
     return int(std::min(needed, 1e6));
+}
+
+float largestScale(const GroupPlan& group) {
+    const std::vector<float>& scales = group.constants.scales;
+    const float born = group.life ? float(group.life->cycle.scale.y) : 0;
+    return scales.empty() ? 1 : std::max(born, *std::max_element(scales.begin(), scales.end()));
 }
 
 }  // namespace shoal

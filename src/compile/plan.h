@@ -49,6 +49,7 @@ struct GroupPlan {
     size_t index = 0;   // in scene.groups
     int count = 0;      // places, where some are born or die
     int vertexCount = 0, springCount = 0, triangleCount = 0;
+    int skinTriangleCount = 0;  // 0: its own triangles are drawn
     TextureLayout texture;
     int topologyBase = 0;
     Needs needs;
@@ -85,6 +86,8 @@ struct GroupPlan {
     bool factored() const { return solver == SolverKind::bdf2Corotated; }  // has a matrix
     BufferLayout layout() const { return {vertexCount, shoal::solver(solver).history, needs.life}; }
 };
+
+float largestScale(const GroupPlan& group);  // of the rest lengths
 
 enum class PassKind { records, normals, thrust, restore, advect, stage, collide, watch };
 const char* name(PassKind kind);

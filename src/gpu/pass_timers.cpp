@@ -154,6 +154,12 @@ double DeviceTimer::elapsed() const {
     return double(end - begin) * 1e-9;
 }
 
+uint64_t PrimitiveCounter::last() const {
+    GLuint64 count = 0;
+    glGetQueryObjectui64v(query_.id(), GL_QUERY_RESULT, &count);
+    return count;
+}
+
 void PassTimers::drain() {
     EXPECTS(!inFrame_);
     while (collectOldest(true)) {

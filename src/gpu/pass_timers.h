@@ -121,6 +121,22 @@ class DeviceTimer {
     Handle<deleteQuery> begin_, end_;
 };
 
+// How many points and triangles some draws make.
+class PrimitiveCounter {
+  public:
+    PrimitiveCounter() : query_(glGenQueries) {}
+    template <typename Work>
+    void count(const Work& work) {
+        glBeginQuery(GL_PRIMITIVES_GENERATED, query_.id());
+        work();
+        glEndQuery(GL_PRIMITIVES_GENERATED);
+    }
+    uint64_t last() const;  // of the last count(), for which it waits
+
+  private:
+    Handle<deleteQuery> query_;
+};
+
 // A frame of the timers until the end of the block: ended also where a program is refused, which is made when
 // it is needed first.
 class TimedFrame {

@@ -1,5 +1,7 @@
 #include "render/draw_order.h"
 
+#include <bit>
+
 #include "gpu/buffer.h"
 #include "gpu/gl.h"
 #include "render/lighting.h"
@@ -180,32 +182,35 @@ void DepthSlabs::bind(const gpu::Program& program) const {
 
 static constexpr size_t drawBytes = 8 * sizeof(uint32_t);
 
-static gpu::ProgramOptions findingDraws(const DrawOrder& order) {
+static gpu::ProgramOptions findingDraws(const DrawOrder& order, size_t streams) {
     gpu::ProgramOptions options;
     options.compute = "render/slab_draws.comp";
     options.defines = order.defines();
     options.defines.push_back(concat("LANES ", lanes));
+    options.defines.push_back(concat("STREAMS ", streams));
     options.label = "slab draws";
     return options;
 }
 
 SlabDraws::SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
-                     const DrawStream& stream)
+                     std::vector<DrawStream> streams)
     : slabs_(slabs),
-      stream_(stream),
-      program_(context, shaderRoot, findingDraws(order)),
+      streams_(std::move(streams)),
+      program_(context, shaderRoot, findingDraws(order, streams_.size())),
       draws_(context, gpu::Buffer::Use::storage, nullptr, size_t(slabs) * drawBytes, "slab draws"),
       drawTexels_(context, draws_, gpu::Texel::uint1, "slab draws") {}
 
-void SlabDraws::update(const DrawOrder& order, const DepthSlabs& slabs) {
+void SlabDraws::update(const DrawOrder& order, const gpu::Texture& bounds) {
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::storage});
     program_.use();
     order.bind(program_);
-    slabs.bind(program_);
+    program_.texture("slabs", unit::slabs, bounds);
     program_.set("slabCount", slabs_);
     program_.set("moleculeCount", order.count());
-    program_.set("corners", stream_.corners);
-    program_.set("batch", stream_.batch);
+    std::vector<glm::ivec4> streams;
+    for (const DrawStream& stream : streams_)
+        streams.emplace_back(stream.corners, stream.first, stream.batch, 0);
+    program_.set("streams", std::span<const glm::ivec4>(streams));
     program_.storage("Draws", 0, draws_);
     program_.dispatch((slabs_ + lanes - 1) / lanes);
     gpu::barrier({gpu::Barrier::textureFetch, gpu::Barrier::command});
@@ -219,10 +224,45 @@ void SlabDraws::bind(const gpu::Program& program) const {
 void SlabDraws::draw(int slab) const {
     const auto* at =
         reinterpret_cast<const void*>(size_t(slab) * drawBytes);  // OpenGL's way to say an offset
-    if (stream_.indexed)
+    if (streams_[0].indexed)
         glDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, at);
     else
         glDrawArraysIndirect(GL_POINTS, at);
+}
+
+// ---- Levels of detail
+
+size_t LevelDraws::levelInShadow(const std::vector<DrawStream>& levels, double texelsPerMeter) {
+    size_t level = 0;
+    while (level + 1 < levels.size() && levels[level + 1].error * texelsPerMeter <= mostShadowError)
+        ++level;
+    return level;
+}
+
+LevelDraws::LevelDraws(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group,
+                       size_t index, const std::vector<DrawStream>& levels, double scale)
+    : radius_(scale * group.size),
+      order_(context, shaderRoot, group, index, DrawSort::frame, 0),
+      bounds_(context, gpu::Format::rg32ui, int(levels.size()), 1, "levels of detail"),
+      draws_(context, shaderRoot, int(levels.size()), order_, {levels.rbegin(), levels.rend()}) {
+    for (size_t i = levels.size() - 1; i > 0; --i)
+        errors_.push_back(scale * levels[i].error);
+}
+
+// As shaders/render/order_key.glsl has it.
+static uint32_t keyOf(double depth) {
+    const uint32_t bits = std::bit_cast<uint32_t>(float(-depth));
+    return (bits & 0x80000000u) != 0 ? ~bits : bits | 0x80000000u;
+}
+
+void LevelDraws::update(const StateView& state, const Eye& eye) {
+    order_.update(state, eye);
+    std::vector<glm::uvec2> bounds(errors_.size() + 1, glm::uvec2(0, ~0u));
+    for (size_t s = 0; s < errors_.size(); ++s)
+        bounds[s].y = bounds[s + 1].x = keyOf(radius_ + errors_[s] * double(eye.pixelsPerMeter) / mostError);
+    bounds_.upload(gpu::Traffic::Kind::parameters, 0, 0, int(bounds.size()), 1, bounds.data(),
+                   bounds.size() * sizeof(glm::uvec2));
+    draws_.update(order_, bounds_);
 }
 
 }  // namespace shoal

@@ -1,5 +1,6 @@
 // The order in which the molecules of a blended group are drawn: from back to front, by the depth of their
-// middles along the view. Made and kept on the GPU; nothing of it crosses the bus.
+// middles along the view. Made and kept on the GPU; nothing of it crosses the bus. By the same order skins
+// are drawn with as many triangles as their distance asks for.
 //
 // Several blended groups take turns in slabs of depth: everything of the farthest slab first, whatever its
 // group. Within a group the order stays exact; of two groups, what lies in one slab may be drawn the wrong
@@ -91,6 +92,7 @@ class DepthSlabs {
     void update(const DrawOrder& order);  // of the group that it was made for; changes the framebuffer
     void bind(const gpu::Program& program) const;
     int count() const { return bounds_.width(); }
+    const gpu::Texture& bounds() const { return bounds_; }
 
   private:
     gpu::Texture bounds_;  // texel s: first key of slab s, first one past it
@@ -104,25 +106,56 @@ struct DrawStream {
     int corners = 1;       // indices, or vertices where there are none
     bool indexed = false;  // triangles; else points
     int batch = 1;         // molecules
+    int first = 0;         // index
+    double error = 0;      // m, of a level of detail (geometry/mesh_levels.h)
 };
 
 // One indirect draw a slab of depth, of those molecules of a sorted group that lie in it: found on the GPU
 // (OpenGL 4.3), so that no vertex of another slab is touched.
 class SlabDraws {
   public:
+    // `streams`: one for all slabs, or one each.
     SlabDraws(gpu::Context& context, const std::string& shaderRoot, int slabs, const DrawOrder& order,
-              const DrawStream& stream);
+              std::vector<DrawStream> streams);
 
-    void update(const DrawOrder& order, const DepthSlabs& slabs);
+    int slabs() const { return slabs_; }
+    // `bounds`: texel s holds the first key of slab s and the first one past it.
+    void update(const DrawOrder& order, const gpu::Texture& bounds);
     void bind(const gpu::Program& program) const;  // shaders/render/drawn.glsl, SLAB_DRAWS
     void draw(int slab) const;                     // the vertex array is bound
 
   private:
     int slabs_;
-    DrawStream stream_;
+    std::vector<DrawStream> streams_;
     gpu::Program program_;
     gpu::Buffer draws_;  // shaders/render/slab_draws.comp
     gpu::BufferTexture drawTexels_;
+};
+
+// Draws each molecule of a group with as few triangles as its depth allows.
+class LevelDraws {
+  public:
+    static constexpr double mostError = 0.1;        // pixels of a picture
+    static constexpr double mostShadowError = 0.3;  // texels of a shadow map, which shows no normals
+
+    // The coarsest of `levels` that a shadow map of so many texels a metre does not tell from the finest.
+    static size_t levelInShadow(const std::vector<DrawStream>& levels, double texelsPerMeter);
+
+    // `scale`: of the largest molecule. Error: DrawOrder's.
+    LevelDraws(gpu::Context& context, const std::string& shaderRoot, const GroupPlan& group, size_t index,
+               const std::vector<DrawStream>& levels, double scale);
+
+    // Updates the draws to the state as `eye` sees it; changes what DrawOrder::update() does.
+    void update(const StateView& state, const Eye& eye);
+    const DrawOrder& order() const { return order_; }
+    const SlabDraws& draws() const { return draws_; }
+
+  private:
+    std::vector<double> errors_;  // m, of each slab but the last, the coarsest first
+    double radius_;               // m, of a molecule
+    DrawOrder order_;
+    gpu::Texture bounds_;
+    SlabDraws draws_;
 };
 
 }  // namespace shoal

@@ -24,8 +24,10 @@ DrawnGroups::DrawnGroups(gpu::Context& context, const std::string& shaderRoot, c
         drawn.blend = material.blend;
         if (drawn.blend == Blend::alpha) drawn.sort = material.sort;
         drawn.spreadFrames = material.spreadFrames;
+        drawn.scale = largestScale(groupPlan);
         groups_.push_back(std::move(drawn));
     }
+    makeLevels(context, shaderRoot, plan);
     makeOrders(context, shaderRoot, plan, slabs);
 }
 
@@ -43,13 +45,29 @@ bool DrawnGroups::readsDepth() const {
 void DrawnGroups::drawShadows(const StateView& state, const ShadowMap& shadow, double time) {
     for (Drawn& group : groups_)
         if (group.blend == Blend::none)
-            group.drawer->submit(group.drawer->useDepth(state, shadow, time), state);
+            group.drawer->submit(group.drawer->useDepth(state, shadow, time), state,
+                                 LevelDraws::levelInShadow(group.drawer->streams(),
+                                                           double(group.scale * shadow.pixelsPerMeter())));
+}
+
+// Draws the farthest first; the order within a level is that of depth, too.
+static void drawLevels(GroupDrawer& drawer, const LevelDraws& levels, const StateView& state,
+                       const DrawInputs& inputs) {
+    const gpu::Program& program = drawer.useLit(state, inputs);
+    levels.order().bind(program);
+    for (int slab = levels.draws().slabs() - 1; slab >= 0; --slab) {
+        program.set("slab", slab);
+        drawer.submitSlab(program, state, levels.draws(), slab);
+    }
 }
 
 void DrawnGroups::draw(const StateView& state, const DrawInputs& inputs) {
     if (inputs.multisampled) glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
     for (Drawn& group : groups_)
-        if (group.blend == Blend::none) group.drawer->submit(group.drawer->useLit(state, inputs), state);
+        if (group.levels)
+            drawLevels(*group.drawer, *group.levels, state, inputs);
+        else if (group.blend == Blend::none)
+            group.drawer->submit(group.drawer->useLit(state, inputs), state);
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
 }
 
@@ -73,6 +91,23 @@ const DrawOrder* DrawnGroups::orderOf(size_t group) const {
     for (const Drawn& drawn : groups_)
         if (drawn.drawer->index() == group) return drawn.order.get();
     return nullptr;
+}
+
+// ---- Levels of detail
+
+// Where compute shaders can cut the order, and there is something to save.
+void DrawnGroups::makeLevels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan) {
+    constexpr int64_t few = 20000;  // triangles: ordering the molecules would cost about as much
+    for (Drawn& group : groups_) {
+        GroupDrawer& drawer = *group.drawer;
+        const std::vector<DrawStream>& streams = drawer.streams();
+        if (group.blend != Blend::none || streams.size() < 2 || !context.info().computeShaders) continue;
+        if (int64_t(streams[0].corners) / 3 * drawer.count() < few) continue;
+        group.levels = std::make_unique<LevelDraws>(context, shaderRoot, plan.groups[drawer.index()],
+                                                    drawer.index(), streams, double(group.scale));
+        drawer.addOrderDefines({"ORDERED", "SLAB_DRAWS"});
+        drawer.addOrderDefines(group.levels->order().defines());
+    }
 }
 
 // ---- What is blended
@@ -106,8 +141,8 @@ void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoo
         if (inSlabs) drawer.addOrderDefines({group.order->exact() ? "SLAB_DRAWS" : "SLABS"});
         drawer.addOrderDefines(group.order->defines());
         if (inSlabs && group.order->exact())
-            group.slabDraws =
-                std::make_unique<SlabDraws>(context, shaderRoot, slabs, *group.order, drawer.stream());
+            group.slabDraws = std::make_unique<SlabDraws>(context, shaderRoot, slabs, *group.order,
+                                                          std::vector{drawer.streams()[0]});
         // The slabs are cut by the largest group that is sorted, else by the largest.
         const int weight = group.order->sorted() ? drawer.count() : 0;
         if (weight > most) {
@@ -118,13 +153,28 @@ void DrawnGroups::makeOrders(gpu::Context& context, const std::string& shaderRoo
     if (inSlabs) slabs_ = std::make_unique<DepthSlabs>(context, shaderRoot, slabs, *groups_[slabsOf_].order);
 }
 
+bool DrawnGroups::orders() const {
+    return blends_ || std::any_of(groups_.begin(), groups_.end(),
+                                  [](const Drawn& group) { return group.levels != nullptr; });
+}
+
 void DrawnGroups::order(const StateView& state, const Eye& eye) {
+    for (Drawn& group : groups_) {
+        if (!group.levels) continue;
+        // A state in several storage blocks cannot be ordered.
+        if (state.buffers && (*state.buffers)[group.drawer->index()].parts().size() > 1) {
+            group.levels.reset();
+            group.drawer->dropOrder();
+        } else {
+            group.levels->update(state, eye);
+        }
+    }
     for (const Drawn& group : groups_)
         if (group.order) group.order->update(state, eye);
     if (!slabs_) return;
     slabs_->update(*groups_[slabsOf_].order);
     for (const Drawn& group : groups_)
-        if (group.slabDraws) group.slabDraws->update(*group.order, *slabs_);
+        if (group.slabDraws) group.slabDraws->update(*group.order, slabs_->bounds());
 }
 
 // The alpha of the picture stays 1 throughout.

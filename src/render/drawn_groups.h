@@ -25,7 +25,8 @@ class DrawnGroups {
     // Draws the groups that are not blended. With several samples a pixel, edges of cut-out shapes are spread
     // over them (alpha to coverage).
     void draw(const StateView& state, const DrawInputs& inputs);
-    // Before the framebuffer of the picture is bound: the orders of what is blended.
+    // Before the framebuffer of the picture is bound: the orders of what is blended or has levels of detail.
+    bool orders() const;
     void order(const StateView& state, const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs);
 
@@ -45,8 +46,11 @@ class DrawnGroups {
         int spreadFrames = 0;
         std::unique_ptr<DrawOrder> order;      // none: as they are numbered
         std::unique_ptr<SlabDraws> slabDraws;  // where there are slabs and the order is exact
+        std::unique_ptr<LevelDraws> levels;    // of what is not blended; none: all of each is drawn
+        float scale = 1;                       // of the largest molecule
     };
 
+    void makeLevels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan);
     void makeOrders(gpu::Context& context, const std::string& shaderRoot, const Plan& plan, int slabs);
 
     std::unique_ptr<gpu::Programs> programs_ = std::make_unique<gpu::Programs>();  // drawers point at it

@@ -19,6 +19,11 @@ void GroupDrawer::addOrderDefines(const std::vector<std::string>& defines) {
     orderDefines_.insert(orderDefines_.end(), defines.begin(), defines.end());
 }
 
+void GroupDrawer::dropOrder() {
+    orderDefines_.clear();
+    lit_ = {};
+}
+
 const gpu::Program& GroupDrawer::beginLit(const StateView& state, const DrawInputs& inputs) {
     const gpu::Program& lit = program(lit_, litOptions_, state);
     lit.use();
@@ -66,19 +71,22 @@ const gpu::Program& GroupDrawer::program(Variants& variants, const gpu::ProgramO
 void GroupDrawer::bind(const gpu::Program& program, const StateView& state, const GroupBuffers::Part* part,
                        int count) const {
     reader_.bind(program, state, part);
-    if (stream_.batch > 1) program.set("drawnCount", count);
+    if (streams_[0].batch > 1) program.set("drawnCount", count);
     corners_.bind();
-    if (!stream_.indexed) glEnable(GL_PROGRAM_POINT_SIZE);
+    if (!streams_[0].indexed) glEnable(GL_PROGRAM_POINT_SIZE);
 }
 
-void GroupDrawer::submit(const gpu::Program& program, const StateView& state) const {
+void GroupDrawer::submit(const gpu::Program& program, const StateView& state, size_t level) const {
+    const DrawStream& stream = streams_[level];
     const auto draw = [&](const GroupBuffers::Part* part, int count) {
         bind(program, state, part, count);
-        const int instances = (count + stream_.batch - 1) / stream_.batch;
-        if (stream_.indexed)
-            glDrawElementsInstanced(GL_TRIANGLES, stream_.corners, GL_UNSIGNED_INT, nullptr, instances);
+        const int instances = (count + stream.batch - 1) / stream.batch;
+        // OpenGL's way to say an offset
+        const auto* at = reinterpret_cast<const void*>(size_t(stream.first) * sizeof(uint32_t));
+        if (stream.indexed)
+            glDrawElementsInstanced(GL_TRIANGLES, stream.corners, GL_UNSIGNED_INT, at, instances);
         else
-            glDrawArraysInstanced(GL_POINTS, 0, stream_.corners, instances);
+            glDrawArraysInstanced(GL_POINTS, 0, stream.corners, instances);
         glDisable(GL_PROGRAM_POINT_SIZE);
     };
     if (!state.buffers) return draw(nullptr, count_);

@@ -37,11 +37,14 @@ class GroupDrawer {
 
     size_t index() const { return reader_.index; }  // of the group in the plan
     int count() const { return count_; }
-    const DrawStream& stream() const { return stream_; }
+    // All that is drawn of a molecule, and then coarser and coarser levels of it.
+    const std::vector<DrawStream>& streams() const { return streams_; }
     virtual bool readsDepth() const { return false; }  // DrawInputs::sceneDepth
 
     // Adds the defines of the draw order to the programs of the picture, before the first is made.
     void addOrderDefines(const std::vector<std::string>& defines);
+    // Draws without an order from now on.
+    void dropOrder();
 
     // Colours by what the molecules do, before the first program is made.
     void colorBy(const ColorScale& scale) { scale_ = scale; }
@@ -49,8 +52,8 @@ class GroupDrawer {
     // The program that draws into the picture or the shadow map: in use, all but the state set. `time`: s.
     virtual const gpu::Program& useLit(const StateView& state, const DrawInputs& inputs) = 0;
     virtual const gpu::Program& useDepth(const StateView& state, const ShadowMap& shadow, double time) = 0;
-    // Binds the state and draws it: of the buffers, each part by itself.
-    void submit(const gpu::Program& program, const StateView& state) const;
+    // Binds the state and draws it: of the buffers, each part by itself. `level`: of streams().
+    void submit(const gpu::Program& program, const StateView& state, size_t level = 0) const;
     void submitSlab(const gpu::Program& program, const StateView& state, const SlabDraws& draws,
                     int slab) const;
 
@@ -70,7 +73,7 @@ class GroupDrawer {
     gpu::Context* context_;
     gpu::Programs* programs_;
     std::string shaderRoot_, name_;
-    DrawStream stream_;
+    std::vector<DrawStream> streams_{1};
     gpu::VertexArray corners_;
     gpu::ProgramOptions litOptions_, depthOptions_;  // but for what the kind of the state adds
     Variants lit_{}, depth_{};
@@ -103,8 +106,8 @@ class MoleculeDrawer : public GroupDrawer {
     void change(const Group& group);
 
   private:
-    template <typename Vertices, typename Triangles>
-    void makeCorners(const Vertices& vertices, const Triangles& triangles);
+    template <typename Vertices>
+    void makeCorners(const Vertices& vertices, const std::vector<uint32_t>& indices);
     void makeSkinCorners(const Molecule& molecule);
     void chooseShaders(const Lighting& lighting);
     bool grows() const { return grow_ > 0 || shrink_ > 0; }

@@ -1,9 +1,26 @@
 #include <algorithm>
 
+#include "geometry/mesh_levels.h"
 #include "molecule/skin.h"
 #include "render/group_drawer.h"
 
 namespace shoal {
+
+template <typename Triangles>
+static std::vector<uint32_t> cornersOf(const Triangles& triangles) {
+    std::vector<uint32_t> out;
+    for (const auto& t : triangles)
+        for (const int corner : {t.a, t.b, t.c})
+            out.push_back(uint32_t(corner));
+    return out;
+}
+
+static std::vector<MeshLevel> levelsOf(const Skin& skin) {
+    std::vector<glm::dvec3> positions;
+    for (const SkinVertex& vertex : skin.vertices)
+        positions.push_back(vertex.position);
+    return levelsOf(positions, skinNormals(skin), cornersOf(skin.triangles));
+}
 
 MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderRoot, gpu::Programs& programs,
                                const Group& group, const GroupPlan& plan, size_t index,
@@ -13,11 +30,11 @@ MoleculeDrawer::MoleculeDrawer(gpu::Context& context, const std::string& shaderR
       points_(group.molecule.triangles.empty() && group.molecule.skin.empty()) {
     change(group);
     if (points_)
-        stream_ = {plan.vertexCount, false};
+        streams_ = {{plan.vertexCount, false}};
     else if (!group.molecule.skin.empty())
         makeSkinCorners(group.molecule);
     else
-        makeCorners(group.molecule.vertices, group.molecule.triangles);
+        makeCorners(group.molecule.vertices, cornersOf(group.molecule.triangles));
     if (group.life && !points_) {
         grow_ = group.life->grow;
         shrink_ = group.life->shrink;
@@ -36,25 +53,31 @@ void MoleculeDrawer::change(const Group& group) {
                                      : group.color.value_or(looks.secondColor.value_or(looks.color));
 }
 
-template <typename Vertices, typename Triangles>
-void MoleculeDrawer::makeCorners(const Vertices& vertices, const Triangles& triangles) {
+template <typename Vertices>
+void MoleculeDrawer::makeCorners(const Vertices& vertices, const std::vector<uint32_t>& indices) {
     std::vector<glm::vec2> uvs;
     for (const auto& vertex : vertices)
         uvs.emplace_back(vertex.uv);
-    std::vector<uint32_t> indices;
-    for (const auto& t : triangles)
-        for (const int corner : {t.a, t.b, t.c})
-            indices.push_back(uint32_t(corner));
     using Use = gpu::Buffer::Use;
     uvs_ = gpu::Buffer(*context_, Use::vertex, std::span<const glm::vec2>(uvs), "molecule uvs");
     indices_ = gpu::Buffer(*context_, Use::index, std::span<const uint32_t>(indices), "molecule triangles");
     corners_.attribute(0, uvs_, 2, sizeof(glm::vec2), 0);
     corners_.indices(indices_);
-    stream_ = {int(indices.size()), true};
+    streams_ = {{int(indices.size()), true}};
 }
 
 void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
-    makeCorners(molecule.skin.vertices, molecule.skin.triangles);
+    std::vector<uint32_t> indices;
+    std::vector<DrawStream> streams;
+    for (const MeshLevel& level : levelsOf(molecule.skin)) {
+        streams.push_back({.corners = int(level.corners.size()),
+                           .indexed = true,
+                           .first = int(indices.size()),
+                           .error = level.error});
+        indices.insert(indices.end(), level.corners.begin(), level.corners.end());
+    }
+    makeCorners(molecule.skin.vertices, indices);
+    streams_ = std::move(streams);
     // offsets, then as many influences as any vertex has; a weight of 0 changes nothing
     struct Corner {
         glm::vec3 offsets{0};

@@ -75,7 +75,7 @@ bool ParticleDrawer::change(const ParticleType& type, const Lighting& lighting) 
 
 void ParticleDrawer::makeStream() {
     if (type_.shape != ParticleShape::quads) {
-        stream_ = {batch, false, batch};
+        streams_ = {{batch, false, batch}};
         return;
     }
     std::vector<uint32_t> indices;
@@ -85,7 +85,7 @@ void ParticleDrawer::makeStream() {
     indices_ = gpu::Buffer(*context_, gpu::Buffer::Use::index, std::span<const uint32_t>(indices),
                            "corners of particles");
     corners_.indices(indices_);
-    stream_ = {int(indices.size()), true, batch};
+    streams_ = {{int(indices.size()), true, batch}};
 }
 
 std::vector<std::string> ParticleDrawer::defines() const {

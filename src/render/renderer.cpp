@@ -95,7 +95,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     glDepthFunc(GL_LEQUAL);
 
     const gpu::TimedFrame frame(timers_);
-    if (groups_.blends()) {
+    if (groups_.orders()) {
         const auto timer = timers_.time("order");
         groups_.order(state, eye);
     }
@@ -114,7 +114,7 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
     }
     {
         const auto timer = timers_.time("molecules");
-        groups_.draw(state, inputs);
+        primitives_.count([&] { groups_.draw(state, inputs); });
     }
     if (overlay) {
         const auto timer = timers_.time("overlay");

@@ -71,6 +71,8 @@ class Renderer {
     void changeLooks(size_t group, const Group& looks) { groups_.changeLooks(group, looks); }
 
     gpu::PassTimers& timers() { return timers_; }
+    // How many points and triangles of molecules the last picture has; waits for it.
+    uint64_t drawnPrimitives() const { return primitives_.last(); }
     // In which a blended group of the plan was last drawn; null: it has none. For tests.
     const DrawOrder* orderOf(size_t group) const { return groups_.orderOf(group); }
     const gpu::Framebuffer& target() const { return pictureTarget_; }
@@ -95,6 +97,7 @@ class Renderer {
     gpu::Program sky_, tone_;
     gpu::VertexArray empty_;
     gpu::PassTimers timers_;
+    gpu::PrimitiveCounter primitives_;
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;

@@ -55,6 +55,64 @@ TEST_CASE("a skin over a square is drawn as the square is", "[render][skin]") {
     CHECK(different(a.image, show(skinned, 3).image, 2) > 300);
 }
 
+// So many domes of 2,048 triangles, one behind the other and aside, from 2 m to 40 m before the camera.
+static Scene rowOfDomes(int count) {
+    std::vector<glm::dvec3> places;
+    for (int i = 0; i < count; ++i)
+        places.emplace_back(0.35 * (i % 5 - 2) * (1 + i / 5), 0.3 * (1 + i / 5) * (i % 3 - 1), 1.0 - 2 * i);
+    Scene scene = sceneOfSquares(places, 0.3);
+    SkinMesh dome = fineSquare(0.3, 32);
+    for (glm::dvec3& p : dome.positions)
+        p.z = 0.1 * std::cos(10 * p.x) * std::cos(10 * p.y);
+    Molecule& molecule = scene.groups[0].molecule;
+    molecule.vertices.push_back({.position = {0, 0, 0.1}, .uv = {}, .mass = 1e-3});
+    molecule.triangles = {{0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}};
+    molecule.skin = bindSkin(molecule, dome);
+    scene.light.direction = {0, -1, -0.4};
+    return scene;
+}
+
+TEST_CASE("far skins are drawn with fewer triangles, and look the same", "[render][skin]") {
+    const int count = 20;
+    Scene scene = rowOfDomes(count);
+    gpu::Context& context = testContext();
+    const Plan plan = compile(scene);
+    const auto triangles = [&](const RenderOptions& options) {
+        Renderer renderer(context, shaderRoot(), scene, plan, options);
+        Simulation simulation(context, shaderRoot(), plan, {.path = testPath()});
+        renderer.draw(simulation.state(), View::of(scene.camera));
+        return renderer.drawnPrimitives();
+    };
+    const uint64_t all = 2048 * count, drawn = triangles({.width = 320, .height = 240});
+    INFO(drawn << " triangles of " << all);
+    if (!context.info().computeShaders) {
+        CHECK(drawn == all);
+        return;
+    }
+    CHECK(drawn < all / 4);
+    CHECK(drawn > 8 * count);
+    // A larger picture shows more of them.
+    CHECK(triangles({.width = 1280, .height = 960}) > drawn * 3 / 2);
+
+    // A group of one is too few triangles to be worth an order: it is drawn with all of them.
+    Scene apart = scene;
+    apart.groups.clear();
+    for (const Placement::Item& place : scene.groups[0].place.items) {
+        apart.groups.push_back(scene.groups[0]);
+        apart.groups.back().count = 1;
+        apart.groups.back().place.items = {place};
+    }
+    const RenderOptions options{.width = 320, .height = 240};
+    const Image levels = show(scene, 0, options).image, whole = show(apart, 0, options).image;
+    const Changed off = changed(levels, whole, 16);
+    INFO(off.count << " pixels differ, by " << off.most << " at the most");
+    CHECK(off.count < 100);
+    // and not by chance: they are seen
+    scene.groups[0].place.items.resize(1);
+    scene.groups[0].count = 1;
+    CHECK(changed(show(scene, 0, options).image, whole, 16).count > 500);
+}
+
 TEST_CASE("a skin's offsets follow the molecule's normal", "[render][skin]") {
     Scene near = oneSquare(0.5), offset = oneSquare(0);
     Molecule& molecule = offset.groups[0].molecule;

@@ -1,0 +1,24 @@
+// Levels of detail: a mesh by fewer and fewer of its vertices (quadric edge collapse [Garland 1997], by
+// meshoptimizer), with how much of it each leaves out.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <glm/glm.hpp>
+
+namespace shoal {
+
+struct MeshLevel {
+    std::vector<uint32_t> corners;  // three a triangle
+    double error = 0;               // m: how large a pixel has to be for the level to look like the mesh
+};
+
+// All of the mesh, then levels of 0.4 times as many triangles as the last, down to 8 or as far as seams let.
+// What is flat is taken to bend: no level is coarser than it may be on a bowl as wide as the mesh. Normals
+// count as places do: the error is at least what they are off (root of the mean square, of unit vectors) over
+// an edge of the level.
+std::vector<MeshLevel> levelsOf(const std::vector<glm::dvec3>& positions,
+                                const std::vector<glm::dvec3>& normals, const std::vector<uint32_t>& corners);
+
+}  // namespace shoal
