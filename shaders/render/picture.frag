@@ -1,5 +1,5 @@
 // The resolved light as a picture for the screen: exposure, film curve, sRGB, and a little dither, which keeps
-// the sky's gradient free of bands. Variant: BEAMS (water/rays.frag).
+// the sky's gradient free of bands. Variants: BEAMS (water/rays.frag), OCCLUSION (render/occlusion.frag).
 
 #include "physics/random.glsl"
 #include "render/tone.glsl"
@@ -11,6 +11,24 @@ uniform float exposure;
 #ifdef BEAMS
 uniform sampler2D beams;
 #endif
+#ifdef OCCLUSION
+#include "render/occlusion.glsl"
+uniform sampler2D sceneDepth;  // 1 - nearest / depth
+uniform float nearest;         // m
+uniform float occlusionStrength, ambientLuminance;
+
+// The light without that of the sky which does not reach the place. What is brighter than the sky can make it is lit by
+// the sun as well.
+vec3 occluded(vec3 radiance, ivec2 pixel)
+{
+    float stored = texelFetch(sceneDepth, pixel, 0).r;
+    if (stored >= 1.0) return radiance;
+    float seen = skySeen(pixel, nearest / (1.0 - stored));
+    float luminance = dot(radiance, vec3(0.2126, 0.7152, 0.0722));
+    float ofSky = clamp(ambientLuminance / max(luminance, 1e-6), 0.45, 1.0);
+    return radiance * (1.0 - occlusionStrength * ofSky * (1.0 - seen));
+}
+#endif
 
 out vec4 fragment;
 
@@ -18,6 +36,9 @@ void main()
 {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec3 radiance = unsqueeze(texelFetch(light, pixel, 0).rgb);
+#ifdef OCCLUSION
+    radiance = occluded(radiance, pixel);
+#endif
 #ifdef BEAMS
     radiance = max(radiance + texture(beams, screen).rgb, 0.25 * radiance);
 #endif

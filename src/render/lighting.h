@@ -20,7 +20,7 @@ class WaterLight;
 namespace unit {
 constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
               order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12,
-              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16;
+              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16, occlusion = 17;
 }
 
 struct BoundingSphere {

@@ -21,9 +21,11 @@ static std::unique_ptr<WaterLight> makeWater(gpu::Context& context, const std::s
     return std::make_unique<WaterLight>(context, shaderRoot, *scene.water);
 }
 
-static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams) {
+static std::vector<std::string> pictureDefines(const Lighting& lighting, const WaterBeams& beams,
+                                               const AmbientOcclusion& occlusion) {
     std::vector<std::string> out = lighting.toneDefines();
     if (beams) out.emplace_back("BEAMS");
+    if (occlusion) out.emplace_back("OCCLUSION");
     return out;
 }
 
@@ -57,10 +59,15 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       groups_(context, shaderRoot, scene, plan, lighting_, options.slabs,
               pixelsPerMeterAt(scene.camera, options.height)),
       beams_(context, shaderRoot, water_.get()),
+      occlusion_(context, shaderRoot, scene),
       sky_(context, shaderRoot,
            {"render/screen.vert", "render/sky.frag", lighting_.defines(false), {}, "sky"}),
       tone_(context, shaderRoot,
-            {"render/screen.vert", "render/picture.frag", pictureDefines(lighting_, beams_), {}, "picture"}),
+            {"render/screen.vert",
+             "render/picture.frag",
+             pictureDefines(lighting_, beams_, occlusion_),
+             {},
+             "picture"}),
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
@@ -80,7 +87,8 @@ void Renderer::resize(int width, int height) {
     lightTarget_ = gpu::Framebuffer(*context_, {&light_}, nullptr, "light");
     pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
     beams_.resize(width, height);
-    if (!groups_.readsDepth() && !beams_) return;
+    occlusion_.resize(width, height);
+    if (!groups_.readsDepth() && !beams_ && !occlusion_) return;
     sceneDepth_ = gpu::Texture(*context_, Format::depth24, width, height, "scene depth");
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
@@ -132,7 +140,11 @@ void Renderer::draw(const StateView& state, const View& view, Overlay* overlay) 
         const auto timer = timers_.time("beams");
         beams_.draw(eye, lighting_, sceneDepth_);
     }
-    drawPicture(view.exposure);
+    if (occlusion_) {
+        const auto timer = timers_.time("occlusion");
+        occlusion_.draw(eye, sceneDepth_);
+    }
+    drawPicture(eye, view.exposure);
 }
 
 void Renderer::drawShadows(const StateView& state, double time) {
@@ -167,12 +179,13 @@ void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs, dou
     glDisable(GL_DEPTH_TEST);
 }
 
-void Renderer::drawPicture(double exposure) {
+void Renderer::drawPicture(const Eye& eye, double exposure) {
     const auto timer = timers_.time("picture");
     pictureTarget_.bind();
     tone_.use();
     tone_.texture("light", unit::light, light_);
     if (beams_) tone_.texture("beams", unit::image, beams_.light());
+    if (occlusion_) occlusion_.apply(tone_, eye, sceneDepth_);
     tone_.set("exposure", float(exposure));
     empty_.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -1,6 +1,9 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
 // gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
+// What near things hide of the sky is worked out from the depth of all that is not blended, and taken from
+// the resolved light (render/occlusion.h).
+//
 // In scenes with water the net of caustics is drawn before all this, and its beams are added to the resolved
 // light. What is blended comes last, over the sky; where nothing is, nothing is done for it. Particles that
 // fade in front of surfaces read the depth that is there by then, a copy of it.
@@ -18,6 +21,7 @@
 #include "gpu/pass_timers.h"
 #include "render/drawn_groups.h"
 #include "render/lighting.h"
+#include "render/occlusion.h"
 #include "render/surface_drawer.h"
 #include "render/view.h"
 #include "render/water_light.h"
@@ -83,7 +87,7 @@ class Renderer {
     void drawShadows(const StateView& state, double time);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
-    void drawPicture(double exposure);
+    void drawPicture(const Eye& eye, double exposure);
 
     gpu::Context* context_;
     RenderOptions options_;
@@ -94,6 +98,7 @@ class Renderer {
     SurfaceDrawer surfaces_;
     DrawnGroups groups_;
     WaterBeams beams_;  // none without water
+    AmbientOcclusion occlusion_;
     gpu::Program sky_, tone_;
     gpu::VertexArray empty_;
     gpu::PassTimers timers_;
@@ -101,8 +106,8 @@ class Renderer {
     gpu::Framebuffer samples_;  // light
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;
-    // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces
-    // and no beams end there.
+    // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces,
+    // no beams end there, and no place is darker because of others.
     gpu::Texture sceneDepth_;
     gpu::Framebuffer sceneDepthTarget_;
 };

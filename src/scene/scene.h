@@ -158,7 +158,8 @@ struct Light {
 struct Sky {
     glm::dvec3 zenith{0.18, 0.36, 0.72}, horizon{0.74, 0.82, 0.88}, ground{0.22, 0.2, 0.16};
     double intensity = 1;
-    double fog = 0;  // 1/m: how fast the horizon's colour covers things
+    double fog = 0;        // 1/m: how fast the horizon's colour covers things
+    double occlusion = 1;  // in [0, 1]: how much of what near things hide of its light is missing
 };
 
 struct Scene {

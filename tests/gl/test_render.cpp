@@ -99,6 +99,42 @@ TEST_CASE("a molecule's shadow darkens the ground below it, and nothing else", "
     CHECK(difference(pixel(shaded, 80, 115), pixel(lit, 80, 115)) <= 1);
 }
 
+TEST_CASE("places near others see less of the sky", "[render][occlusion]") {
+    Scene scene = sceneOfSquares({{0, 0, -1000}});
+    scene.colliders.push_back({.name = "ground", .shape = PlaneCollider{}, .color = {0.5, 0.5, 0.5}});
+    const auto shown = [&](double occlusion) {
+        scene.sky.occlusion = occlusion;
+        return show(scene, 0, {.width = 320, .height = 240}).image;
+    };
+    scene.light.intensity = 0;
+    scene.light.shadows = false;
+    scene.camera.eye = {0, 1, 4};
+    scene.camera.target = {0, 0.3, 0};
+    // The ground alone hides nothing of itself, near or far.
+    CHECK(changed(shown(0), shown(1), 2).count < 20);
+
+    scene.colliders.push_back({.name = "box", .shape = BoxCollider{{0, 0.3, 0}, {1.2, 0.6, 0.6}}});
+    const Image open = shown(0), half = shown(0.5), hidden = shown(1);
+    // Under the front of the box, where wall and ground meet: 0.3 m before the middle.
+    const double perMeter = 240 / (2 * std::tan(scene.camera.fieldOfView / 2)) / 3.77;
+    const int below = 120 + int(0.3 * 0.98 * perMeter) + 1;
+    const auto lost = [&](const Image& image, int y) {
+        return brightness(pixel(open, 160, y)) - brightness(pixel(image, 160, y));
+    };
+    INFO("the box ends in row " << below);
+    CHECK(lost(hidden, below + 1) > 15);  // the ground
+    CHECK(lost(hidden, below - 2) > 15);  // the wall
+    CHECK(lost(half, below + 1) > 6);
+    CHECK(lost(half, below + 1) < lost(hidden, below + 1));
+    CHECK(lost(hidden, below + 60) <= 3);    // the open ground
+    CHECK(std::abs(lost(hidden, 20)) <= 1);  // the sky
+    CHECK(difference(pixel(open, 20, 20), pixel(hidden, 20, 20)) <= 1);
+    // No rim of it outside the box, before the sky and the far ground.
+    const Changed off = changed(open, hidden, 12);
+    CHECK(off.count > 100);
+    CHECK(off.count < 320 * 240 / 8);
+}
+
 TEST_CASE("instances differ in colour, the same ones every time", "[render]") {
     std::vector<glm::dvec3> places;
     for (int i = 0; i < 9; ++i)

@@ -1,0 +1,81 @@
+// How much of the sky each place still sees past what stands near it in the picture [McGuire 2012]: samples on a spiral
+// around the pixel, turned by sixteen angles in turn, which the second pass smooths again (BLUR).
+// Output: x what is seen of the sky, in [0, 1]; y the depth, m.
+
+#ifdef BLUR
+#include "render/occlusion.glsl"
+
+out vec4 fragment;
+
+void main()
+{
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    ivec2 last = textureSize(occlusion, 0) - 1;
+    float depth = texelFetch(occlusion, texel, 0).y;
+    vec2 sum = vec2(0.0);
+    for (int y = -2; y < 2; ++y)
+        for (int x = -2; x < 2; ++x) {
+            vec2 there = texelFetch(occlusion, clamp(texel + ivec2(x, y), ivec2(0), last), 0).xy;
+            sum += likeness(there.y, depth) * vec2(there.x, 1.0);
+        }
+    fragment = vec4(sum.x / max(sum.y, 1e-3), depth, 0.0, 1.0);
+}
+#else
+uniform sampler2D sceneDepth;  // 1 - nearest / depth
+uniform float nearest;         // m
+uniform vec2 tangents;         // of half the field of view
+uniform vec2 reach;            // x by the picture's height, y m at the most
+
+out vec4 fragment;
+
+const int samples = 12;
+const float turns = 3.0;  // of the spiral
+
+// In the eye's directions, m.
+vec3 placeAt(ivec2 texel)
+{
+    ivec2 size = textureSize(sceneDepth, 0);
+    ivec2 inside = clamp(texel, ivec2(0), size - 1);
+    float depth = nearest / max(1.0 - texelFetch(sceneDepth, inside, 0).r, 1e-7);
+    return depth * vec3((2.0 * (vec2(inside) + 0.5) / vec2(size) - 1.0) * tangents, -1.0);
+}
+
+// Of two ways to a neighbour, the one that stays on the surface.
+vec3 flatter(vec3 a, vec3 b)
+{
+    return abs(a.z) < abs(b.z) ? a : b;
+}
+
+void main()
+{
+    ivec2 size = textureSize(sceneDepth, 0);
+    ivec2 texel = min(2 * ivec2(gl_FragCoord.xy), size - 1);
+    vec3 place = placeAt(texel);
+    float depth = -place.z;
+    fragment = vec4(1.0, min(depth, 6e4), 0.0, 1.0);
+    if (texelFetch(sceneDepth, texel, 0).r >= 1.0) return;
+    float height = 2.0 * tangents.y * depth;  // m, of the picture there
+    float radius = min(reach.x * height, reach.y);
+    float pixels = radius / height * float(size.y);
+    if (pixels < 2.0) return;
+    vec3 across = flatter(placeAt(texel + ivec2(1, 0)) - place, place - placeAt(texel - ivec2(1, 0)));
+    vec3 up = flatter(placeAt(texel + ivec2(0, 1)) - place, place - placeAt(texel - ivec2(0, 1)));
+    vec3 normal = normalize(cross(across, up));
+    // Ordered dithering: the turns of every two by two texels are a quarter apart.
+    ivec2 one = ivec2(gl_FragCoord.xy) & 1;
+    ivec2 two = ivec2(gl_FragCoord.xy) >> 1 & 1;
+    int order = 8 * (one.x ^ one.y) + 4 * one.y + 2 * (two.x ^ two.y) + two.y;
+    float turn = 6.2831853 / 16.0 * float(order);
+    float hidden = 0.0;
+    for (int i = 0; i < samples; ++i) {
+        float share = (float(i) + 0.5) / float(samples);
+        float angle = turn + 6.2831853 * turns * share;
+        vec3 way = placeAt(texel + ivec2(share * pixels * vec2(cos(angle), sin(angle)))) - place;
+        float squared = dot(way, way);
+        float near = max(1.0 - squared / (radius * radius), 0.0);
+        float above = max(dot(way, normal) - 0.002 * depth, 0.0);
+        hidden += near * near * above / (squared + 1e-3 * radius * radius);
+    }
+    fragment.x = max(1.0 - 2.0 * radius * hidden / float(samples), 0.0);
+}
+#endif
