@@ -217,8 +217,8 @@ Verdict checkMolecule(const std::string& file) {
     append(out.facts, key("name", molecule.name), key("vertices", molecule.vertices.size()),
            key("springs", molecule.springs.size()), key("triangles", molecule.triangles.size()),
            key("totalMass", free.totalMass), key("restEnergy", free.restEnergy),
-           key("zeroModes", free.zeroModes), key("lowestFrequency", free.lowestFrequency),
-           key("highestFrequency", free.highestFrequency));
+           key("zeroModes", free.zeroModes), key("lowestFrequency", hertz(free.lowestFrequency)),
+           key("highestFrequency", hertz(free.highestFrequency)));
     out.summary = concat("molecule \"", printable(molecule.name), "\": ", molecule.vertices.size(),
                          molecule.vertices.size() == 1 ? " vertex, " : " vertices, ",
                          many(int64_t(molecule.springs.size()), "spring", "springs"), ", ",
@@ -231,10 +231,10 @@ Verdict checkMolecule(const std::string& file) {
                key("skinTriangles", molecule.skin.triangles.size()));
     }
     if (molecule.springs.empty()) return out;
-    out.summary += concat("\n  frequencies ", free.lowestFrequency, " to ", free.highestFrequency, " rad/s, ",
-                          many(free.zeroModes, "zero-stiffness mode", "zero-stiffness modes"),
-                          "\n  stable steps: euler ", free.stableStepEuler, " s, leapfrog ",
-                          free.stableStepLeapfrog, " s");
+    out.summary += concat(
+        "\n  frequencies ", hertz(free.lowestFrequency), " to ", hertz(free.highestFrequency), " Hz, ",
+        many(free.zeroModes, "zero-stiffness mode", "zero-stiffness modes"), "\n  stable steps: euler ",
+        free.stableStepEuler, " s, leapfrog ", free.stableStepLeapfrog, " s");
     append(out.facts, key("stableStepEuler", free.stableStepEuler),
            key("stableStepLeapfrog", free.stableStepLeapfrog));
     return out;

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/printable.h"
 #include "measure/timing.h"
+#include "molecule/analysis.h"
 
 namespace shoal::app {
 
@@ -32,7 +33,7 @@ void addHead(std::ostringstream& out, const MeasureReport& report) {
     for (const AccuracyGroup& group : a.groups)
         out << "  " << printable(group.name) << ": " << many(group.vertices, "vertex", "vertices") << ", "
             << many(group.springs, "spring", "springs") << ", up to "
-            << formatted("%.3g", group.highestFrequency) << " rad/s; error of " << group.measured
+            << formatted("%.3g", hertz(group.highestFrequency)) << " Hz; error of " << group.measured
             << ", time of " << bench::grouped(group.timed) << "\n";
     if (!a.tooStiff.empty())
         out << "too stiff, so that no errors are given: " << printable(a.tooStiff) << "\n";
@@ -164,8 +165,8 @@ JsonValue asJson(const AccuracyPoint& point) {
 JsonValue asJson(const AccuracyGroup& group) {
     return object(key("name", group.name), key("molecule", group.molecule), key("vertices", group.vertices),
                   key("springs", group.springs), key("size", group.size),
-                  key("highestFrequency", group.highestFrequency), key("measuredMolecules", group.measured),
-                  key("timedMolecules", group.timed));
+                  key("highestFrequency", hertz(group.highestFrequency)),
+                  key("measuredMolecules", group.measured), key("timedMolecules", group.timed));
 }
 
 std::string quotedCell(const std::string& text) {

@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/molecule_report.h"
+#include "app/trial.h"
 #include "author/shapes.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -27,11 +29,14 @@ struct Report {
     MadeMolecule made;
     Analysis analysis;
     std::vector<Warning> warnings;
+    std::optional<Trial> trial;  // of what is written
     double seconds = 0;
 };
 
 // Before any work is done for nothing.
 void checkOutput(const MoleculeOptions& options) {
+    if (!options.report.empty() && lowerExtension(options.report) != ".html")
+        throw Error(Location{options.report, 0, 0, {}}, "expected a name ending in .html for the report");
     if (options.output.empty()) return;
     const Location where{options.output, 0, 0, {}};
     std::error_code code;
@@ -76,20 +81,40 @@ void writeImage(const MoleculeOptions& options, MadeMolecule& made) {
     made.molecule.material.texture = file.filename().string();
 }
 
-// Reads the written file back for the report, so that anything lost in writing would show.
-void write(const MoleculeOptions& options, MadeMolecule& made) {
-    const std::string text = writeMolecule(made.molecule);
-    made.molecule = parseMolecule(text, options.output);
-    writeFile(options.output, text);
-}
-
 double round3(double value) {
     if (value == 0 || !std::isfinite(value)) return value;
     const double power = std::pow(10, 2 - std::floor(std::log10(std::abs(value))));
     return std::round(value * power) / power;
 }
 
-constexpr double pi = 3.14159265358979323846;
+// Runs what the written file would say, so that anything lost in writing would show, and writes it.
+Trial write(const Options& options, MadeMolecule& made) {
+    const std::string& file = options.molecule.output;
+    const std::string text = writeMolecule(made.molecule);
+    made.molecule = parseMolecule(text, file);
+    Trial trial;
+    try {
+        trial = tryOut(made.molecule, options);
+    } catch (const Error& error) {
+        throw Error(Location{file, 0, 0, {}},
+                    "is not written, because the molecule does not run: ", error.message());
+    }
+    writeImage(options.molecule, made);
+    writeFile(file, made.image ? writeMolecule(made.molecule) : text);
+    return trial;
+}
+
+std::string asText(const Trial& trial) {
+    if (!trial.untried.empty()) return concat("it was not tried out: ", printable(trial.untried));
+    return concat("two seconds above a floor: ", trial.solver, " with ",
+                  many(int64_t(trial.substeps), "substep", "substeps"),
+                  " a frame; its springs change by at most ", round3(100 * trial.change),
+                  " %, and at the end it moves at ", round3(trial.speed), " m/s",
+                  trial.substeps > SolverSettings().substeps
+                      ? concat("; a scene says \"solver\": {\"substeps\": ", trial.substeps, "}")
+                      : "");
+}
+
 constexpr double frameSeconds = 1.0 / 60;  // s
 
 int substeps(const Report& report) {
@@ -115,7 +140,7 @@ std::string asText(const Report& r) {
     out += concat("\n  ", many(molecule.springs.size(), "spring", "springs"), ": ", made.edges, " edges, ",
                   made.shears, " shear, ", made.bends, " bending, ", made.braces, " through the inside, ",
                   made.repairs, " repairs");
-    const double highest = r.analysis.highestFrequency / (2 * pi);
+    const double highest = hertz(r.analysis.highestFrequency);
     out += concat("\n  frequencies ", round3(made.lowestFrequency), " to ", round3(highest),
                   " Hz, damping ratio ", round3(made.dampingRatio), " to ",
                   round3(made.dampingRatio * highest / made.lowestFrequency), ", ",
@@ -134,6 +159,7 @@ std::string asText(const Report& r) {
         out += "  note: " + printable(note) + "\n";
     for (const Warning& warning : r.warnings)
         out += "  warning: " + text(warning) + "\n";
+    if (r.trial) out += "  " + asText(*r.trial) + "\n";
     out += concat(
         r.output.empty() ? std::string("not written (give -o FILE.json)") : "wrote " + printable(r.output),
         ", ", round3(r.seconds), " s\n");
@@ -150,19 +176,23 @@ JsonValue asJson(const Report& r) {
     const JsonValue springs =
         object(key("edge", made.edges), key("shear", made.shears), key("bending", made.bends),
                key("brace", made.braces), key("repair", made.repairs));
-    return object(
+    JsonValue out = object(
         key("file", r.file), key("output", r.output), key("sourceVertices", r.sourceVertices),
         key("sourceTriangles", r.sourceTriangles), key("solid", made.solid), key("area", made.area),
         key("volume", made.volume), key("extent", made.extent), key("vertices", molecule.vertices.size()),
         key("triangles", molecule.triangles.size()), key("springs", springs), key("material", made.material),
         key("totalMass", r.analysis.totalMass), key("lowestFrequency", made.lowestFrequency),
-        key("highestFrequency", r.analysis.highestFrequency / (2 * pi)),
-        key("dampingRatio", made.dampingRatio), key("zeroModes", r.analysis.zeroModes),
-        key("rigidModes", r.analysis.rigidModes), key("stableStepLeapfrog", r.analysis.stableStepLeapfrog),
-        key("substepsAt60Hz", substeps(r)), key("skinVertices", molecule.skin.vertices.size()),
+        key("highestFrequency", hertz(r.analysis.highestFrequency)), key("dampingRatio", made.dampingRatio),
+        key("zeroModes", r.analysis.zeroModes), key("rigidModes", r.analysis.rigidModes),
+        key("stableStepLeapfrog", r.analysis.stableStepLeapfrog), key("substepsAt60Hz", substeps(r)),
+        key("skinVertices", molecule.skin.vertices.size()),
         key("skinTriangles", molecule.skin.triangles.size()),
         key("skinError", made.skinError / molecule.size()), key("skinLever", made.skinLever),
         key("notes", made.notes), key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
+    if (r.trial && r.trial->untried.empty())
+        append(out, key("trial", object(key("solver", r.trial->solver), key("substeps", r.trial->substeps),
+                                        key("change", r.trial->change), key("speed", r.trial->speed))));
+    return out;
 }
 
 }  // namespace
@@ -175,13 +205,11 @@ static int makeOf(const std::string& what, const Mesh& mesh, const Options& opti
     report.sourceTriangles = mesh.triangles.size();
     report.sourceVertices = mesh.weldedPositions.size();
     report.made = make(report.file, mesh, options.molecule);
-    if (!report.output.empty()) {
-        writeImage(options.molecule, report.made);
-        write(options.molecule, report.made);
-    }
+    if (!report.output.empty()) report.trial = write(options, report.made);
     report.analysis = analyse(report.made.molecule, false);
     report.warnings = check(report.made.molecule);
     report.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    if (!options.molecule.report.empty()) writeMoleculeReport(options, report.made.molecule, asText(report));
     std::cout << (options.json ? writeJson(asJson(report)) : asText(report));
     return 0;
 }

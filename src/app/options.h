@@ -28,10 +28,11 @@ struct MoleculeOptions {
     FromMesh fromMesh;
     std::string output;  // empty: nothing is written
     bool force = false;  // write over a file that is there
+    std::string report;  // .html; empty: none
     std::string texture;
     std::string color;
     std::string springs = "auto";
-    std::vector<std::string> pinRules;
+    std::vector<std::string> pinRules, pinPoints;
     // new
     std::string shape = "sheet";
     std::optional<int> divisions;

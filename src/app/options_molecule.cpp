@@ -36,6 +36,8 @@ void addMaking(CLI::App& command, Options& options) {
     addFile(command, "--texture", molecule.texture, "PNG beside the molecule file");
     command.add_option("--color", molecule.color, "Linear RGB: red, or 0.2,0.5,0.1");
     command.add_flag("--json", options.json, "Report as JSON on standard output");
+    addFile(command, "--report", molecule.report,
+            "Page to write (.html): the molecule, its motions, warnings");
 }
 
 void addFromMesh(CLI::App& command, Options& options) {
@@ -57,6 +59,8 @@ void addFromMesh(CLI::App& command, Options& options) {
     command.add_option("--pin-name", make.pins.names, "Pin an object, mesh or material of the file by name");
     command.add_option("--pin-paint", make.pins.paints,
                        "Pin what is painted in this vertex colour: red, or 1,0.5,0");
+    command.add_option("--pin-near", molecule.pinPoints,
+                       "Pin the vertex nearest to a point of the box: 0.5,1,0.5 is the middle of its top");
     command.add_flag_callback(
         "--no-skin", [&make] { make.skin = false; }, "Draw the few triangles themselves");
     addWhole(command, "--skin-triangles", make.skinTriangles,
@@ -116,6 +120,8 @@ void finishMaking(MoleculeOptions& molecule, const std::string& file, const char
         make.pins.rules.push_back(valueOf("--pin", [&] { return parsePinRule(text); }));
     for (const std::string& text : make.pins.paints)
         valueOf("--pin-paint", [&] { return parsePaint(text); });
+    for (const std::string& text : molecule.pinPoints)
+        make.pins.points.push_back(valueOf("--pin-near", [&] { return parsePinPoint(text); }));
     if (!molecule.color.empty()) valueOf("--color", [&] { return parsePaint(molecule.color); });
     if (make.name.empty())
         make.name = std::filesystem::path(molecule.output.empty() ? file : molecule.output).stem().string();

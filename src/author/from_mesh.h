@@ -34,6 +34,8 @@ struct PinRule {
 
 // Error: not such a rule.
 PinRule parsePinRule(const std::string& text);
+// "0.5,1,0.5". Error: not three numbers.
+glm::dvec3 parsePinPoint(const std::string& text);
 // Linear RGB: red, green, blue, yellow, cyan, magenta, white, black, or three numbers from 0 to 1
 // ("1,0.5,0"). Error: neither.
 glm::dvec3 parsePaint(const std::string& text);
@@ -42,7 +44,8 @@ struct PinChoice {
     std::vector<PinRule> rules;
     std::vector<std::string> names;   // of objects, meshes or materials
     std::vector<std::string> paints;  // vertex colours
-    bool any() const { return !rules.empty() || !names.empty() || !paints.empty(); }
+    std::vector<glm::dvec3> points;   // in shares of the mesh's box: the vertex nearest to each
+    bool any() const { return !rules.empty() || !names.empty() || !paints.empty() || !points.empty(); }
 };
 
 struct FromMesh {

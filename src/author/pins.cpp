@@ -111,6 +111,22 @@ PinRule parsePinRule(const std::string& text) {
     return rule;
 }
 
+// Three numbers with commas between them; false: something else.
+static bool readThree(std::string_view text, glm::dvec3& out) {
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0 && (text.empty() || text[0] != ',')) return false;
+        if (i > 0) text.remove_prefix(1);
+        if (!readNumber(text, out[i])) return false;
+    }
+    return text.empty();
+}
+
+glm::dvec3 parsePinPoint(const std::string& text) {
+    glm::dvec3 out(0);
+    if (readThree(text, out)) return out;
+    throw Error("expected a point in shares of the box, such as 0.5,1,0.5; found \"", text, "\"");
+}
+
 glm::dvec3 parsePaint(const std::string& text) {
     static const std::vector<std::string> names = {"red",  "green",   "blue",  "yellow",
                                                    "cyan", "magenta", "white", "black"};
@@ -119,13 +135,7 @@ glm::dvec3 parsePaint(const std::string& text) {
     for (size_t i = 0; i < names.size(); ++i)
         if (text == names[i]) return colors[i];
     glm::dvec3 out(0);
-    std::string_view rest = text;
-    for (int i = 0; i < 3; ++i) {
-        if (i > 0 && (rest.empty() || rest[0] != ',')) break;
-        if (i > 0) rest.remove_prefix(1);
-        if (!readNumber(rest, out[i]) || out[i] < 0 || out[i] > 1) break;
-        if (i == 2 && rest.empty()) return out;
-    }
+    if (readThree(text, out) && glm::clamp(out, 0.0, 1.0) == out) return out;
     throw Error("expected a colour such as red, or three numbers from 0 to 1 such as 1,0.5,0; found \"", text,
                 "\"", suggestion(text, names));
 }
@@ -133,7 +143,16 @@ glm::dvec3 parsePaint(const std::string& text) {
 std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const PinChoice& choice) {
     std::vector<bool> pinned(coarse.positions.size());
     if (!choice.any()) return pinned;
+    for (const glm::dvec3& point : choice.points) {
+        const glm::dvec3 place = glm::mix(mesh.low, mesh.high, point);
+        const auto nearer = [&](const glm::dvec3& a, const glm::dvec3& b) {
+            return glm::distance(a, place) < glm::distance(b, place);
+        };
+        const auto nearest = std::min_element(coarse.positions.begin(), coarse.positions.end(), nearer);
+        pinned[size_t(nearest - coarse.positions.begin())] = true;
+    }
     const Marks marks = marksOf(mesh, choice);
+    if (std::find(marks.begin(), marks.end(), true) == marks.end()) return pinned;
     std::vector<int> marked(pinned.size()), all(pinned.size());
     for (size_t v = 0; v < marks.size(); ++v) {
         ++all[size_t(coarse.map[v])];
@@ -143,8 +162,9 @@ std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const P
     bool any = false;
     size_t best = 0;
     for (size_t c = 0; c < pinned.size(); ++c) {
-        pinned[c] = share(c) > 0.5;
-        any = any || pinned[c];
+        const bool most = share(c) > 0.5;
+        pinned[c] = pinned[c] || most;
+        any = any || most;
         if (share(c) > share(best)) best = c;
     }
     if (!any) pinned[best] = true;

@@ -57,8 +57,8 @@ void checkStep(const Scene& scene, const Group& group, const GroupPlan& plan) {
     const double frame = 1 / scene.frameRate, step = frame / scene.solver.substeps;
     if (step > plan.stableStep)
         throw Error(place, concat(name(plan.solver), " is stable for \"", plan.name, "\" up to a substep of ",
-                                  plan.stableStep, " s (highest frequency ", plan.highestFrequency,
-                                  " rad/s); ", scene.solver.substeps, " substeps of a frame are ", step,
+                                  plan.stableStep, " s (highest frequency ", hertz(plan.highestFrequency),
+                                  " Hz); ", scene.solver.substeps, " substeps of a frame are ", step,
                                   " s: ", steps(frame, plan.stableStep),
                                   ", or an implicit solver such as bdf2-xpbd"));
     const double drag = std::max(plan.drag.normal, plan.drag.tangent), most = solver(plan.solver).mostDragged;

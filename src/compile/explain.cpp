@@ -6,6 +6,7 @@
 #include "core/error.h"
 #include "core/json_build.h"
 #include "core/printable.h"
+#include "molecule/analysis.h"
 
 namespace shoal {
 
@@ -175,7 +176,7 @@ std::string explain(const Plan& plan, const PathChoice& choice, bool inPlace) {
             << " of " << many(group.vertexCount, "vertex", "vertices") << "\n";
         out << "  solver   " << name(group.solver) << ": " << printable(group.solverWhy) << "\n";
         if (group.needs.springs) {
-            out << "  highest frequency " << group.highestFrequency << " rad/s; " << name(group.solver);
+            out << "  highest frequency " << hertz(group.highestFrequency) << " Hz; " << name(group.solver);
             if (solver(group.solver).implicit)
                 out << " is stable at any substep\n";
             else
@@ -213,7 +214,7 @@ static JsonValue groupEntry(const Plan& plan, size_t g, Path path) {
     JsonValue out =
         object(key("name", group.name), key("molecules", group.count), key("vertices", group.vertexCount),
                key("solver", name(group.solver)), key("solverWhy", group.solverWhy));
-    if (group.needs.springs) append(out, key("highestFrequency", group.highestFrequency));
+    if (group.needs.springs) append(out, key("highestFrequency", hertz(group.highestFrequency)));
     if (group.needs.springs && !solver(group.solver).implicit)
         append(out, key("stableStep", group.stableStep));
     if (group.life)

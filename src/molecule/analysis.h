@@ -6,9 +6,16 @@
 // it. Pinned vertices do not move.
 #pragma once
 
+#include <numbers>
+
 #include "molecule/molecule.h"
 
 namespace shoal {
+
+// Of rad/s.
+inline double hertz(double rate) {
+    return rate / (2 * std::numbers::pi);
+}
 
 struct Analysis {
     double highestFrequency = 0;  // rad/s, undamped, in the drawn shape

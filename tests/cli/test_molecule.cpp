@@ -120,6 +120,43 @@ TEST_CASE("molecule new: every shape is a molecule without a warning, which runs
     CHECK_FALSE(std::filesystem::exists(scratch.path("x.json")));
 }
 
+TEST_CASE("molecule from-mesh: runs what it writes, and writes nothing that does not run",
+          "[cli][molecule]") {
+    const Scratch scratch;
+    const std::string out = scratch.path("fish.json"), page = scratch.path("fish.html");
+    const Outcome made = runShoal({"molecule", "from-mesh", minnow, "-o", out, "--vertices", "12",
+                                   "--pin-near", "0.5,0.5,1", "--report", page, "--json"});
+    INFO(made.err);
+    REQUIRE(made.code == 0);
+    const JsonValue report = made.json(), trial = member(report, "trial");
+    CHECK(member(trial, "substeps").number == 4);
+    CHECK(member(trial, "change").number > 0);
+    CHECK(member(trial, "change").number < 0.5);
+    CHECK(member(trial, "speed").number < 1);
+    const std::string text = readFile(page);
+    CHECK(text.find("<!DOCTYPE html>") == 0);
+    CHECK(text.find("data:image/png;base64,iVBORw0KGgo") != std::string::npos);
+    CHECK(text.find("two seconds above a floor: ") != std::string::npos);
+    CHECK(text.find("(1 pinned)") != std::string::npos);
+    // The tail is at the far end.
+    const JsonValue file = readJson(out);
+    double pinned = 0, last = 0;
+    for (const JsonValue& vertex : member(file, "vertices").items) {
+        const double z = member(vertex, "position").items.at(2).number;
+        last = std::max(last, z);
+        if (vertex.find("pinned") != nullptr) pinned = z;
+    }
+    CHECK(pinned == last);
+
+    // Too stiff for any explicit solver, and too many vertices for an implicit one here.
+    const std::string stiff = scratch.path("stiff.json");
+    refusal({"molecule", "from-mesh", minnow, "-o", stiff, "--vertices", "160", "--frequency", "30000"},
+            "is not written, because the molecule does not run: ");
+    refusal({"molecule", "from-mesh", minnow, "--report", scratch.path("page.txt")}, "ending in .html");
+    refusal({"molecule", "from-mesh", minnow, "--pin-near", "1,2"}, "--pin-near: expected a point");
+    CHECK(filesIn(scratch.folder().string()) == std::vector<std::string>{"fish.html", "fish.json"});
+}
+
 TEST_CASE("molecule from-mesh: leaves files alone", "[cli][molecule]") {
     const Scratch scratch;
     const std::string out = scratch.write("there.json", "mine");

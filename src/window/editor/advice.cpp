@@ -91,8 +91,8 @@ void drawFacts(const Editor& editor) {
                 plain(editor.document.molecule().size()).c_str());
     if (a.springs == 0) return;
     ImGui::Text("rest energy %s J", plain(a.restEnergy).c_str());
-    ImGui::Text("%s to %s Hz, %d soft", plain(a.lowestFrequency / (2 * std::numbers::pi)).c_str(),
-                plain(a.highestFrequency / (2 * std::numbers::pi)).c_str(), a.zeroModes);
+    ImGui::Text("%s to %s Hz, %d soft", plain(hertz(a.lowestFrequency)).c_str(),
+                plain(hertz(a.highestFrequency)).c_str(), a.zeroModes);
     ImGui::Text("stable step: leapfrog %s s", plain(a.stableStepLeapfrog).c_str());
 }
 
