@@ -16,6 +16,8 @@ endif()
 find_package(Threads REQUIRED)
 find_package(meshoptimizer REQUIRED)  # simplifies meshes to molecules
 
+find_package(OpenEXR CONFIG REQUIRED)  # animation textures of floats
+
 find_package(glm QUIET)
 if(NOT TARGET glm::glm)
   add_library(glm::glm INTERFACE IMPORTED)

@@ -1,12 +1,13 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
-set(rooms core geometry molecule scene compile author gpu sort simulate render reference measure bench run window app)
+set(rooms core geometry molecule scene compile exchange author gpu sort simulate render reference measure bench run window app)
 cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_geometry core)
 set(may_molecule core)
 set(may_scene core geometry molecule)
 set(may_compile core geometry molecule scene)
+set(may_exchange core geometry molecule scene)
 set(may_author core geometry molecule scene compile)
 set(may_gpu core)
 set(may_sort core gpu)
@@ -18,7 +19,7 @@ set(may_bench ${may_measure} measure)
 set(may_run ${may_simulate} simulate)
 set(may_window ${may_measure} author render measure run)
 set(may_app ${rooms})
-set(without_gl core geometry molecule scene compile author reference)
+set(without_gl core geometry molecule scene compile exchange author reference)
 
 set(failures "")
 set(files_seen 0)

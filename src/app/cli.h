@@ -82,6 +82,8 @@ void addPath(CLI::App& command, Options& options, Texts& texts);
 void addContext(CLI::App& command, Options& options, Texts& texts);
 void addCountAndSeed(CLI::App& command, Options& options);
 void addMeasure(CLI::App& command, Options& options, Texts& texts);
+void addExport(CLI::App& command, Options& options, Texts& texts);
+void finishExport(Options& options);
 void addBench(CLI::App& command, Options& options, Texts& texts);
 
 // Error: unknown; `option` is what it was given to. Nothing: auto.

@@ -19,6 +19,7 @@ int benchParticlesCommand(const Options& options);  // shoal bench particles
 int benchSchoolCommand(const Options& options);     // shoal bench school
 int measureCommand(const Options& options);
 int fieldCommand(const Options& options);
+int exportCommand(const Options& options);
 int editCommand(const Options& options);
 int moleculeFromMeshCommand(const Options& options);  // shoal molecule from-mesh
 int moleculeNewCommand(const Options& options);       // shoal molecule new

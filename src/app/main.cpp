@@ -13,7 +13,7 @@
 static void findScenes(shoal::app::Options& options) {
     using namespace shoal::app;
     for (std::string& file : options.files) {
-        for (const auto command : {runCommand, explainCommand, measureCommand, fieldCommand})
+        for (const auto command : {runCommand, explainCommand, measureCommand, fieldCommand, exportCommand})
             if (options.command == command) file = shoal::needScene(file);
         if (options.command == checkCommand) file = shoal::sceneFile(file).value_or(file);
     }

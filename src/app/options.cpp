@@ -272,12 +272,13 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
     addMeasure(*add("measure", "Measure a scene's error against what it costs", scenes), options, texts);
     addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options,
              texts.slice, texts.size);
+    addExport(*add("export", "Write a scene for game engines and viewers", scenes), options, texts);
     addEdit(*add("edit", "Change a molecule in a window, while it moves", molecules), options, texts);
     addMolecule(app, options);
     app.get_subcommand("molecule")->group(molecules);
     addContext(*add("info", "Print the OpenGL contexts that can be had", machine), options, texts);
     addBench(*add("bench", "Measure speed, against the limit and the error", machine), options, texts);
-    for (const char* name : {"run", "check", "explain", "measure", "field", "edit"})
+    for (const char* name : {"run", "check", "explain", "measure", "field", "export", "edit"})
         addSandbox(*app.get_subcommand(name), options);
     for (CLI::App* command : app.get_subcommand("molecule")->get_subcommands([](CLI::App*) { return true; }))
         addSandbox(*command, options);
@@ -318,6 +319,7 @@ static auto commandOf(const CLI::App& app) {
         {"run", runCommand},         {"scenes", scenesCommand}, {"check", checkCommand},
         {"explain", explainCommand}, {"bench", benchCommand},   {"measure", measureCommand},
         {"field", fieldCommand},     {"edit", editCommand},     {"keys", keysCommand},
+        {"export", exportCommand},
     };
     for (const auto& [name, command] : names)
         if (app.got_subcommand(name)) return command;
@@ -337,6 +339,7 @@ static void finish(const CLI::App& app, Options& options, const Texts& texts) {
     readExportCells(texts.exportCells, options);
     checkField(options, texts.slice);
     finishMeasure(texts, options);
+    finishExport(options);
 }
 
 std::optional<Options> parseOptions(int argc, char** argv) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "author/from_mesh.h"
+#include "exchange/animation_texture.h"
 #include "gpu/context.h"
 #include "run/request.h"
 
@@ -38,6 +39,20 @@ struct MoleculeOptions {
     std::optional<int> divisions;
     // show
     std::string sheet;  // its size in pixels; empty: the usual
+};
+
+// The options of `shoal export` (app/export_scene.cpp).
+struct ExportOptions {
+    std::string vat;               // folder
+    std::string glb;               // file
+    std::string group;             // empty: the only one
+    int first = 0;                 // frames that are not exported
+    int frames = 120;              // that are
+    std::optional<int> molecules;  // at most; nothing: all
+    int loop = 0;                  // frames that blend into the first
+    std::string texels = "png";
+    exchange::TexelFormat format = exchange::TexelFormat::png16;
+    bool rigid = false;
 };
 
 struct Options : RunRequest {
@@ -93,6 +108,7 @@ struct Options : RunRequest {
     } field;
 
     MoleculeOptions molecule;
+    ExportOptions animation;
 };
 
 // Thrown when the command line asks for something impossible: exit code 2, where a run that fails has 1.

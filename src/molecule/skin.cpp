@@ -355,6 +355,24 @@ std::vector<glm::dvec3> skinPositions(const Molecule& molecule, const std::vecto
     return out;
 }
 
+std::vector<glm::dvec3> skinNormals(const Molecule& molecule, const std::vector<SkinFrame>& frames,
+                                    const std::vector<glm::dvec3>& positions) {
+    const std::vector<glm::dvec3> normals = vertexNormals(molecule, positions);
+    std::vector<glm::dvec3> out;
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const std::vector<SkinWeight>& weights = molecule.skin.vertices[i].weights;
+        const SkinFrame& frame = frames[i];
+        const glm::dvec3 outward = unit(sum(weights, normals));
+        glm::dvec3 along = frame.alongOffset * outward, across = frame.acrossOffset * outward;
+        for (size_t k = 0; k < weights.size(); ++k) {
+            along += frame.along[k] * positions[size_t(weights[k].vertex)];
+            across += frame.across[k] * positions[size_t(weights[k].vertex)];
+        }
+        out.push_back(unit(glm::cross(along, across)));
+    }
+    return out;
+}
+
 void placeSkin(Molecule& molecule) {
     std::vector<glm::dvec3> rest;
     for (const Vertex& vertex : molecule.vertices)

@@ -508,6 +508,7 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
         }
         keys.emplace_back("LANES 64");
         validator.add("render/order_keys.comp", keys, gpu::header430());
+        keys.emplace_back("STREAMS 6");
         validator.add("render/slab_draws.comp", keys, gpu::header430());
     }
     for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend"})
@@ -517,7 +518,9 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     for (const char* file : {"render/molecule.frag", "render/points.frag", "render/surface.frag"})
         validator.addPicture(file, {"SHADOWS", "WATER", "BLEND noneBlend"});
     validator.addPicture("render/sky.frag", {"WATER"});
-    validator.addPicture("render/picture.frag", {"BEAMS"});
+    validator.addPicture("render/picture.frag", {"BEAMS", "OCCLUSION"});
+    for (const Defines& pass : {Defines{}, Defines{"BLUR"}})
+        validator.addPicture("render/occlusion.frag", pass);
     for (const char* blend : {"BLEND additiveBlend", "BLEND multiplicativeBlend", "BLEND alphaBlend"})
         validator.addPicture("particles/particle.frag", {"WATER", "LIT", "FACING cameraFacing", blend});
     validator.addPicture("water/rays.frag", {});

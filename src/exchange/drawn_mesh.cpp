@@ -1,0 +1,170 @@
+#include "exchange/drawn_mesh.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "core/random.h"
+
+namespace shoal::exchange {
+
+namespace {
+
+template <typename Triangles>
+std::vector<uint32_t> cornersOf(const Triangles& triangles) {
+    std::vector<uint32_t> out;
+    for (const auto& t : triangles)
+        for (const int corner : {t.a, t.b, t.c})
+            out.push_back(uint32_t(corner));
+    return out;
+}
+
+template <typename Vertices>
+std::vector<glm::vec2> uvsOf(const Vertices& vertices) {
+    std::vector<glm::vec2> out;
+    for (const auto& vertex : vertices)
+        out.emplace_back(vertex.uv);
+    return out;
+}
+
+SurfaceMaterial materialOf(const Material& looks) {
+    SurfaceMaterial out;
+    out.roughness = looks.roughness;
+    out.metallic = looks.metallic;
+    out.alphaCut = looks.alphaCut;
+    out.color.a = looks.blend == Blend::none ? 1 : looks.opacity;
+    if (!looks.texture.empty()) {
+        out.colorImage = 0;
+        out.alpha = SurfaceMaterial::Alpha::cut;
+    }
+    if (looks.blend != Blend::none) out.alpha = SurfaceMaterial::Alpha::blend;
+    return out;
+}
+
+float uniform(uint32_t seed, uint32_t counter) {
+    return float(hash(seed, counter) >> 8) / 16777216.0f;
+}
+
+}  // namespace
+
+GroupMesh::GroupMesh(const Group& group, std::span<const uint32_t> seeds)
+    : group_(&group), seeds_(seeds.begin(), seeds.end()), material_(materialOf(group.molecule.material)) {
+    const Molecule& molecule = group.molecule;
+    if (molecule.skin.empty()) {
+        corners_ = cornersOf(molecule.triangles);
+        uvs_ = uvsOf(molecule.vertices);
+    } else {
+        corners_ = cornersOf(molecule.skin.triangles);
+        uvs_ = uvsOf(molecule.skin.vertices);
+        frames_ = skinFrames(molecule);
+    }
+    if (points() || molecule.material.texture.empty()) {
+        material_.colorImage = -1;
+        if (material_.alpha == SurfaceMaterial::Alpha::cut) material_.alpha = SurfaceMaterial::Alpha::opaque;
+        return;
+    }
+    const std::filesystem::path folder = std::filesystem::path(molecule.file).parent_path();
+    images_.push_back(readPng(folder / molecule.material.texture));
+}
+
+void GroupMesh::place(std::span<const glm::dvec3> places, std::vector<glm::dvec3>& positions,
+                      std::vector<glm::vec3>& normals) const {
+    const Molecule& molecule = group_->molecule;
+    const std::vector<glm::dvec3> simulated(places.begin(), places.end());
+    if (molecule.skin.empty()) {
+        positions.insert(positions.end(), places.begin(), places.end());
+        for (const glm::dvec3& n : vertexNormals(molecule, simulated))
+            normals.emplace_back(n);
+        return;
+    }
+    const std::vector<glm::dvec3> skin = skinPositions(molecule, simulated);
+    positions.insert(positions.end(), skin.begin(), skin.end());
+    for (const glm::dvec3& n : skinNormals(molecule, frames_, simulated))
+        normals.emplace_back(n);
+}
+
+// As shaders/render/instance_color.glsl has it.
+glm::vec3 GroupMesh::colorOf(size_t molecule) const {
+    const Material& looks = group_->molecule.material;
+    const glm::dvec3 first = group_->color.value_or(looks.color);
+    const glm::dvec3 second = group_->secondColor
+                                  ? *group_->secondColor
+                                  : group_->color.value_or(looks.secondColor.value_or(looks.color));
+    const float between = uniform(seeds_[molecule], 0xc0101u),
+                brightness = uniform(seeds_[molecule], 0xc0102u);
+    const float share = between * between * (1.5f - 0.5f * between);
+    return glm::mix(glm::vec3(first), glm::vec3(second), share) * (0.8f + 0.4f * brightness);
+}
+
+DrawnMesh GroupMesh::mesh(std::span<const size_t> molecules) const {
+    DrawnMesh out;
+    out.name = name();
+    out.images = images_;
+    for (size_t i = 0; i < molecules.size(); ++i) {
+        out.uvs.insert(out.uvs.end(), uvs_.begin(), uvs_.end());
+        out.colors.insert(out.colors.end(), uvs_.size(), colorOf(molecules[i]));
+        for (const uint32_t corner : corners_)
+            out.corners.push_back(uint32_t(i * uvs_.size()) + corner);
+    }
+    out.pieces.push_back({0, out.corners.size(), material_});
+    return out;
+}
+
+std::vector<glm::dvec3> GroupMesh::restPlaces() const {
+    std::vector<glm::dvec3> out;
+    for (const Vertex& vertex : group_->molecule.vertices)
+        out.push_back(vertex.position);
+    return out;
+}
+
+DrawnMesh modelMesh(const Model& model) {
+    const Mesh& mesh = model.mesh;
+    DrawnMesh out;
+    out.name = model.name;
+    out.images = mesh.images;
+    recentre(out, mesh.positions);
+    for (const glm::dvec3& n : mesh.normals)
+        out.normals.emplace_back(n);
+    for (const glm::dvec2& uv : mesh.uvs)
+        out.uvs.emplace_back(uv);
+    // Other programs take colours up to 1.
+    for (const glm::dvec3& color : mesh.colors)
+        out.colors.emplace_back(glm::min(color * model.color, 1.0));
+    // The triangles of each material one after another.
+    std::vector<int> lookOf(mesh.triangles.size(), -1);
+    for (const Mesh::Part& part : mesh.parts)
+        std::fill_n(lookOf.begin() + part.firstTriangle, part.triangleCount, part.look);
+    std::vector<size_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return lookOf[a] < lookOf[b]; });
+    int last = -2;
+    for (const size_t t : order) {
+        if (lookOf[t] != last) {
+            last = lookOf[t];
+            SurfaceMaterial material;
+            if (last >= 0) material = mesh.materials[size_t(last)];
+            if (mesh.colors.empty()) material.color *= glm::dvec4(model.color, 1);
+            material.color = glm::min(material.color, 1.0);
+            if (model.roughness) material.roughness = *model.roughness;
+            out.pieces.push_back({out.corners.size(), 0, material});
+        }
+        for (int i = 0; i < 3; ++i)
+            out.corners.push_back(uint32_t(mesh.triangles[t][i]));
+        out.pieces.back().count += 3;
+    }
+    return out;
+}
+
+void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions) {
+    constexpr double near = 64;  // m: a float's digits are below 4 micrometres
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const glm::dvec3& p : positions)
+        low = glm::min(low, p), high = glm::max(high, p);
+    const glm::dvec3 middle = positions.empty() ? glm::dvec3(0) : glm::round(0.5 * (low + high));
+    mesh.origin = glm::length(middle) > near ? middle : glm::dvec3(0);
+    mesh.positions.clear();
+    for (const glm::dvec3& p : positions)
+        mesh.positions.emplace_back(p - mesh.origin);
+}
+
+}  // namespace shoal::exchange

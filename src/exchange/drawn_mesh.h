@@ -1,0 +1,70 @@
+// What a scene draws, as meshes that other programs take: skins or triangles of molecules, points, models.
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "geometry/mesh.h"
+#include "molecule/skin.h"
+#include "scene/scene.h"
+
+namespace shoal::exchange {
+
+// Arrays have a value a vertex, or are empty.
+struct DrawnMesh {
+    std::string name;
+    glm::dvec3 origin{0};              // m, of the scene: what positions are relative to
+    std::vector<glm::vec3> positions;  // m
+    std::vector<glm::vec3> normals;    // unit
+    std::vector<glm::vec2> uvs;        // (0, 0) lower left, as in molecules and models
+    std::vector<glm::vec2>
+        columns;  // second coordinates, (0, 0) upper left: where an animation texture is read
+    std::vector<glm::vec3> colors;  // linear RGB
+    std::vector<uint32_t> corners;  // three a triangle; empty: points
+
+    // Corners that look alike; images are numbers in `images`.
+    struct Piece {
+        size_t first = 0, count = 0;
+        SurfaceMaterial material;
+    };
+    std::vector<Piece> pieces;
+    std::vector<Image> images;
+};
+
+// A group's molecules: which mesh each is drawn as, and where that lies when the molecule moves.
+class GroupMesh {
+  public:
+    // `seeds`: one a molecule, which say its colour. Error: the material's image is missing or not a PNG.
+    GroupMesh(const Group& group, std::span<const uint32_t> seeds);
+
+    const std::string& name() const { return group_->name; }
+    size_t verticesEach() const { return uvs_.size(); }
+    bool points() const { return corners_.empty(); }
+
+    // Adds a molecule at the simulated vertices' `places` (m, of the scene) to `positions` and `normals`.
+    void place(std::span<const glm::dvec3> places, std::vector<glm::dvec3>& positions,
+               std::vector<glm::vec3>& normals) const;
+    // Those molecules as one mesh, without positions and normals.
+    DrawnMesh mesh(std::span<const size_t> molecules) const;
+    // As it is at rest, about the molecule's origin.
+    std::vector<glm::dvec3> restPlaces() const;
+
+  private:
+    glm::vec3 colorOf(size_t molecule) const;
+
+    const Group* group_;
+    std::vector<uint32_t> seeds_, corners_;
+    std::vector<glm::vec2> uvs_;
+    std::vector<SkinFrame> frames_;
+    SurfaceMaterial material_;
+    std::vector<Image> images_;
+};
+
+DrawnMesh modelMesh(const Model& model);
+
+// Moves positions about a whole number of metres in their middle, where they lie far from the origin: floats
+// hold them then.
+void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions);
+
+}  // namespace shoal::exchange
