@@ -51,15 +51,42 @@ void printProbe(const gpu::ContextProbe& probe) {
 
 }  // namespace
 
+// "0 NVIDIA H100 80GB HBM3/PCIe/SSE2 (hardware)"
+static std::string deviceText(int number, const gpu::ContextProbe& device) {
+    if (!device.info) return concat(number, " not available: ", device.reason);
+    return concat(number, " ", device.info->renderer, device.info->software ? " (software)" : " (hardware)");
+}
+
+static void printDevices(const std::vector<gpu::ContextProbe>& devices) {
+    if (devices.empty()) return;
+    std::cout << "devices of EGL, for --gpu\n";
+    for (size_t i = 0; i < devices.size(); ++i)
+        std::cout << "  " << deviceText(int(i), devices[i]) << "\n";
+}
+
 int infoCommand(const Options& options) {
+    if (options.gpu) {
+        const std::vector<gpu::ContextProbe> devices = gpu::probeDevices();
+        if (size_t(*options.gpu) >= devices.size())
+            throw Error("--gpu: there is no device ", *options.gpu, ", but ", devices.size());
+        const gpu::ContextProbe& device = devices[size_t(*options.gpu)];
+        if (options.json)
+            std::cout << writeJson(asJson(device));
+        else
+            printProbe(device);
+        return device.info ? 0 : 1;
+    }
     std::vector<gpu::ContextProbe> probes = gpu::probeContexts();
+    const std::vector<gpu::ContextProbe> devices = gpu::probeDevices();
     if (options.context != gpu::ContextKind::automatic)
         std::erase_if(probes, [&](const gpu::ContextProbe& probe) { return probe.kind != options.context; });
     if (options.json)
-        std::cout << writeJson(
-            object(key("version", SHOAL_VERSION), key("contexts", arrayOf(probes, asJson))));
-    else
+        std::cout << writeJson(object(key("version", SHOAL_VERSION), key("contexts", arrayOf(probes, asJson)),
+                                      key("devices", arrayOf(devices, asJson))));
+    else {
         std::for_each(probes.begin(), probes.end(), printProbe);
+        printDevices(devices);
+    }
     const auto available = [](const gpu::ContextProbe& probe) { return probe.info.has_value(); };
     return std::any_of(probes.begin(), probes.end(), available) ? 0 : 1;
 }

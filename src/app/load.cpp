@@ -26,7 +26,8 @@ void keepToSandbox(const Options& options, const std::string& file) {
 
 gpu::ContextOptions hiddenContext(const Options& options) {
     gpu::ContextOptions out;
-    out.kind = options.context;
+    out.kind = options.gpu ? gpu::ContextKind::egl : options.context;
+    out.device = options.gpu;
     out.visible = false;
     return out;
 }

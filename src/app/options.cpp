@@ -124,7 +124,8 @@ void addRun(CLI::App& command, Options& options, Texts& texts) {
     needs(command, "--capture-every", "--capture");
     needs(command, "--screenshot", "--frames");
     excludes(command, "--export-every", {"--export-frames"});
-    excludes(command, "--screenshot", {"--headless", "--capture", "--export", "--json", "--timings"});
+    excludes(command, "--screenshot",
+             {"--headless", "--capture", "--export", "--json", "--timings", "--gpu"});
 }
 
 void readExportCells(const std::string& word, Options& options) {
@@ -187,6 +188,7 @@ void checkRanges(const Options& options) {
         if (value && *value > most)
             throw Error(concat(option, ": expected at most ", most, ", found ", *value));
     };
+    within("--gpu", options.gpu, 0, any);
     within("--frames", options.frames, 1, any);
     if (options.scale && !(*options.scale >= window::leastScale && *options.scale <= window::mostScale))
         throw Error(concat("--scale: expected ", window::leastScale, " to ", window::mostScale, ", found ",

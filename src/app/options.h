@@ -60,6 +60,7 @@ struct Options : RunRequest {
     std::vector<std::string> files;
 
     gpu::ContextKind context = gpu::ContextKind::automatic;
+    std::optional<int> gpu;  // a device of EGL
     bool headless = false;
     bool sandbox = false;  // nothing is opened outside the folder of the file and the shipped data
     bool json = false;

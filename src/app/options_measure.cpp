@@ -83,6 +83,8 @@ void addContext(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--context", texts.context, "Where OpenGL comes from")
         ->type_name("window|egl|osmesa|auto")
         ->capture_default_str();
+    addWhole(command, "--gpu", options.gpu, "EGL's device of this number, as shoal info lists them");
+    excludes(command, "--gpu", {"--context"});
     section(command, reports);
     command.add_flag("--json", options.json, "Report as JSON on standard output");
 }

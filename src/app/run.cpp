@@ -39,6 +39,7 @@ bool wantsWindow(const Options& options) {
             throw WrongUse("--headless and --context window exclude each other");
         return false;
     }
+    if (options.gpu) return false;
     if (options.context == gpu::ContextKind::window) return true;
     // pictures, exports and reports are headless work unless a window is asked for
     const bool batch =
@@ -336,8 +337,8 @@ int runCommand(const Options& options) {
     if (!chooses) loaded = {readScene(options.files.front(), options), {}};
     const bool plans = loaded && !options.error, large = plans && hasLarge(loaded->scene);
     if (plans && !large) planScene(*loaded);
-    gpu::ContextOptions wanted;
-    wanted.kind = options.context;
+    gpu::ContextOptions wanted = hiddenContext(options);
+    wanted.visible = true;
     wanted.preferWindow = window;
     wanted.width = options.width;
     wanted.height = options.height;

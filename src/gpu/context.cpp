@@ -222,6 +222,7 @@ Context::Context(const ContextOptions& options) {
         }
     }
     restore(before);
+    if (options.device) throw Error("EGL's device cannot be used:" + tried);
     throw Error("no OpenGL context of 3.3 or newer can be had\n  tried:" + tried + "\n  what helps:" + help);
 }
 
@@ -261,21 +262,39 @@ void Context::checkAlive() const {
                                                                   : ""));
 }
 
+static ContextProbe probe(ContextKind kind, std::optional<int> device) {
+    ContextProbe out;
+    out.kind = kind;
+    try {
+        ContextOptions options;
+        options.kind = kind;
+        options.device = device;
+        options.width = options.height = 64;
+        options.visible = false;
+        out.info = Context(options).info();
+    } catch (const std::exception& error) {
+        out.reason = error.what();
+    }
+    return out;
+}
+
 std::vector<ContextProbe> probeContexts() {
     Context::State* before = currentState;
     std::vector<ContextProbe> out;
-    for (const ContextKind kind : {ContextKind::window, ContextKind::egl, ContextKind::osmesa}) {
-        ContextProbe& result = out.emplace_back();
-        result.kind = kind;
-        try {
-            ContextOptions options;
-            options.kind = kind;
-            options.width = options.height = 64;
-            options.visible = false;
-            result.info = Context(options).info();
-        } catch (const std::exception& error) {
-            result.reason = error.what();
-        }
+    for (const ContextKind kind : {ContextKind::window, ContextKind::egl, ContextKind::osmesa})
+        out.push_back(probe(kind, {}));
+    restore(before);
+    return out;
+}
+
+std::vector<ContextProbe> probeDevices() {
+    Context::State* before = currentState;
+    std::vector<ContextProbe> out;
+    try {
+        for (int i = 0; i < countEglDevices(); ++i)
+            out.push_back(probe(ContextKind::egl, i));
+    } catch (const Error&) {
+        // no EGL, no devices: probeContexts() says why
     }
     restore(before);
     return out;

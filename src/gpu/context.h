@@ -79,6 +79,7 @@ struct ContextOptions {
     bool visible = true;        // window: shown at once
     bool preferWindow = false;  // automatic: a window where there is a display, else headless
     bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
+    std::optional<int> device;  // EGL: that of probeDevices(); nothing: the best that there is
     bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
 };
 
@@ -153,5 +154,7 @@ struct ContextProbe {
 
 // Window, EGL and OSMesa, each tried in turn and given back. Whatever context was current stays so.
 std::vector<ContextProbe> probeContexts();
+// The devices of EGL, by their numbers.
+std::vector<ContextProbe> probeDevices();
 
 }  // namespace shoal::gpu

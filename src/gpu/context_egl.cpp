@@ -10,6 +10,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
+#include <algorithm>
 #include <utility>
 #include <vector>
 
@@ -113,6 +114,7 @@ struct Candidate {
     EGLDisplay display = EGL_NO_DISPLAY;
     std::string description;
     bool gpu = false;  // known to be one
+    int device = -1;   // its number; none: the surfaceless platform
 };
 
 class EglPlatform final : public Platform {
@@ -231,7 +233,7 @@ std::vector<Candidate> candidates() {
                                 ? egl().queryDeviceString(devices[i], EGL_EXTENSIONS)
                                 : nullptr;
         const bool gpu = words != nullptr && !hasWord(words, "EGL_MESA_device_software");
-        out.push_back({display, concat("EGL, device ", i), gpu});
+        out.push_back({display, concat("EGL, device ", i), gpu, i});
     }
     return out;
 }
@@ -243,7 +245,23 @@ bool softwareWanted() {
 
 }  // namespace
 
+int countEglDevices() {
+    int count = 0;
+    for (const Candidate& candidate : candidates())
+        count = std::max(count, candidate.device + 1);
+    return count;
+}
+
+static std::unique_ptr<Platform> createOnDevice(const ContextOptions& options) {
+    for (const Candidate& candidate : candidates())
+        if (candidate.device == *options.device) return std::make_unique<EglPlatform>(candidate, options);
+    const int count = countEglDevices();
+    throw Error("there is no device ", *options.device, ": ",
+                count == 0 ? std::string("EGL lists none") : concat("shoal info lists 0 to ", count - 1));
+}
+
 std::unique_ptr<Platform> createEglPlatform(const ContextOptions& options) {
+    if (options.device) return createOnDevice(options);
     std::unique_ptr<EglPlatform> software;  // to fall back to
     std::string tried;
     for (const Candidate& candidate : candidates()) {

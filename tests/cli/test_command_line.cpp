@@ -121,6 +121,24 @@ TEST_CASE("info names each context and why one is missing", "[cli]") {
             .code == 1);
 }
 
+TEST_CASE("--gpu takes one of the devices that info lists", "[cli]") {
+    const JsonValue report = runShoal({"info", "--json"}).json();
+    const std::vector<JsonValue>& devices = member(report, "devices").items;
+    const std::string beyond = std::to_string(devices.size());
+    refusal({"run", helloScene(), "--gpu", beyond, "--frames", "1"}, "there is no device " + beyond);
+    refusal({"info", "--gpu", beyond}, "there is no device " + beyond);
+    refusal({"run", helloScene(), "--gpu", "-1", "--frames", "1"}, "--gpu: expected at least 0, found -1");
+    refusal({"run", helloScene(), "--gpu", "0", "--context", "egl"}, "excludes");
+    if (devices.empty()) {
+        WARN("skipped: EGL lists no devices here");
+        return;
+    }
+    const JsonValue run = runShoal({"run", helloScene(), "--gpu", "0", "--frames", "1", "--json"}).json();
+    CHECK(member(member(run, "context"), "renderer").text == member(devices[0], "renderer").text);
+    const JsonValue alone = runShoal({"info", "--gpu", "0", "--json"}).json();
+    CHECK(member(alone, "platform").text == "EGL, device 0");
+}
+
 TEST_CASE("a context that cannot be had says what helps", "[cli]") {
     const Surroundings noDisplay{.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}};
     const std::string window = refusal({"run", helloScene(), "--context", "window", "--frames", "1"},
