@@ -16,7 +16,8 @@ endif()
 find_package(Threads REQUIRED)
 find_package(meshoptimizer REQUIRED)  # simplifies meshes to molecules
 
-find_package(OpenEXR CONFIG REQUIRED)  # animation textures of floats
+pkg_check_modules(OPENEXR REQUIRED IMPORTED_TARGET OpenEXR)  # animation textures of floats
+set_property(TARGET PkgConfig::OPENEXR PROPERTY INTERFACE_COMPILE_OPTIONS "")  # -pthread, which says nothing here
 
 find_package(glm QUIET)
 if(NOT TARGET glm::glm)

@@ -7,7 +7,7 @@
 set -euo pipefail
 
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-limit=$((100 * 1024 * 1024)) # bytes, without tests; Embree alone has 42 MiB
+limit=$((110 * 1024 * 1024)) # bytes, without tests; Embree alone has 42 MiB, OpenEXR 4
 test_programs=(shoal-unit shoal-gl shoal-hard shoal-baseline)
 
 say() { printf '%s\n' "$*" >&2; }

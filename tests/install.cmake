@@ -18,6 +18,12 @@ run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE_DIR}/tests/example -B ${SCRATCH}/examp
 run(${CMAKE_COMMAND} --build ${SCRATCH}/example)
 run(${SCRATCH}/example/example ${SCRATCH}/prefix/share/shoal/models/hello/hello.scene.json)
 run(${SCRATCH}/prefix/bin/shoal explain hello)
+file(GLOB module ${SCRATCH}/prefix/lib/python*/site-packages/shoal*.so)
+if(module)
+  get_filename_component(folder ${module} DIRECTORY)
+  run(${CMAKE_COMMAND} -E env PYTHONPATH=${folder} ${PYTHON} -c
+      "import shoal; s = shoal.Simulation(shoal.Scene('hello')); s.step(3); print(s.positions().shape)")
+endif()
 foreach(document man/man1/shoal.1 bash-completion/completions/shoal)
   file(STRINGS ${SCRATCH}/prefix/share/${document} found REGEX "from.*-mesh")
   if(NOT found)

@@ -1,6 +1,6 @@
 # Fails when a room includes a room it may not, or touches OpenGL where it may not (docs/architecture.md).
 # Run as: cmake -DSOURCE_DIR=... -P rooms.cmake
-set(rooms core geometry molecule scene compile exchange author gpu sort simulate render reference measure bench run window app)
+set(rooms core geometry molecule scene compile exchange author gpu sort simulate render reference measure bench run window python app)
 cmake_minimum_required(VERSION 3.22)
 set(may_core "")
 set(may_geometry core)
@@ -18,6 +18,7 @@ set(may_measure core geometry molecule scene compile gpu sort simulate reference
 set(may_bench ${may_measure} measure)
 set(may_run ${may_simulate} simulate)
 set(may_window ${may_measure} author render measure run)
+set(may_python ${may_measure} render measure run)
 set(may_app ${rooms})
 set(without_gl core geometry molecule scene compile exchange author reference)
 

@@ -1,5 +1,6 @@
 #include "run/data_paths.h"
 
+#include <dlfcn.h>
 #include <cstdlib>
 #include <filesystem>
 #include <vector>
@@ -10,6 +11,14 @@ namespace shoal {
 
 namespace fs = std::filesystem;
 
+// Where this code lies: the executable, or the Python module.
+static fs::path ownFile() {
+    Dl_info info{};
+    std::error_code code;
+    if (dladdr(reinterpret_cast<const void*>(&ownFile), &info) == 0 || !info.dli_fname) return {};
+    return fs::canonical(info.dli_fname, code);
+}
+
 std::string shaderRoot() {
     std::error_code code;
     const fs::path executable = fs::read_symlink("/proc/self/exe", code);
@@ -18,6 +27,10 @@ std::string shaderRoot() {
     roots.push_back(executable.parent_path().parent_path() / SHOAL_DATA_DIR);
     roots.push_back(executable.parent_path().parent_path());  // a bundle (cmake/bundle.sh)
     roots.push_back(executable.parent_path());
+    // An installed module lies in lib/python3.11/site-packages, or the like, of the prefix.
+    fs::path folder = ownFile().parent_path();
+    for (int level = 0; level < 5 && folder.has_relative_path(); ++level, folder = folder.parent_path())
+        roots.push_back(folder / SHOAL_DATA_DIR);
     roots.emplace_back(SHOAL_SOURCE_DIR);
     std::string tried;
     for (const fs::path& root : roots) {

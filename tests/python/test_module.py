@@ -1,0 +1,216 @@
+"""The Python module, as a user has it. Run by ctest; alone: PYTHONPATH=build/python python3 -m pytest tests/python"""
+import ast
+import os
+import pathlib
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+import shoal
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAIR = {
+    "name": "pair",
+    "vertices": [{"position": [0, 0, 0], "mass": 0.5}, {"position": [1, 0, 0], "mass": 0.5}],
+    "springs": [{"a": 0, "b": 1, "stiffness": 100}],
+}
+
+
+def pairs(count=1, **more):
+    items = [{"position": [3 * i, 0, 0]} for i in range(count)]
+    return shoal.Scene({"groups": [{"molecule": PAIR, "place": {"on": "list", "items": items}}], **more})
+
+
+@pytest.fixture
+def hello():
+    with shoal.Simulation(shoal.Scene("hello")) as simulation:
+        yield simulation
+
+
+def test_state_has_shapes_and_types(hello):
+    assert hello.groups == ["quad"]
+    for values, kind in ((hello.positions(), np.float64), (hello.velocities(0), np.float64), (hello.normals("quad"), np.float32)):
+        assert values.shape == (20, 4, 3) and values.dtype == kind
+    assert hello.alive().shape == (20,) and hello.alive().all()
+
+
+def test_steps_are_the_command_s(hello):
+    hello.step(30)
+    assert hello.frames == 30 and hello.time == pytest.approx(0.5)
+    command = os.environ.get("SHOAL_COMMAND", ROOT / "build/shoal")
+    report = subprocess.run(
+        [command, "run", "hello", "--headless", "--frames", "30", "--json", "--context", "egl"], capture_output=True, text=True
+    )
+    assert f'"hash": "{hello.hash()}"' in report.stdout
+
+
+def test_free_fall_is_free_fall():
+    with shoal.Simulation(pairs(2, gravity=[0, -10, 0])) as simulation:
+        start = simulation.positions()
+        simulation.step(60)
+        assert simulation.positions()[..., 1] - start[..., 1] == pytest.approx(-5, rel=1e-4)
+        assert simulation.velocities()[..., 1] == pytest.approx(-10, rel=1e-5)
+
+
+def test_energy_of_a_stretched_spring_is_kept():
+    with shoal.Simulation(pairs(), solver="leapfrog", substeps=16) as simulation:
+        places = simulation.positions()
+        places[0, 1, 0] += 0.1
+        simulation.set_state(positions=places)
+        assert simulation.energy()["elastic"] == pytest.approx(0.5 * 100 * 0.1**2, rel=1e-5)
+        simulation.step(100)
+        energy = simulation.energy()
+        assert energy["kinetic"] + energy["elastic"] == pytest.approx(0.5, rel=1e-3)
+
+
+def test_set_state_is_what_is_read_back(hello):
+    places = hello.positions() + [0.25, 1, -2]
+    hello.set_state(positions=places, velocities=np.ones((20, 4, 3)))
+    assert abs(hello.positions() - places).max() < 1e-6
+    assert (hello.velocities() == 1).all()
+
+
+def test_a_run_is_repeated_and_resumed(hello, tmp_path):
+    start = hello.hash()
+    hello.step(10)
+    hello.save(tmp_path / "state.shoal")
+    hello.step(10)
+    end = hello.hash()
+    hello.load(tmp_path / "state.shoal")
+    hello.step(10)
+    assert hello.hash() == end
+    hello.restart()
+    assert hello.hash() == start
+
+
+def test_parameters_act(hello):
+    other = shoal.Simulation(shoal.Scene("hello"))
+    other.parameters.gravity = [0, 0, 0]
+    assert other.parameters.gravity == [0, 0, 0]
+    for simulation in (hello, other):
+        simulation.step(20)
+    assert hello.positions()[..., 1].mean() < other.positions()[..., 1].mean() - 0.1
+    other.close()
+
+
+def test_pictures_are_arrays(hello):
+    picture = hello.picture(160, 90)
+    assert picture.shape == (90, 160, 4) and picture.dtype == np.uint8
+    assert (picture[..., 3] == 255).all() and picture[..., :3].std() > 10
+    near = hello.picture(160, 90, eye=[0, 1, 2], target=[0, 0.5, 0])
+    assert abs(near.astype(int) - picture).mean() > 5
+
+
+def test_molecules_are_made_in_code(tmp_path):
+    molecule = shoal.Molecule(PAIR)
+    assert molecule.name == "pair" and molecule.springs == 1 and molecule.vertices.tolist() == [[0, 0, 0], [1, 0, 0]]
+    molecule.save(tmp_path / "pair.json")
+    assert shoal.Molecule(tmp_path / "pair.json").vertices.shape == (2, 3)
+    scene = shoal.Scene({"groups": [{"molecule": molecule, "place": {"on": "list", "items": [{"position": [0, 0, 0]}]}}]})
+    assert scene.groups == ["pair"]
+
+
+def test_errors_say_where(tmp_path, hello):
+    with pytest.raises(shoal.Error, match="no such file: nope.json") as caught:
+        shoal.Scene({"groups": [{"molecule": "nope.json"}]})
+    assert caught.value.path == "$.groups[0].molecule" and caught.value.line == 1
+    bad = tmp_path / "bad.scene.json"
+    bad.write_text('{\n "format": "shoal-scene-1",\n "grups": []\n}')
+    with pytest.raises(shoal.Error) as caught:
+        shoal.Scene(bad)
+    assert caught.value.file == str(bad) and caught.value.line == 3
+    for wrong, words in (
+        (lambda: hello.positions("quads"), 'did you mean "quad"'),
+        (lambda: hello.positions(1), "there is no group 1"),
+        (lambda: hello.step(-1), "0 frames or more"),
+        (lambda: hello.set_state(positions=np.zeros((3, 4, 3))), r"expected an array of shape \(20, 4, 3\), found \(3, 4, 3\)"),
+        (lambda: hello.set_state(velocities=np.full((20, 4, 3), np.nan)), "not finite"),
+        (lambda: hello.picture(0, 10), "pixels a side"),
+        (lambda: shoal.Simulation(shoal.Scene("hello"), solver="leapfog"), 'did you mean "leapfrog"'),
+        (lambda: shoal.Simulation(shoal.Scene("hello"), device=99), "no device 99"),
+        (lambda: hello.load(tmp_path / "none.shoal"), "none.shoal"),
+    ):
+        with pytest.raises(shoal.Error, match=words):
+            wrong()
+    with pytest.raises(TypeError):
+        hello.step("many")
+
+
+def test_a_closed_simulation_says_so():
+    simulation = shoal.Simulation(shoal.Scene("hello"))
+    simulation.close()
+    simulation.close()
+    with pytest.raises(shoal.Error, match="was closed"):
+        simulation.step()
+
+
+def test_another_thread_is_refused(hello):
+    caught = []
+
+    def work():
+        try:
+            hello.step()
+        except shoal.Error as error:
+            caught.append(str(error))
+
+    thread = threading.Thread(target=work)
+    thread.start()
+    thread.join()
+    assert caught and "another thread" in caught[0]
+
+
+def test_the_interpreter_goes_on_while_a_simulation_steps(hello):
+    ticks, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            ticks[0] += 1
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    before = ticks[0]
+    hello.step(300)
+    during = ticks[0] - before
+    done.set()
+    thread.join()
+    assert during > 1000
+
+
+def test_check_and_measure():
+    assert shoal.check(ROOT / "molecules/leaf.json") == []
+    assert any("without any stiffness" in finding.message for finding in shoal.check("hello"))
+    missing = shoal.check("none.json")
+    assert len(missing) == 1 and missing[0].error
+    rows = shoal.measure(shoal.Scene("hello"), duration=0.1, seconds=2)
+    errors = [row["error"] for row in rows if row["solver"] == "leapfrog" and row["error"] is not None]
+    assert errors and min(errors) < 1e-3
+
+
+def test_stubs_name_what_the_module_has():
+    stub = ast.parse((ROOT / "src/python/shoal.pyi").read_text())
+    for node in stub.body:
+        if isinstance(node, ast.FunctionDef):
+            assert hasattr(shoal, node.name)
+        if not isinstance(node, ast.ClassDef):
+            continue
+        has = getattr(shoal, node.name)
+        named = {item.name for item in node.body if isinstance(item, ast.FunctionDef)}
+        named |= {item.target.id for item in node.body if isinstance(item, ast.AnnAssign)}
+        if node.name != "Error":  # whose members are those of an instance
+            public = {name for name in dir(has) if not name.startswith("_")}
+            assert public == {name for name in named if not name.startswith("_")}, node.name
+
+
+@pytest.mark.parametrize("script", ["sweep", "ribbon", "resets"])
+def test_examples_run(script, tmp_path):
+    pytest.importorskip("matplotlib")
+    (tmp_path / "molecules").symlink_to(ROOT / "molecules")
+    run = subprocess.run([sys.executable, ROOT / f"docs/python/{script}.py"], cwd=tmp_path, capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    if script == "resets":
+        assert float(run.stdout.split("misses by ")[1].split()[0]) < 0.05
+    else:
+        assert (tmp_path / f"{script}.png").stat().st_size > 10000
