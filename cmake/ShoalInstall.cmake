@@ -7,6 +7,7 @@ foreach(room ${SHOAL_ROOMS})
   install(DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/src/${room}/ DESTINATION include/shoal/${room}
       FILES_MATCHING PATTERN "*.h")
 endforeach()
+install(FILES ${CMAKE_CURRENT_SOURCE_DIR}/src/shoal.h DESTINATION include/shoal)
 install(TARGETS ${targets} EXPORT ShoalTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 # The forwarding symbols must be in whoever links gpu, not left behind in an archive (src/gpu/forward.cpp).
 install(FILES $<TARGET_OBJECTS:shoal_gpu_forward> DESTINATION ${CMAKE_INSTALL_LIBDIR}/shoal)

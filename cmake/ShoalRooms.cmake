@@ -62,7 +62,7 @@ function(shoal_room name)
   add_library(Shoal::${name} ALIAS shoal_${name})
   set_target_properties(shoal_${name} PROPERTIES EXPORT_NAME ${name})
   target_include_directories(shoal_${name} ${scope}
-      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/shoal>)
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/src> $<INSTALL_INTERFACE:include/shoal> $<INSTALL_INTERFACE:include>)
   target_link_libraries(shoal_${name} ${scope} ${ROOM_ROOMS} ${ROOM_LIBRARIES})
 
   if(forwarders)

@@ -1,4 +1,4 @@
-# Installs into a scratch prefix, builds tests/example against the package there and runs it; also runs the
+# Installs into a scratch prefix, builds docs/library against the package there and runs it; also runs the
 # installed command from another folder.
 # Run as: cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DSCRATCH=... -P install.cmake
 function(run)
@@ -13,10 +13,12 @@ endfunction()
 file(REMOVE_RECURSE ${SCRATCH})
 file(MAKE_DIRECTORY ${SCRATCH})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${SCRATCH}/prefix)
-run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE_DIR}/tests/example -B ${SCRATCH}/example
+run(${CMAKE_COMMAND} -G Ninja -S ${SOURCE_DIR}/docs/library -B ${SCRATCH}/example
     -DCMAKE_PREFIX_PATH=${SCRATCH}/prefix -DCMAKE_BUILD_TYPE=Release)
 run(${CMAKE_COMMAND} --build ${SCRATCH}/example)
-run(${SCRATCH}/example/example ${SCRATCH}/prefix/share/shoal/models/hello/hello.scene.json)
+foreach(example step draw share)
+  run(${SCRATCH}/example/${example})
+endforeach()
 run(${SCRATCH}/prefix/bin/shoal explain hello)
 file(GLOB module ${SCRATCH}/prefix/lib/python*/site-packages/shoal*.so)
 if(module)

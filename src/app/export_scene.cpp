@@ -6,6 +6,7 @@
 #include <iostream>
 
 #include "app/commands.h"
+#include "app/export_scene.h"
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
@@ -25,18 +26,6 @@ using exchange::AnimationFrame, exchange::AnimationTexture, exchange::DrawnMesh,
 
 namespace {
 
-std::span<const glm::dvec3> placesOf(const Snapshot& state, size_t molecule) {
-    const auto each = size_t(state.vertexCount);
-    return std::span(state.positions).subspan(molecule * each, each);
-}
-
-std::vector<size_t> livingIn(const Snapshot& state) {
-    std::vector<size_t> out;
-    for (size_t m = 0; m < size_t(state.count); ++m)
-        if (state.alive.empty() || state.alive[m]) out.push_back(m);
-    return out;
-}
-
 // ---- One moment
 
 std::vector<DrawnMesh> meshesNow(const Simulation& simulation, const Scene& scene) {
@@ -49,7 +38,7 @@ std::vector<DrawnMesh> meshesNow(const Simulation& simulation, const Scene& scen
         std::vector<glm::dvec3> positions;
         DrawnMesh mesh = group.mesh(molecules);
         for (const size_t m : molecules)
-            group.place(placesOf(state, m), positions, mesh.normals);
+            group.place(ofMolecule(state.positions, state, m), positions, mesh.normals);
         recentre(mesh, positions);
         out.push_back(std::move(mesh));
     }
@@ -211,7 +200,7 @@ class TextureExport {
                 throw Error("group \"", group_.name(), "\": molecule ", m, " does not live in frame ",
                             options_.first + frame,
                             ": an animation texture needs molecules that live throughout");
-            group_.place(placesOf(state, m), positions, normals);
+            group_.place(ofMolecule(state.positions, state, m), positions, normals);
         }
         if (frame == 0) part.begin = positions;
         // The mesh is the frame that the loop begins with; rigid ones turn from their first.
@@ -370,6 +359,10 @@ int exportCommand(const Options& options) {
         else
             std::cout << "wrote " << printable(asked.glb) << ", frame " << simulation.frames() << ", "
                       << bytes.size() << " bytes\n";
+        return 0;
+    }
+    if (!asked.usd.empty()) {
+        exportUsd(options, loaded.scene, simulation);
         return 0;
     }
     TextureExport textures(options, loaded.scene, simulation);

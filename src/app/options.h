@@ -45,6 +45,7 @@ struct MoleculeOptions {
 struct ExportOptions {
     std::string vat;               // folder
     std::string glb;               // file
+    std::string usd;               // .usda file, or a folder
     std::string group;             // empty: the only one
     int first = 0;                 // frames that are not exported
     int frames = 120;              // that are

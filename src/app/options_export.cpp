@@ -17,6 +17,10 @@ void addExport(CLI::App& command, Options& options, Texts& texts) {
     command.add_option("--vat", animation.vat, "Vertex animation textures of a group, in OpenVAT's layout")
         ->type_name("FOLDER");
     addFile(command, "--glb", animation.glb, "All that is drawn at one moment, as glTF (.glb)");
+    command
+        .add_option("--usd", animation.usd,
+                    "The run as USD: a .usda file, or a folder of one file a frame (value clips)")
+        ->type_name("TARGET");
     command.add_option("--group", animation.group, "Which group (default: the only one)");
     addWhole(command, "--first", animation.first, "Frames to run before the first that is written")
         ->capture_default_str();
@@ -30,8 +34,9 @@ void addExport(CLI::App& command, Options& options, Texts& texts) {
         ->capture_default_str();
     command.add_flag("--rigid", animation.rigid,
                      "A rotation and a place for each molecule instead of its vertices");
-    excludes(command, "--vat", {"--glb"});
-    for (const char* option : {"--group", "--frames", "--molecules", "--loop", "--texels", "--rigid"})
+    excludes(command, "--vat", {"--glb", "--usd"});
+    excludes(command, "--glb", {"--usd", "--frames", "--rigid"});
+    for (const char* option : {"--group", "--molecules", "--loop", "--texels"})
         needs(command, option, "--vat");
     addOverrides(command, options, texts);
     addPath(command, options, texts);
@@ -41,8 +46,8 @@ void addExport(CLI::App& command, Options& options, Texts& texts) {
 void finishExport(Options& options) {
     if (options.command != exportCommand) return;
     ExportOptions& animation = options.animation;
-    if (animation.vat.empty() && animation.glb.empty())
-        throw Error("export: say what to write: --vat FOLDER or --glb FILE");
+    if (animation.vat.empty() && animation.glb.empty() && animation.usd.empty())
+        throw Error("export: say what to write: --vat FOLDER, --glb FILE or --usd TARGET");
     if (!animation.glb.empty() && lowerExtension(animation.glb) != ".glb")
         throw Error(concat("--glb: expected a name ending in .glb, found \"", animation.glb, "\""));
     const auto found = std::find(texelWords.begin(), texelWords.end(), animation.texels);
@@ -50,7 +55,11 @@ void finishExport(Options& options) {
         throw Error(concat("--texels: unknown word \"", animation.texels, "\"",
                            suggestion(animation.texels, texelWords)));
     animation.format = exchange::TexelFormat(found - texelWords.begin());
-    constexpr int mostFrames = int(exchange::AnimationTexture::mostRows) / 2;
+    const std::string kind = lowerExtension(animation.usd);
+    if (!kind.empty() && kind != ".usda")
+        throw Error(
+            concat("--usd: expected a folder, or a name ending in .usda, found \"", animation.usd, "\""));
+    const int mostFrames = animation.vat.empty() ? 1000000 : int(exchange::AnimationTexture::mostRows) / 2;
     const auto within = [](const char* option, int value, int least, int most) {
         if (value < least || value > most)
             throw Error(concat(option, ": expected ", least, " to ", most, ", found ", value));

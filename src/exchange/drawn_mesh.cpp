@@ -83,6 +83,20 @@ void GroupMesh::place(std::span<const glm::dvec3> places, std::vector<glm::dvec3
         normals.emplace_back(n);
 }
 
+void GroupMesh::addVelocities(std::span<const glm::dvec3> simulated,
+                              std::vector<glm::vec3>& velocities) const {
+    const Skin& skin = group_->molecule.skin;
+    if (skin.empty())
+        for (const glm::dvec3& v : simulated)
+            velocities.emplace_back(v);
+    for (const SkinVertex& vertex : skin.vertices) {
+        glm::dvec3 sum(0);
+        for (const SkinWeight& weight : vertex.weights)
+            sum += weight.weight * simulated[size_t(weight.vertex)];
+        velocities.emplace_back(sum);
+    }
+}
+
 // As shaders/render/instance_color.glsl has it.
 glm::vec3 GroupMesh::colorOf(size_t molecule) const {
     const Material& looks = group_->molecule.material;
@@ -155,13 +169,18 @@ DrawnMesh modelMesh(const Model& model) {
     return out;
 }
 
-void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions) {
+glm::dvec3 originOf(const std::vector<glm::dvec3>& positions) {
     constexpr double near = 64;  // m: a float's digits are below 4 micrometres
-    glm::dvec3 low(1e300), high(-1e300);
+    if (positions.empty()) return glm::dvec3(0);
+    glm::dvec3 low = positions[0], high = low;
     for (const glm::dvec3& p : positions)
         low = glm::min(low, p), high = glm::max(high, p);
-    const glm::dvec3 middle = positions.empty() ? glm::dvec3(0) : glm::round(0.5 * (low + high));
-    mesh.origin = glm::length(middle) > near ? middle : glm::dvec3(0);
+    const glm::dvec3 middle = glm::round(0.5 * (low + high));
+    return glm::length(middle) > near ? middle : glm::dvec3(0);
+}
+
+void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions) {
+    mesh.origin = originOf(positions);
     mesh.positions.clear();
     for (const glm::dvec3& p : positions)
         mesh.positions.emplace_back(p - mesh.origin);

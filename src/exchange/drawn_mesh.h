@@ -45,6 +45,9 @@ class GroupMesh {
     // Adds a molecule at the simulated vertices' `places` (m, of the scene) to `positions` and `normals`.
     void place(std::span<const glm::dvec3> places, std::vector<glm::dvec3>& positions,
                std::vector<glm::vec3>& normals) const;
+    // Adds its velocities (m/s), from the simulated vertices'; those of skins without what lifts them off
+    // turning.
+    void addVelocities(std::span<const glm::dvec3> simulated, std::vector<glm::vec3>& velocities) const;
     // Those molecules as one mesh, without positions and normals.
     DrawnMesh mesh(std::span<const size_t> molecules) const;
     // As it is at rest, about the molecule's origin.
@@ -63,8 +66,11 @@ class GroupMesh {
 
 DrawnMesh modelMesh(const Model& model);
 
-// Moves positions about a whole number of metres in their middle, where they lie far from the origin: floats
-// hold them then.
+// A whole number of metres in the middle of positions that lie far from the origin, else 0: floats hold what
+// is relative to it.
+glm::dvec3 originOf(const std::vector<glm::dvec3>& positions);
+
+// Fills a mesh's origin and positions.
 void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions);
 
 }  // namespace shoal::exchange

@@ -170,6 +170,7 @@ static constexpr KindRow kindTable[] = {
      "for EGL: install libegl1 and libgl1-mesa-dri, or the driver of your GPU"},
     {ContextKind::osmesa, "osmesa", createOsmesaPlatform,
      "for OSMesa: install libosmesa6 (Mesa up to 25.0 has it)"},
+    {ContextKind::given, "given", createGivenPlatform, "a context of OpenGL 3.3 or newer that is current"},
 };
 
 static const KindRow& rowOf(ContextKind kind) {
@@ -181,11 +182,12 @@ const char* name(ContextKind kind) {
 }
 
 ContextKind contextKind(const std::string& word) {
-    for (const KindRow& row : kindTable)
-        if (word == row.name) return row.kind;
     std::vector<std::string> names;
-    for (const KindRow& row : kindTable)
+    for (const KindRow& row : kindTable) {
+        if (row.kind == ContextKind::given) continue;  // by a function, not by a word
+        if (word == row.name) return row.kind;
         names.emplace_back(row.name);
+    }
     throw Error("unknown context \"" + word + "\"" + suggestion(word, names));
 }
 
@@ -203,6 +205,7 @@ static std::unique_ptr<Context::State> open(ContextKind kind, const ContextOptio
 }
 
 static std::vector<ContextKind> kindsToTry(const ContextOptions& options) {
+    if (options.loader != nullptr) return {ContextKind::given};
     if (options.kind != ContextKind::automatic) return {options.kind};
     if (options.preferWindow) return {ContextKind::window, ContextKind::egl, ContextKind::osmesa};
     return {ContextKind::egl, ContextKind::osmesa};

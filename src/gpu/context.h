@@ -64,7 +64,7 @@ class DeviceLost : public Error {
 
 class Platform;
 
-enum class ContextKind { automatic, window, egl, osmesa };
+enum class ContextKind { automatic, window, egl, osmesa, given };  // given: the caller's own
 
 // "auto", "window", "egl" or "osmesa". Error: anything else, with the nearest of them.
 ContextKind contextKind(const std::string& word);
@@ -79,6 +79,9 @@ struct ContextOptions {
     bool visible = true;        // window: shown at once
     bool preferWindow = false;  // automatic: a window where there is a display, else headless
     bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
+    // The functions of OpenGL by name (as eglGetProcAddress gives them): the caller has made a context, which is
+    // current now and whenever Shoal is called. It is never released or destroyed.
+    void (*(*loader)(const char* name))() = nullptr;
     std::optional<int> device;  // EGL: that of probeDevices(); nothing: the best that there is
     bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
 };

@@ -124,14 +124,14 @@ void Framebuffer::blit(const Framebuffer& other, GLbitfield what) const {
     glBindFramebuffer(GL_FRAMEBUFFER, other.id());
 }
 
-void Framebuffer::blitToDefault(int width, int height) const {
+void Framebuffer::blitTo(GLuint framebuffer, int width, int height) const {
     const bool same = width == width_ && height == height_;
     EXPECTS(same || samples_ == 1);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, id());
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);
     glBlitFramebuffer(0, 0, width_, height_, 0, 0, width, height, GL_COLOR_BUFFER_BIT,
                       same ? GL_NEAREST : GL_LINEAR);
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
 }
 
 const Framebuffer& Framebuffers::into(const std::vector<ColorTarget>& colors) {

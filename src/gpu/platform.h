@@ -35,6 +35,7 @@ class Platform {
 // Error: cannot be had, and why. Nothing may be current when they are called.
 std::unique_ptr<Platform> createWindowPlatform(const ContextOptions& options);
 std::unique_ptr<Platform> createEglPlatform(const ContextOptions& options);
+std::unique_ptr<Platform> createGivenPlatform(const ContextOptions& options);
 int countEglDevices();
 std::unique_ptr<Platform> createOsmesaPlatform(const ContextOptions& options);
 

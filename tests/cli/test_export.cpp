@@ -2,6 +2,7 @@
 // CSV files of the same run.
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <map>
 
 #include <OpenEXR/ImfRgbaFile.h>
@@ -302,6 +303,96 @@ TEST_CASE("a moment as glTF holds all that is drawn", "[cli][export]") {
     CHECK(scene->mNumTextures > 0);
 }
 
+namespace {
+
+// The samples of an attribute of three numbers, by time.
+std::map<int, std::vector<glm::dvec3>> samplesIn(const std::string& text, const std::string& attribute) {
+    std::map<int, std::vector<glm::dvec3>> out;
+    size_t at = text.find(attribute + ".timeSamples = {\n");
+    REQUIRE(at != std::string::npos);
+    std::istringstream lines(text.substr(at));
+    std::string line;
+    std::getline(lines, line);
+    while (std::getline(lines, line) && line.find('}') == std::string::npos) {
+        std::vector<glm::dvec3>& values = out[std::atoi(line.c_str())];
+        glm::dvec3 v;
+        for (const char* c = line.c_str(); (c = std::strchr(c, '(')) != nullptr; ++c) {
+            REQUIRE(std::sscanf(c, "(%lf,%lf,%lf)", &v.x, &v.y, &v.z) == 3);
+            values.push_back(v);
+        }
+    }
+    return out;
+}
+
+void compare(const std::map<int, std::vector<glm::dvec3>>& samples,
+             const std::vector<std::vector<Row>>& states, glm::dvec3 Row::*value, double within) {
+    REQUIRE(samples.size() == states.size());
+    double worst = 0;
+    for (const auto& [frame, values] : samples) {
+        REQUIRE(values.size() == states[size_t(frame)].size());
+        for (size_t i = 0; i < values.size(); ++i)
+            worst = std::max(worst, glm::distance(values[i], states[size_t(frame)][i].*value));
+    }
+    CHECK(worst < within);
+}
+
+}  // namespace
+
+TEST_CASE("USD holds the run, in one file or a file a frame", "[cli][export]") {
+    const Scratch scratch;
+    const int frames = 9;
+    const auto states = statesOfHello(scratch, frames);
+    const std::string file = scratch.path("run.usda"), folder = scratch.path("clips");
+    exported({"--usd", file, "--frames", std::to_string(frames)});
+    const std::string text = readFile(file);
+    for (const char* part :
+         {"metersPerUnit = 1", "upAxis = \"Y\"", "endTimeCode = 8", "def Camera \"camera\"",
+          "def Mesh \"quad\"", "UsdPreviewSurface", "rel material:binding = </scene/materials/m0>"})
+        CHECK_THAT(text, Catch::Contains(part));
+    compare(samplesIn(text, "point3f[] points"), states, &Row::place, 1e-6);
+    compare(samplesIn(text, "normal3f[] normals"), states, &Row::normal, 1e-5);
+    CHECK(samplesIn(text, "vector3f[] velocities").size() == size_t(frames));
+
+    exported({"--usd", folder, "--frames", std::to_string(frames)});
+    CHECK(filesIn(folder).size() == size_t(frames) + 2);
+    CHECK_THAT(readFile(folder + "/clips.usda"), Catch::Contains("@./frames/clips-00008.usda@"));
+    std::map<int, std::vector<glm::dvec3>> clips;
+    for (int frame = 0; frame < frames; ++frame)
+        clips.merge(samplesIn(readFile(folder + "/frames/clips-0000" + std::to_string(frame) + ".usda"),
+                              "point3f[] points"));
+    compare(clips, states, &Row::place, 1e-6);
+
+    const JsonValue rigid = exported({"--usd", file, "--frames", "40", "--rigid", "--json"}).json();
+    CHECK(member(member(rigid, "rigidResidual"), "quad").number > 1e-4);
+    CHECK_THAT(readFile(file), Catch::Contains("def PointInstancer \"quad\""));
+    CHECK(samplesIn(readFile(file), "point3f[] positions").at(39).size() == 20);
+}
+
+TEST_CASE("three.js and tinyusdz read what is exported", "[cli][export]") {
+    const std::string modules = environment("SHOAL_NODE_MODULES"), node = findProgram("node");
+    if (modules.empty() || node.empty()) {
+        WARN(
+            "skipped: SHOAL_NODE_MODULES names no folder of three and tinyusdz (npm install three tinyusdz)");
+        return;
+    }
+    const Scratch scratch;
+    exported({"--glb", scratch.path("a.glb")});
+    exported({"--usd", scratch.path("a.usda"), "--frames", "3"});
+    exported({"--usd", scratch.path("r.usda"), "--frames", "3", "--rigid"});
+    const Outcome read =
+        runProgram(node, {sourceFile("tests/exchange/readers.mjs"), modules, scratch.path("a.glb"),
+                          scratch.path("a.usda"), scratch.path("r.usda")});
+    INFO(read.out << read.err);
+    CHECK(read.code == 0);
+    CHECK_THAT(read.out,
+               Catch::Contains("three: 80 vertices, 1 cameras") && Catch::Contains("tinyusdz: 1 meshes"));
+    const auto states = statesOfHello(scratch, 2);
+    char first[64];
+    std::snprintf(first, sizeof first, "first point %.5f %.5f %.5f", states[0][0].place.x,
+                  states[0][0].place.y, states[0][0].place.z);
+    CHECK_THAT(read.out, Catch::Contains(first));
+}
+
 TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export]") {
     const Scratch scratch;
     const std::string folder = scratch.path("vat");
@@ -310,7 +401,7 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
         words.insert(words.end(), more.begin(), more.end());
         refusal(words, part);
     };
-    refuses({}, "say what to write: --vat FOLDER or --glb FILE");
+    refuses({}, "say what to write: --vat FOLDER, --glb FILE or --usd TARGET");
     refuses({"--glb", scratch.path("a.obj")}, "expected a name ending in .glb");
     refuses({"--vat", folder, "--glb", scratch.path("a.glb")}, "excludes");
     refuses({"--vat", folder, "--group", "quads"}, "no group \"quads\" (did you mean \"quad\"?)");
@@ -320,6 +411,8 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
     refuses({"--vat", folder, "--texels", "jpg"}, "--texels: unknown word \"jpg\"");
     refuses({"--vat", "/proc/nothing"}, "/proc/nothing");
     refusal({"export", helloScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
+    refuses({"--usd", scratch.path("a.usdc")}, "expected a folder, or a name ending in .usda");
+    refuses({"--usd", scratch.path("a.usda"), "--glb", scratch.path("a.glb")}, "excludes");
     refusal({"export", "fountain", "--vat", folder, "--frames", "2"}, "choose one");
     refusal({"export", "fire", "--vat", folder, "--frames", "2", "--group", "flames"}, "group \"flames\"");
     CHECK(filesIn(scratch.folder().string()).empty());

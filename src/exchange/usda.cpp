@@ -1,0 +1,501 @@
+#include "exchange/usda.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <deque>
+#include <set>
+
+#include "core/error.h"
+
+namespace shoal::exchange {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+void put(std::string& out, double value) {
+    char digits[40];
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+void put(std::string& out, float value) {
+    char digits[32];
+    out.append(digits, std::to_chars(digits, digits + sizeof digits, value).ptr);
+}
+void put(std::string& out, uint32_t value) {
+    out += std::to_string(value);
+}
+// Places in single precision, as USD has them.
+void put(std::string& out, const glm::dvec3& v) {
+    out += '(';
+    for (int i = 0; i < 3; ++i) {
+        if (i > 0) out += ',';
+        put(out, float(v[i]));
+    }
+    out += ')';
+}
+void put(std::string& out, const glm::vec3& v) {
+    put(out, glm::dvec3(v));
+}
+void put(std::string& out, const glm::vec2& v) {
+    out += '(';
+    put(out, v.x);
+    out += ',';
+    put(out, v.y);
+    out += ')';
+}
+// The real part first.
+void put(std::string& out, const glm::quat& q) {
+    out += '(';
+    put(out, q.w);
+    for (const float part : {q.x, q.y, q.z}) {
+        out += ',';
+        put(out, part);
+    }
+    out += ')';
+}
+
+template <typename Values>
+std::string list(const Values& values) {
+    std::string out = "[";
+    for (const auto& value : values) {
+        if (out.size() > 1) out += ',';
+        put(out, value);
+    }
+    return out + "]";
+}
+
+template <typename T>
+std::string text(const T& value) {
+    std::string out;
+    put(out, value);
+    return out;
+}
+
+// A name as USD takes it.
+std::string identifier(const std::string& name) {
+    std::string out;
+    for (const char c : name)
+        out += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    if (out.empty() || std::isdigit(static_cast<unsigned char>(out[0]))) out = "_" + out;
+    return out;
+}
+
+// Text that may be too long for memory: appended to a file without a name, and copied in the end.
+class Spool {
+  public:
+    Spool() : file_(std::tmpfile()) {
+        if (!file_) throw Error("no temporary file can be made");
+    }
+    void add(const std::string& piece) {
+        if (std::fwrite(piece.data(), 1, piece.size(), file_.get()) != piece.size())
+            throw Error("a temporary file cannot be written: is the disk full?");
+        empty_ = false;
+    }
+    bool empty() const { return empty_; }
+    void copyTo(FileWriter& out) {
+        std::rewind(file_.get());
+        std::array<char, 65536> block;
+        for (size_t count; (count = std::fread(block.data(), 1, block.size(), file_.get())) > 0;)
+            out.write(block.data(), count);
+    }
+
+  private:
+    FilePointer file_;
+    bool empty_ = true;
+};
+
+constexpr const char* countsOf = "int[] faceVertexCounts";
+
+// An attribute whose values are sampled.
+struct Sampled {
+    const char* declaration;    // its type and name
+    const char* interpolation;  // of a primvar or normals; empty: none
+};
+constexpr Sampled attributes[] = {
+    {"point3f[] points", ""},
+    {"normal3f[] normals", "vertex"},
+    {"vector3f[] velocities", ""},
+    {"float3[] extent", ""},
+    {"int[] faceVertexIndices", ""},
+    {countsOf, ""},
+    {"color3f[] primvars:displayColor", "vertex"},
+    {"point3f[] positions", ""},
+    {"quath[] orientations", ""},
+    {"texCoord2f[] primvars:st", "vertex"},
+};
+constexpr size_t attributeCount = std::size(attributes);
+
+std::string interpolated(const char* how) {
+    return *how != 0 ? concat(" (\n            interpolation = \"", how, "\"\n        )") : std::string();
+}
+
+}  // namespace
+
+struct UsdStage::Parts {
+    struct Moving {
+        std::string name, head;  // all that is not sampled, to the closing brace
+        const char* kind = "";
+        glm::dvec3 origin{0};  // m
+        std::array<std::unique_ptr<Spool>, attributeCount> samples;
+        std::string frame;  // of clips: this frame's samples
+        std::set<size_t> used;
+    };
+
+    fs::path file;    // the stage's own
+    fs::path frames;  // folder of clips; empty: none
+    double rate;
+    std::string body, materials;
+    std::deque<Moving> moving;
+    std::set<std::string> names;
+    std::vector<std::string> written;
+    int first = 0, last = -1, materialCount = 0;
+
+    std::string uniqueName(const std::string& wanted) {
+        const std::string base = identifier(wanted);
+        std::string out = base;
+        for (int i = 2; !names.insert(out).second; ++i)
+            out = concat(base, "_", i);
+        return out;
+    }
+
+    void note(const fs::path& path) { written.push_back(path.string()); }
+
+    std::string imageFile(const DrawnMesh& mesh, int image, const std::string& material) {
+        const fs::path path =
+            file.parent_path() / concat(file.stem().string(), "-", material, "-", image, ".png");
+        writePng(path, mesh.images[size_t(image)]);
+        note(path);
+        return path.filename().string();
+    }
+
+    // Returns the material's path.
+    std::string material(const DrawnMesh& mesh, const SurfaceMaterial& looks) {
+        const std::string name = concat("m", materialCount++), path = "/scene/materials/" + name;
+        std::string inputs, shaders;
+        const auto reader = [&](const char* reads, int image, const char* output, const char* space) {
+            const std::string shader = concat(reads, "Image");
+            shaders += concat("            def Shader \"", shader,
+                              "\"\n            {\n                uniform token info:id = \"UsdUVTexture\"\n"
+                              "                asset inputs:file = @./",
+                              imageFile(mesh, image, name),
+                              "@\n                token inputs:sourceColorSpace = \"", space,
+                              "\"\n                token inputs:wrapS = \"repeat\"\n"
+                              "                token inputs:wrapT = \"repeat\"\n"
+                              "                float2 inputs:st.connect = <",
+                              path, "/st.outputs:result>\n                ", output, "\n            }\n");
+            return concat("<", path, "/", shader);
+        };
+        const auto scalar = [&](const char* input, double value) {
+            inputs += concat("                float inputs:", input, " = ", value, "\n");
+        };
+        if (looks.colorImage >= 0) {
+            const std::string at = reader("color", looks.colorImage,
+                                          "float3 outputs:rgb\n                float outputs:a", "sRGB");
+            inputs += concat("                color3f inputs:diffuseColor.connect = ", at, ".outputs:rgb>\n");
+            if (looks.alpha != SurfaceMaterial::Alpha::opaque)
+                inputs += concat("                float inputs:opacity.connect = ", at, ".outputs:a>\n");
+        } else if (!mesh.colors.empty()) {
+            shaders +=
+                "            def Shader \"vertexColor\"\n            {\n"
+                "                uniform token info:id = \"UsdPrimvarReader_float3\"\n"
+                "                string inputs:varname = \"displayColor\"\n"
+                "                float3 outputs:result\n            }\n";
+            inputs += concat("                color3f inputs:diffuseColor.connect = <", path,
+                             "/vertexColor.outputs:result>\n");
+            if (looks.color.a < 1) scalar("opacity", looks.color.a);
+        } else {
+            inputs +=
+                concat("                color3f inputs:diffuseColor = ", text(glm::dvec3(looks.color)), "\n");
+            if (looks.color.a < 1) scalar("opacity", looks.color.a);
+        }
+        if (looks.alpha == SurfaceMaterial::Alpha::cut) scalar("opacityThreshold", looks.alphaCut);
+        if (looks.normalImage >= 0)
+            inputs +=
+                concat("                normal3f inputs:normal.connect = ",
+                       reader("normal", looks.normalImage, "float3 outputs:rgb", "raw"), ".outputs:rgb>\n");
+        if (looks.roughnessImage >= 0) {
+            const std::string at = reader("roughness", looks.roughnessImage,
+                                          "float outputs:g\n                float outputs:b", "raw");
+            inputs += concat("                float inputs:roughness.connect = ", at, ".outputs:g>\n",
+                             "                float inputs:metallic.connect = ", at, ".outputs:b>\n");
+        } else {
+            scalar("roughness", looks.roughness);
+            scalar("metallic", looks.metallic);
+        }
+        if (looks.emissive != glm::dvec3(0))
+            inputs += concat("                color3f inputs:emissiveColor = ", text(looks.emissive), "\n");
+        materials +=
+            concat("        def Material \"", name,
+                   "\"\n        {\n            token outputs:surface.connect = <", path,
+                   "/surface.outputs:surface>\n            def Shader \"surface\"\n            {\n"
+                   "                uniform token info:id = \"UsdPreviewSurface\"\n",
+                   inputs, "                token outputs:surface\n            }\n", shaders,
+                   "            def Shader \"st\"\n            {\n"
+                   "                uniform token info:id = \"UsdPrimvarReader_float2\"\n"
+                   "                string inputs:varname = \"st\"\n                float2 outputs:result\n"
+                   "            }\n        }\n");
+        return path;
+    }
+
+    static std::string line(const std::string& words) { return "        " + words + "\n"; }
+    static std::string counts(size_t corners) {
+        std::string out = "[";
+        for (size_t i = 0; i < corners; i += 3)
+            out += i > 0 ? ",3" : "3";
+        return out + "]";
+    }
+
+    // All of a mesh that is not where it is.
+    std::string topology(const DrawnMesh& mesh, bool changes) {
+        std::string out;
+        if (mesh.corners.empty()) return out;
+        if (!changes) {
+            out += line(concat(countsOf, " = ", counts(mesh.corners.size())));
+            out += line("int[] faceVertexIndices = " + list(mesh.corners));
+        }
+        out += line("uniform token subdivisionScheme = \"none\"");
+        out += line("uniform bool doubleSided = 1");
+        if (!mesh.uvs.empty() && !changes)
+            out += line("texCoord2f[] primvars:st = " + list(mesh.uvs) + interpolated("vertex"));
+        if (!mesh.colors.empty() && !changes)
+            out += line("color3f[] primvars:displayColor = " + list(mesh.colors) + interpolated("vertex"));
+        if (mesh.pieces.size() == 1) {
+            out += line("rel material:binding = <" + material(mesh, mesh.pieces[0].material) + ">");
+            return out;
+        }
+        for (size_t i = 0; i < mesh.pieces.size(); ++i) {
+            const DrawnMesh::Piece& piece = mesh.pieces[i];
+            std::vector<uint32_t> faces;
+            for (size_t f = piece.first / 3; f < (piece.first + piece.count) / 3; ++f)
+                faces.push_back(uint32_t(f));
+            out += concat(
+                "        def GeomSubset \"piece", i,
+                "\" (\n            prepend apiSchemas = [\"MaterialBindingAPI\"]\n"
+                "        )\n        {\n            uniform token elementType = \"face\"\n"
+                "            uniform token familyName = \"materialBind\"\n            int[] indices = ",
+                list(faces), "\n            rel material:binding = <", material(mesh, piece.material),
+                ">\n        }\n");
+        }
+        return out;
+    }
+
+    // Where a prim's own places begin.
+    static std::string moved(const glm::dvec3& origin) {
+        if (origin == glm::dvec3(0)) return {};
+        return line(concat("double3 xformOp:translate = (", text(origin.x), ", ", text(origin.y), ", ",
+                           text(origin.z), ")")) +
+               line("uniform token[] xformOpOrder = [\"xformOp:translate\"]");
+    }
+
+    static std::string prim(const char* kind, const std::string& name) {
+        return concat("    def ", kind, " \"", name,
+                      "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n    )\n    {\n");
+    }
+
+    void sampleOf(Moving& it, size_t attribute, int frame, const std::string& values) {
+        it.used.insert(attribute);
+        if (!frames.empty()) {
+            it.frame += concat("        ", attributes[attribute].declaration,
+                               ".timeSamples = {\n            ", frame, ": ", values, ",\n        }\n");
+            return;
+        }
+        std::unique_ptr<Spool>& spool = it.samples[attribute];
+        if (!spool) spool = std::make_unique<Spool>();
+        spool->add(concat("            ", frame, ": ", values, ",\n"));
+    }
+
+    std::string head() const {
+        return concat(
+            "#usda 1.0\n(\n    defaultPrim = \"scene\"\n    metersPerUnit = 1\n    upAxis = \"Y\"\n    "
+            "startTimeCode = ",
+            first, "\n    endTimeCode = ", std::max(first, last), "\n    timeCodesPerSecond = ", rate,
+            "\n    framesPerSecond = ", rate, "\n)\n\n");
+    }
+
+    std::string frameName(int frame) const {
+        char digits[32];
+        std::snprintf(digits, sizeof digits, "-%05d.usda", frame);
+        return file.stem().string() + digits;
+    }
+
+    // The dictionary by which a prim takes its samples from the frames' files.
+    std::string clips(const std::string& name) const {
+        std::string paths, active, times;
+        for (int frame = first; frame <= last; ++frame) {
+            const char* between = frame > first ? ", " : "";
+            paths += concat(between, "@./", frames.filename().string(), "/", frameName(frame), "@");
+            active += concat(between, "(", frame, ", ", frame - first, ")");
+            times += concat(between, "(", frame, ", ", frame, ")");
+        }
+        return concat(
+            "        clips = {\n            dictionary default = {\n                double2[] active = [",
+            active, "]\n                asset[] assetPaths = [", paths,
+            "]\n                asset manifestAssetPath = @./", frames.filename().string(),
+            "/manifest.usda@\n                string primPath = \"/scene/", name,
+            "\"\n                double2[] times = [", times, "]\n            }\n        }\n");
+    }
+};
+
+UsdStage::UsdStage(const fs::path& target, double frameRate) : parts_(std::make_unique<Parts>()) {
+    parts_->rate = frameRate;
+    if (lowerExtension(target) == ".usda") {
+        parts_->file = target;
+    } else {
+        const std::string name = fs::absolute(target).lexically_normal().filename().string();
+        parts_->file = target / (name.empty() ? "scene.usda" : name + ".usda");
+        parts_->frames = target / "frames";
+    }
+    parts_->names = {"materials"};
+    checkWritable(parts_->file);
+}
+
+UsdStage::~UsdStage() = default;
+
+const std::vector<std::string>& UsdStage::written() const {
+    return parts_->written;
+}
+
+void UsdStage::add(const DrawnMesh& mesh) {
+    Parts& p = *parts_;
+    p.body += Parts::prim("Mesh", p.uniqueName(mesh.name)) + p.topology(mesh, false) +
+              Parts::line("point3f[] points = " + list(mesh.positions));
+    if (!mesh.normals.empty())
+        p.body += Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex"));
+    p.body += Parts::moved(mesh.origin);
+    p.body += "    }\n";
+}
+
+void UsdStage::add(const Camera& camera) {
+    const glm::dvec3 away = camera.eye - camera.target;
+    const glm::dvec3 back = glm::length(away) > 0 ? glm::normalize(away) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 up = std::abs(back.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, back)), above = glm::cross(back, right);
+    std::string matrix = "(";
+    for (const glm::dvec3& row : {right, above, back}) {
+        for (int i = 0; i < 3; ++i)
+            matrix += (i == 0 ? " (" : ", ") + text(row[i]);
+        matrix += ", 0),";
+    }
+    matrix += " (" + text(camera.eye.x) + ", " + text(camera.eye.y) + ", " + text(camera.eye.z) + ", 1) )";
+    constexpr double aperture = 24;  // mm, of a film's height
+    parts_->body += concat(
+        "    def Camera \"", parts_->uniqueName("camera"),
+        "\"\n    {\n        float verticalAperture = ", aperture,
+        "\n        float horizontalAperture = ", aperture * 16 / 9,
+        "\n        float focalLength = ", aperture / 2 / std::tan(camera.fieldOfView / 2),
+        "\n        float2 clippingRange = (0.01, 10000)\n        matrix4d xformOp:transform = ", matrix,
+        "\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n    }\n");
+}
+
+size_t UsdStage::addMoving(const DrawnMesh& mesh, const UsdMoving& how) {
+    Parts& p = *parts_;
+    Parts::Moving& it = p.moving.emplace_back();
+    it.name = p.uniqueName(mesh.name);
+    it.kind = !how.instances.empty() ? "PointInstancer" : mesh.corners.empty() ? "Points" : "Mesh";
+    if (!how.instances.empty()) {
+        const std::vector<uint32_t> zeros(how.instances.size(), 0);
+        std::vector<glm::vec3> scales;
+        for (const float scale : how.instances)
+            scales.emplace_back(scale);
+        it.head = Parts::line("int[] protoIndices = " + list(zeros)) +
+                  Parts::line("float3[] scales = " + list(scales)) +
+                  Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
+                  Parts::prim("Mesh", "molecule") + p.topology(mesh, false) +
+                  Parts::line("point3f[] points = " + list(mesh.positions)) +
+                  Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) +
+                  "    }\n";
+    } else if (mesh.corners.empty()) {
+        const std::vector<float> widths = {float(how.width)};
+        it.head = Parts::line("float[] widths = " + list(widths) + interpolated("constant"));
+        if (!mesh.colors.empty() && !how.changes)
+            it.head += Parts::line("color3f[] primvars:displayColor = " + list(mesh.colors) +
+                                   interpolated("vertex"));
+    } else {
+        it.head = p.topology(mesh, how.changes);
+    }
+    it.origin = how.origin;
+    it.head += Parts::moved(how.origin);
+    return p.moving.size() - 1;
+}
+
+void UsdStage::sample(size_t moving, int frame, const UsdSample& sample) {
+    Parts& p = *parts_;
+    Parts::Moving& it = p.moving[moving];
+    const auto put = [&](size_t attribute, const auto& values) {
+        if (!values.empty()) p.sampleOf(it, attribute, frame, list(values));
+    };
+    enum { points, normals, velocities, extent, indices, counts, colors, positions, orientations, uvs };
+    const bool instances = it.kind == std::string_view("PointInstancer");
+    std::vector<glm::dvec3> places = sample.points;
+    for (glm::dvec3& place : places)
+        place -= it.origin;
+    p.sampleOf(it, instances ? positions : points, frame, list(places));
+    put(normals, sample.normals);
+    put(velocities, sample.velocities);
+    put(orientations, sample.turns);
+    put(indices, sample.corners);
+    if (!sample.corners.empty()) p.sampleOf(it, counts, frame, Parts::counts(sample.corners.size()));
+    put(colors, sample.colors);
+    put(uvs, sample.uvs);
+    if (instances || places.empty()) return;
+    glm::dvec3 low = places[0], high = low;
+    for (const glm::dvec3& x : places)
+        low = glm::min(low, x), high = glm::max(high, x);
+    p.sampleOf(it, extent, frame, list(std::array{low, high}));
+}
+
+void UsdStage::endFrame(int frame) {
+    Parts& p = *parts_;
+    if (p.last < p.first) p.first = frame;
+    p.last = frame;
+    if (p.frames.empty()) return;
+    std::string out = "#usda 1.0\n(\n    defaultPrim = \"scene\"\n)\n\nover \"scene\"\n{\n";
+    for (Parts::Moving& it : p.moving) {
+        out += concat("    over \"", it.name, "\"\n    {\n", it.frame, "    }\n");
+        it.frame.clear();
+    }
+    const fs::path file = p.frames / p.frameName(frame);
+    writeFile(file, out + "}\n");
+    p.note(file);
+}
+
+void UsdStage::finish() {
+    Parts& p = *parts_;
+    if (!p.frames.empty()) {
+        std::string manifest = "#usda 1.0\n(\n    defaultPrim = \"scene\"\n)\n\nover \"scene\"\n{\n";
+        for (const Parts::Moving& it : p.moving) {
+            manifest += concat("    over \"", it.name, "\"\n    {\n");
+            for (const size_t attribute : it.used)
+                manifest += Parts::line(attributes[attribute].declaration);
+            manifest += "    }\n";
+        }
+        writeFile(p.frames / "manifest.usda", manifest + "}\n");
+        p.note(p.frames / "manifest.usda");
+    }
+    FileWriter out(p.file);
+    const auto write = [&](const std::string& piece) { out.write(piece.data(), piece.size()); };
+    write(p.head() + "def Xform \"scene\"\n{\n" + p.body);
+    for (Parts::Moving& it : p.moving) {
+        write(concat("    def ", it.kind, " \"", it.name,
+                     "\" (\n        prepend apiSchemas = [\"MaterialBindingAPI\"]\n",
+                     p.frames.empty() ? "" : p.clips(it.name), "    )\n    {\n", it.head));
+        for (size_t i = 0; i < attributeCount; ++i) {
+            if (!it.used.contains(i)) continue;
+            const std::string how = interpolated(attributes[i].interpolation);
+            if (!how.empty()) write(concat("        ", attributes[i].declaration, how, "\n"));
+            if (!it.samples[i]) continue;
+            write(concat("        ", attributes[i].declaration, ".timeSamples = {\n"));
+            it.samples[i]->copyTo(out);
+            write("        }\n");
+        }
+        write("    }\n");
+    }
+    if (!p.materials.empty()) write("    def Scope \"materials\"\n    {\n" + p.materials + "    }\n");
+    write("}\n");
+    out.finish();
+    p.note(p.file);
+}
+
+}  // namespace shoal::exchange
