@@ -263,20 +263,25 @@ class TextureExport {
         return out;
     }
 
-    void write(Part& part) const {
-        const fs::path folder = options_.vat;
-        const fs::path image = folder / (part.name + "_vat" + ending(options_.format));
-        AnimationTexture texture(image, part.count * columnsEach());
-        // What the mesh itself has moved since the first frame.
+    // The mesh is the frame that the loop begins with: offsets are from there.
+    void closeLoop(Part& part, const fs::path& image) const {
+        auto texture = std::make_unique<AnimationTexture>(image, part.count * columnsEach());
         AnimationFrame base;
         if (!options_.rigid) base = part.texture->frame(size_t(options_.loop));
         for (int i = 0; i < options_.frames; ++i) {
             AnimationFrame now = looped(part, i);
             for (size_t c = 0; c < base.offsets.size(); ++c)
                 now.offsets[c] -= base.offsets[c];
-            texture.add(now);
+            texture->add(now);
         }
-        part.texture.reset();
+        part.texture = std::move(texture);
+    }
+
+    void write(Part& part) const {
+        const fs::path folder = options_.vat;
+        const fs::path image = folder / (part.name + "_vat" + ending(options_.format));
+        if (options_.loop > 0) closeLoop(part, image);
+        AnimationTexture& texture = *part.texture;
         texture.write(options_.format, options_.rigid);
         part.written.push_back(image.string());
         const glm::vec3 span = texture.high() - texture.low();

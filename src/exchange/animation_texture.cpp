@@ -176,30 +176,35 @@ AnimationTexture::AnimationTexture(const std::filesystem::path& target, size_t c
 }
 
 void AnimationTexture::add(const AnimationFrame& frame) {
-    std::vector<float> row;
-    row.reserve(columns_ * floatsEach);
-    for (size_t i = 0; i < columns_; ++i) {
+    row_.resize(columns_ * floatsEach);
+    float* at = row_.data();
+    for (size_t i = 0; i < columns_; ++i, at += floatsEach) {
         const glm::vec3 x = frame.offsets[i];
         const glm::vec4 t = frame.turns[i];
         low_ = glm::min(low_, x);
         high_ = glm::max(high_, x);
-        row.insert(row.end(), {x.x, x.y, x.z, t.x, t.y, t.z, t.w});
+        at[0] = x.x, at[1] = x.y, at[2] = x.z;
+        at[3] = t.x, at[4] = t.y, at[5] = t.z, at[6] = t.w;
     }
-    ::fseeko(spool_.get(), off_t(frames_ * row.size() * sizeof(float)), SEEK_SET);
-    if (std::fwrite(row.data(), sizeof(float), row.size(), spool_.get()) != row.size() ||
+    ::fseeko(spool_.get(), off_t(frames_ * row_.size() * sizeof(float)), SEEK_SET);
+    if (std::fwrite(row_.data(), sizeof(float), row_.size(), spool_.get()) != row_.size() ||
         std::fflush(spool_.get()) != 0)
         throw diskFull(target_);
     ++frames_;
 }
 
-AnimationFrame AnimationTexture::frame(size_t i) const {
-    std::vector<float> row(columns_ * floatsEach);
-    ::fseeko(spool_.get(), off_t(i * row.size() * sizeof(float)), SEEK_SET);
-    if (std::fread(row.data(), sizeof(float), row.size(), spool_.get()) != row.size())
+void AnimationTexture::read(size_t i) const {
+    row_.resize(columns_ * floatsEach);
+    ::fseeko(spool_.get(), off_t(i * row_.size() * sizeof(float)), SEEK_SET);
+    if (std::fread(row_.data(), sizeof(float), row_.size(), spool_.get()) != row_.size())
         throw diskFull(target_);
+}
+
+AnimationFrame AnimationTexture::frame(size_t i) const {
+    read(i);
     AnimationFrame out;
     for (size_t c = 0; c < columns_; ++c) {
-        const float* at = row.data() + c * floatsEach;
+        const float* at = row_.data() + c * floatsEach;
         out.offsets.emplace_back(at[0], at[1], at[2]);
         out.turns.emplace_back(at[3], at[4], at[5], at[6]);
     }
@@ -214,17 +219,17 @@ void AnimationTexture::write(TexelFormat format, bool rigid) {
     const std::unique_ptr<RowWriter> rows = rowWriter(target_, columns_, 2 * frames_, channels, format);
     std::vector<float> row(channels * columns_, 1.0f);
     for (size_t f = 0; f < frames_; ++f) {
-        const AnimationFrame now = frame(f);
+        read(f);
         for (size_t c = 0; c < columns_; ++c)
             for (int k = 0; k < 3; ++k)
-                row[channels * c + size_t(k)] = (now.offsets[c][k] - low_[k]) / span[k];
+                row[channels * c + size_t(k)] = (row_[floatsEach * c + size_t(k)] - low_[k]) / span[k];
         rows->write(row);
     }
     for (size_t f = 0; f < frames_; ++f) {
-        const AnimationFrame now = frame(f);
+        read(f);
         for (size_t c = 0; c < columns_; ++c)
             for (size_t k = 0; k < channels; ++k)
-                row[channels * c + k] = 0.5f + 0.5f * now.turns[c][int(k)];
+                row[channels * c + k] = 0.5f + 0.5f * row_[floatsEach * c + 3 + k];
         rows->write(row);
     }
     rows->finish();

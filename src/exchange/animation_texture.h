@@ -62,10 +62,13 @@ class AnimationTexture {
     glm::vec3 high() const { return high_; }
 
   private:
+    void read(size_t frame) const;  // into row_
+
     std::filesystem::path target_;
     size_t columns_, frames_ = 0;
     glm::vec3 low_, high_;
     FilePointer spool_;
+    mutable std::vector<float> row_;  // of the spool
 };
 
 // Of ours into Blender's axes.

@@ -526,6 +526,23 @@ PYBIND11_MODULE(shoal, m) {
         .def_readwrite("damping", &Parameters::damping, "Factor on every spring's damping.")
         .def_readwrite("substeps", &Parameters::substeps, "Of a frame.")
         .def_readwrite("frame_time", &Parameters::frameTime, "s, of a frame.")
+        .def_readwrite("fields", &Parameters::fields,
+                       "Factors on the fields' weights, in the scene's order; those left out: 1.")
+        .def_property(
+            "forces",
+            [](const Parameters& self) {
+                std::vector<double> out;
+                for (const ForceControl& force : self.forces)
+                    out.push_back(force.factor);
+                return out;
+            },
+            [](Parameters& self, const std::vector<double>& factors) {
+                if (factors.size() != self.forces.size())
+                    throw Error("forces: expected ", self.forces.size(), " factors, found ", factors.size());
+                for (size_t i = 0; i < factors.size(); ++i)
+                    self.forces[i].factor = factors[i];
+            },
+            "Factors on the strengths of the forces, in the scene's order.")
         .def_property(
             "gravity",
             [](const Parameters& self) {

@@ -45,6 +45,8 @@ class Parameters:
     substeps: int
     frame_time: float
     gravity: Sequence[float]
+    fields: list[float]
+    forces: list[float]
 
 class Simulation:
     def __init__(

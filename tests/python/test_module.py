@@ -96,6 +96,21 @@ def test_parameters_act(hello):
     other.close()
 
 
+def test_fields_and_forces_have_factors():
+    scene = pairs(
+        gravity=[0, 0, 0],
+        fields=[{"type": "uniform", "velocity": [1, 0, 0]}],
+        forces=[{"type": "wind", "velocity": [0, 2, 0]}],
+    )
+    with shoal.Simulation(scene) as simulation:
+        assert simulation.parameters.forces == [1]
+        simulation.parameters.forces = [0]
+        with pytest.raises(shoal.Error, match="expected 1 factors, found 2"):
+            simulation.parameters.forces = [1, 2]
+        simulation.parameters.fields = [2]
+        assert simulation.parameters.fields == [2]
+
+
 def test_pictures_are_arrays(hello):
     picture = hello.picture(160, 90)
     assert picture.shape == (90, 160, 4) and picture.dtype == np.uint8
