@@ -107,7 +107,7 @@ def leaf():
     write("leaf", "A leaf with a stem to pin, folded along its midrib. Grows along +Y, its upper side faces +Z.",
           {"stiffness": 0.39, "damping": 0.0011}, vertices, springs(skin + ribs), triangles,
           {"color": [0.13, 0.33, 0.03], "secondColor": [0.42, 0.42, 0.05], "texture": "leaf.png", "alphaCut": 0.5,
-           "translucency": 0.6, "roughness": 0.55})
+           "translucency": 0.6, "roughness": 0.8})
 
 
 def cross():

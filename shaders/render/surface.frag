@@ -101,7 +101,8 @@ void main()
     vec3 along = n;
 
     // Between the long and the short side of a pixel's footprint: grass seen at a low angle keeps its grain.
-    float footprint = sqrt(length(dFdx(local)) * length(dFdy(local)));
+    float across = length(dFdx(local)), down = length(dFdy(local));
+    float footprint = pow(max(across, down), 0.75) * pow(min(across, down), 0.25);
     if (detail > 0.0) {
         // Ground that faces up is mottled like grass and soil; what stands upright is furrowed like bark.
         float level = smoothstep(0.55, 0.8, n.y);

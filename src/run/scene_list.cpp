@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 
 #include "core/json.h"
 #include "core/printable.h"
@@ -45,20 +46,33 @@ static std::vector<std::string> filesBelow(const std::string& folder) {
     return out;
 }
 
-std::vector<ListedScene> scenesBelow(const std::string& folder) {
-    std::vector<ListedScene> out;
-    for (const std::string& file : filesBelow(folder))
-        out.push_back(listed(file));
-    std::sort(out.begin(), out.end(), [](const ListedScene& a, const ListedScene& b) {
-        return std::tie(a.name, a.file) < std::tie(b.name, b.file);
-    });
-    return out;
-}
-
 // Its path below the folder, without the ending.
 static std::string nameBelow(const std::string& folder, const std::string& file) {
     const std::string path = fs::path(file).lexically_relative(folder).generic_string();
     return path.substr(0, path.size() - ending.size());
+}
+
+// The names in the folder's scenes.txt, one a line: the order in which its scenes are listed.
+static std::vector<std::string> orderIn(const std::string& folder) {
+    std::vector<std::string> out;
+    std::ifstream lines(fs::path(folder) / "scenes.txt");
+    for (std::string line; std::getline(lines, line);)
+        if (!line.empty()) out.push_back(line);
+    return out;
+}
+
+std::vector<ListedScene> scenesBelow(const std::string& folder) {
+    std::vector<ListedScene> out;
+    for (const std::string& file : filesBelow(folder))
+        out.push_back(listed(file));
+    const std::vector<std::string> order = orderIn(folder);
+    const auto rank = [&](const ListedScene& scene) {
+        return std::find(order.begin(), order.end(), nameBelow(folder, scene.file)) - order.begin();
+    };
+    std::sort(out.begin(), out.end(), [&](const ListedScene& a, const ListedScene& b) {
+        return std::make_tuple(rank(a), a.name, a.file) < std::make_tuple(rank(b), b.name, b.file);
+    });
+    return out;
 }
 
 std::optional<std::string> sceneFile(const std::string& word) {
@@ -104,11 +118,10 @@ std::string listOfScenes(const std::string& folder) {
     std::vector<std::pair<std::string, std::string>> rows;
     size_t width = 0;
     const bool ships = fs::path(folder) == fs::path(modelFolder());
-    for (const std::string& file : filesBelow(folder)) {
-        const ListedScene scene = listed(file);
+    for (const ListedScene& scene : scenesBelow(folder)) {
         const std::string& words = scene.comment.empty() ? scene.name : scene.comment;
         // its first sentence
-        rows.emplace_back(printable(ships ? nameBelow(folder, file) : file),
+        rows.emplace_back(printable(ships ? nameBelow(folder, scene.file) : scene.file),
                           printable(words.substr(0, words.find(". "))));
         width = std::max(width, rows.back().first.size());
     }

@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/file_watch.h"
 #include "core/json_edit.h"
+#include "gpu/texture.h"
 #include "run/scene_list.h"
 
 namespace shoal::window {
@@ -74,9 +75,11 @@ struct HelpRow {
 };
 bool showHelp(const char* title, const HelpRow* rows);
 
-// A list of scenes as buttons, in the middle of the window.
+// A list of scenes in the middle of the window, each with its picture, where NAME.scene.png lies beside it,
+// and with what it says of itself.
 class SceneChooser {
   public:
+    explicit SceneChooser(gpu::Context& context) : context_(&context) {}
     bool open = false;
 
     void list(const std::string& folder);  // what lies in it or below; opens
@@ -89,6 +92,11 @@ class SceneChooser {
     std::string draw(bool mustChoose, const std::string& message);
 
   private:
+    const gpu::Texture* pictureOf(const std::string& file);  // null: there is none
+    bool drawRow(const ListedScene& scene);                  // true: it was chosen
+
+    gpu::Context* context_;
+    std::map<std::string, gpu::Texture> pictures_;  // by the scenes' files; without one where there is none
     std::vector<ListedScene> scenes_;
     std::string folder_;
     FileWatch refused_;

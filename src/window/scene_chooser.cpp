@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "core/image.h"
 #include "scene/json/scene_file.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
@@ -24,11 +25,54 @@ void SceneChooser::refused(const std::string& file) {
     refused_.watch(filesOf(file));
 }
 
-// The beginning of a text, as much as fits into the rest of the line; the font's letters are all as wide.
-static std::string fitting(const std::string& text) {
-    const size_t letters =
-        size_t(std::max(8.0f, ImGui::GetContentRegionAvail().x / ImGui::CalcTextSize("m").x));
-    return text.size() <= letters ? text : text.substr(0, letters - 3) + "...";
+static constexpr glm::vec2 pictureSize(128, 72);  // points
+
+const gpu::Texture* SceneChooser::pictureOf(const std::string& file) {
+    auto found = pictures_.find(file);
+    if (found == pictures_.end()) {
+        gpu::Texture texture;
+        try {
+            const fs::path path = fs::path(file).replace_extension(".png");
+            if (fs::exists(path)) {
+                const Image image = readPng(path);
+                texture = gpu::Texture(*context_, gpu::Format::rgba8, image.width, image.height, "scene");
+                texture.upload(gpu::Traffic::Kind::parameters, 0, 0, image.width, image.height,
+                               image.pixels.data(), image.pixels.size());
+                texture.setLinear(true);
+            }
+        } catch (const Error&) {
+            // a list without one of its pictures
+        }
+        found = pictures_.emplace(file, std::move(texture)).first;
+    }
+    return found->second ? &found->second : nullptr;
+}
+
+bool SceneChooser::drawRow(const ListedScene& scene) {
+    const ImVec2 size(points(pictureSize.x), points(pictureSize.y)), at = ImGui::GetCursorScreenPos();
+    const bool chosen = ImGui::Selectable("##scene", false, ImGuiSelectableFlags_None, ImVec2(0, size.y));
+    tip(scene.file.c_str());
+    const ImVec2 next = ImGui::GetCursorPos();
+    ImDrawList& list = *ImGui::GetWindowDrawList();
+    const ImVec2 end(at.x + size.x, at.y + size.y);
+    if (const gpu::Texture* picture = pictureOf(scene.file))
+        list.AddImage(reinterpret_cast<ImTextureID>(size_t(picture->id())), at, end);
+    else
+        list.AddRectFilled(at, end, IM_COL32(70, 76, 82, 255));
+    ImGui::SetCursorScreenPos(ImVec2(end.x + points(10), at.y));
+    ImGui::BeginGroup();
+    ImGui::TextUnformatted(scene.name.c_str());
+    const std::string shown =
+        scene.comment.empty() ? fs::path(scene.file).lexically_relative(folder_).string() : scene.comment;
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.72f, 0.76f, 0.74f, 1));
+    ImGui::TextWrapped("%s", shown.c_str());
+    ImGui::PopStyleColor();
+    ImGui::EndGroup();
+    // A long description makes a row higher.
+    const float below = ImGui::GetItemRectMax().y - end.y;
+    ImGui::SetCursorPos(ImVec2(next.x, next.y + std::max(0.0f, below)));
+    ImGui::Dummy(ImVec2(0, 0));
+    return chosen;
 }
 
 std::string SceneChooser::draw(bool mustChoose, const std::string& message) {
@@ -44,20 +88,7 @@ std::string SceneChooser::draw(bool mustChoose, const std::string& message) {
     if (scenes_.empty()) ImGui::TextWrapped("There is no scene (*.scene.json) below %s.", folder_.c_str());
     for (const ListedScene& scene : scenes_) {
         ImGui::PushID(scene.file.c_str());
-        if (ImGui::Button(scene.name.c_str(), ImVec2(points(190), 0))) chosen = scene.file;
-        tip(scene.file.c_str());
-        ImGui::SameLine();
-        ImGui::AlignTextToFramePadding();
-        const std::string shown =
-            scene.comment.empty() ? fs::path(scene.file).lexically_relative(folder_).string() : scene.comment;
-        ImGui::TextDisabled("%s", fitting(shown).c_str());
-        if (ImGui::IsItemHovered() && !scene.comment.empty()) {
-            ImGui::BeginTooltip();
-            ImGui::PushTextWrapPos(points(420));
-            ImGui::TextUnformatted(scene.comment.c_str());
-            ImGui::PopTextWrapPos();
-            ImGui::EndTooltip();
-        }
+        if (drawRow(scene)) chosen = scene.file;
         ImGui::PopID();
     }
     ImGui::End();

@@ -56,7 +56,7 @@ const HelpRow keysHelp[] = {
 class Viewer : public WindowLoop {
   public:
     Viewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded)
-        : WindowLoop(options.window, context), options_(options) {
+        : WindowLoop(options.window, context), options_(options), chooser_(context) {
         if (loaded)
             open_ = std::make_unique<OpenScene>(options.run, context, cache(), std::move(*loaded), width(),
                                                 height());

@@ -103,11 +103,11 @@ TEST_CASE("without a scene the window lists those to choose from, and others ope
     scratch.write("blade.json", smallMolecule);
     scratch.write("weed.json", smallMolecule);
     scratch.write("zero.scene.json", "{}");
-    // 600 x 400: the list is in the middle, a button a row: blades, dust, zero
+    // 600 x 400: the list is in the middle: blades, dust, zero
     const Outcome outcome =
         inWindow({"run", scratch.path(""), "--context", "window", "--size", "600x400"},
-                 "press 100 190; says opened:; settle; key o; press 100 213; says opened: 2; settle\n"
-                 "key o; press 100 236; says not.opened:; settle; key Escape; key Escape\n");
+                 "press 100 125; says opened:; settle; key o; press 100 207; says opened: 2; settle\n"
+                 "key o; press 100 289; says not.opened:; settle; key Escape; key Escape\n");
     INFO(outcome.out << outcome.err);
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, Catch::Contains("opened: " + scratch.path("blades.scene.json")) &&
