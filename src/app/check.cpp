@@ -14,6 +14,7 @@
 #include "reference/colliders.h"
 #include "run/data_paths.h"
 #include "run/progress.h"
+#include "scene/collider_kinds.h"
 #include "scene/json/scene_file.h"
 
 namespace shoal::app {
@@ -131,6 +132,46 @@ void findIdleEmitters(const Scene& scene, std::vector<Warning>& out) {
     }
 }
 
+// How far something with an end stands out of a plane, m; nothing: it has none.
+struct HeightOver {
+    const PlaneCollider& plane;
+    double of(const glm::dvec3& x) const { return glm::dot(glm::normalize(plane.normal), x - plane.point); }
+    template <typename Kind>
+    std::optional<double> operator()(const Kind&) const {
+        return {};
+    }
+    std::optional<double> operator()(const SphereCollider& sphere) const {
+        return of(sphere.center) + sphere.radius;
+    }
+    std::optional<double> operator()(const CapsuleCollider& capsule) const {
+        return std::max(of(capsule.from), of(capsule.to)) + capsule.radius;
+    }
+    std::optional<double> operator()(const BoxCollider& box) const {
+        const glm::dvec3 normal = glm::inverse(box.rotation) * glm::normalize(plane.normal);
+        return of(box.center) + 0.5 * glm::dot(glm::abs(normal), box.size);
+    }
+};
+
+void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
+    const bool touches =
+        std::any_of(scene.groups.begin(), scene.groups.end(), [](const Group& g) { return g.collide; });
+    for (const Collider& collider : scene.colliders) {
+        const auto tell = [&](const std::string& why) {
+            const std::string name = collider.name.empty() ? "" : concat(" \"", collider.name, "\"");
+            out.push_back({Location{scene.file, 0, 0, {}},
+                           concat("nothing can reach the ", kindName(*collider.shape), name, ": ", why)});
+        };
+        if (!touches && !scene.groups.empty()) tell("\"collide\" of all groups is false");
+        if (collider.path) continue;
+        for (const Collider& other : scene.colliders) {
+            const auto* plane = std::get_if<PlaneCollider>(&*other.shape);
+            if (!plane || other.path || !touches) continue;
+            const std::optional<double> height = std::visit(HeightOver{*plane}, *collider.shape);
+            if (height && *height < 0) tell(concat("it lies wholly behind \"", other.name, "\""));
+        }
+    }
+}
+
 // Drawing is what costs then, and nobody sees what it draws.
 void findTooManyTriangles(const Scene& scene, std::vector<Warning>& out) {
     constexpr double pixels = 1280.0 * 720, most = 2 * pixels;
@@ -146,8 +187,9 @@ void findTooManyTriangles(const Scene& scene, std::vector<Warning>& out) {
 }
 
 // Warns where 5 % of a group or more start wholly inside a collider or below the ground, and of a camera that
-// sees neither a molecule nor a model nor an emitter, of emitters that never emit, of more triangles than can
-// be seen, and of darkness. Of large groups and models only some thousand vertices are looked at.
+// sees neither a molecule nor a model nor an emitter, of emitters that never emit, of colliders that nothing
+// can reach, of more triangles than can be seen, and of darkness. Of large groups and models only some
+// thousand vertices are looked at.
 std::vector<Warning> checkStart(const Scene& scene, const Plan& plan) {
     std::vector<Warning> out;
     for (const GroupPlan& group : plan.groups)
@@ -157,6 +199,7 @@ std::vector<Warning> checkStart(const Scene& scene, const Plan& plan) {
             {{scene.file, 0, 0, "$.camera"},
              "the camera sees no molecule, emitter or model at the start: turn its \"target\" towards them"});
     findIdleEmitters(scene, out);
+    findColliderOutOfReach(scene, out);
     findTooManyTriangles(scene, out);
     if (scene.light.intensity <= 0 && scene.sky.intensity <= 0)
         out.push_back({{scene.file, 0, 0, "$.light"},

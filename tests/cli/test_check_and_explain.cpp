@@ -175,6 +175,35 @@ TEST_CASE("check warns of how a scene starts", "[cli]") {
                !Catch::Contains("warning"));
 }
 
+TEST_CASE("check warns of colliders that nothing can reach", "[cli][check]") {
+    const Scratch scratch;
+    scratch.write("dot.json",
+                  R"({"format": "shoal-molecule-1", "vertices": [{"position": [0, 0, 0], "mass": 1}]})");
+    const auto check = [&](const std::string& collider, const std::string& group) {
+        const std::string scene = scratch.write(
+            "s.scene.json",
+            concat(R"({"format": "shoal-scene-1", "colliders": [{"name": "floor", "type": "plane"}, )",
+                   collider, R"(], "groups": [{"molecule": "dot.json", )", group,
+                   R"("place": {"on": "list", "items": [{"position": [0, 1, 0]}]}}]})"));
+        const Outcome outcome = runShoal({"check", scene});
+        CHECK(outcome.code == 0);
+        return outcome.out;
+    };
+    CHECK_THAT(check(R"({"type": "sphere", "center": [0, -0.9, 0], "radius": 1})", ""),
+               !Catch::Contains("reach"));
+    CHECK_THAT(check(R"({"type": "sphere", "center": [0, -1.1, 0], "radius": 1})", ""),
+               Catch::Contains("nothing can reach the sphere: it lies wholly behind \"floor\""));
+    CHECK_THAT(check(R"({"type": "box", "center": [0, -0.6, 0], "size": [1, 1, 1]})", ""),
+               Catch::Contains("wholly behind"));
+    CHECK_THAT(
+        check(
+            R"({"type": "box", "center": [0, -0.6, 0], "size": [1, 1, 1], "rotation": {"axis": [0, 0, 1], "angle": 0.785}})",
+            ""),
+        !Catch::Contains("reach"));
+    CHECK_THAT(check(R"({"type": "sphere", "center": [0, 1, 0], "radius": 1})", R"("collide": false, )"),
+               Catch::Contains("\"collide\" of all groups is false"));
+}
+
 TEST_CASE("check warns of emitters that never emit and of more triangles than can be seen", "[cli][check]") {
     const Scratch scratch;
     scratch.write(
