@@ -22,6 +22,7 @@ if(SHOAL_PYTHON AND NOT SHOAL_PYTHON3_MODULE AND NOT SHOAL_SANITIZE)
   message(STATUS "python3-dev, pybind11-dev or python3-numpy is not installed: no Python module")
 endif()
 if(SHOAL_PYTHON3_MODULE)
+  message(STATUS "Python module: for ${SHOAL_PYTHON3_MODULE}, ${SHOAL_PYTHON3_VERSION}")
   # The module is a shared library. The same for programs, whose precompiled headers are those of the rooms. Nothing of
   # ours is replaced from outside, so nothing is called through tables.
   add_compile_options(-fPIC -fno-semantic-interposition)

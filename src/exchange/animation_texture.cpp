@@ -102,18 +102,20 @@ class PngRows : public RowWriter {
 // OpenEXR's stream into a file that is whole or not there.
 class ExrStream : public Imf::OStream {
   public:
+    using Position = decltype(std::declval<Imf::OStream&>().tellp());  // differs between versions
+
     explicit ExrStream(const std::filesystem::path& target) : OStream(target.c_str()), part_(target) {}
     void write(const char data[], int count) override {
         if (::pwrite(part_.file(), data, size_t(count), off_t(at_)) != count) throw diskFull(fileName());
-        at_ += uint64_t(count);
+        at_ += Position(count);
     }
-    uint64_t tellp() override { return at_; }
-    void seekp(uint64_t at) override { at_ = at; }
+    Position tellp() override { return at_; }
+    void seekp(Position at) override { at_ = at; }
     void finish() { part_.replaceTarget(); }
 
   private:
     PartFile part_;
-    uint64_t at_ = 0;
+    Position at_ = 0;
 };
 
 class ExrRows : public RowWriter {
@@ -129,7 +131,7 @@ class ExrRows : public RowWriter {
     }
     void write(const std::vector<float>& row) override {
         Imf::FrameBuffer buffer;
-        const size_t each = half_ ? sizeof(Imath::half) : sizeof(float);
+        const size_t each = half_ ? sizeof(half) : sizeof(float);
         std::copy(row.begin(), row.end(), halves_.begin());
         const char* first =
             half_ ? reinterpret_cast<const char*>(halves_.data()) : reinterpret_cast<const char*>(row.data());
@@ -153,7 +155,7 @@ class ExrRows : public RowWriter {
     size_t channels_;
     bool half_;
     std::optional<Imf::OutputFile> file_;
-    std::vector<Imath::half> halves_;
+    std::vector<half> halves_;
 };
 
 std::unique_ptr<RowWriter> rowWriter(const std::filesystem::path& target, size_t width, size_t height,
