@@ -161,7 +161,8 @@ void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
             out.push_back({Location{scene.file, 0, 0, {}},
                            concat("nothing can reach the ", kindName(*collider.shape), name, ": ", why)});
         };
-        if (!touches && !scene.groups.empty()) tell("\"collide\" of all groups is false");
+        // What is drawn may be there to be seen.
+        if (!touches && !scene.groups.empty() && !collider.draw) tell("\"collide\" of all groups is false");
         if (collider.path) continue;
         for (const Collider& other : scene.colliders) {
             const auto* plane = std::get_if<PlaneCollider>(&*other.shape);

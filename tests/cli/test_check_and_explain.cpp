@@ -200,7 +200,8 @@ TEST_CASE("check warns of colliders that nothing can reach", "[cli][check]") {
             R"({"type": "box", "center": [0, -0.6, 0], "size": [1, 1, 1], "rotation": {"axis": [0, 0, 1], "angle": 0.785}})",
             ""),
         !Catch::Contains("reach"));
-    CHECK_THAT(check(R"({"type": "sphere", "center": [0, 1, 0], "radius": 1})", R"("collide": false, )"),
+    CHECK_THAT(check(R"({"type": "sphere", "center": [0, 1, 0], "radius": 1, "draw": false})",
+                     R"("collide": false, )"),
                Catch::Contains("\"collide\" of all groups is false"));
 }
 
