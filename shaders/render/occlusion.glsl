@@ -8,7 +8,7 @@ float likeness(float a, float b)
     return max(1.0 - abs(a - b) / (0.03 * max(min(a, b), 1e-6)), 0.0);
 }
 
-// What a pixel of the picture sees of the sky: of the four texels around it, those that lie as deep as it.
+// Returns how much of the sky a pixel of the picture sees, by those of the four texels around it that lie as deep.
 float skySeen(ivec2 pixel, float depth)
 {
     vec2 at = 0.5 * vec2(pixel);

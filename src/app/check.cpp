@@ -161,7 +161,7 @@ void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
             out.push_back({Location{scene.file, 0, 0, {}},
                            concat("nothing can reach the ", kindName(*collider.shape), name, ": ", why)});
         };
-        // What is drawn may be there to be seen.
+        // A collider that is drawn may be there to be seen.
         if (!touches && !scene.groups.empty() && !collider.draw) tell("\"collide\" of all groups is false");
         if (collider.path) continue;
         for (const Collider& other : scene.colliders) {

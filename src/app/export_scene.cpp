@@ -1,6 +1,5 @@
 // `shoal export`: a scene for game engines and viewers: animation textures (exchange/animation_texture.h), or
 // all that is drawn at one moment as glTF.
-#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <iostream>

@@ -1,4 +1,4 @@
-// What the exports of `shoal export` share.
+// Shared by the exports of `shoal export`.
 #pragma once
 
 #include <span>

@@ -8,10 +8,10 @@
 #include <queue>
 #include <set>
 
-#include <meshoptimizer.h>
 #include <Eigen/Dense>
 
 #include "core/parallel.h"
+#include "geometry/mesh_levels.h"
 
 namespace shoal {
 
@@ -122,16 +122,6 @@ void faceAlike(std::vector<glm::ivec3>& triangles) {
 }
 
 }  // namespace
-
-std::vector<unsigned> collapseEdges(const std::vector<unsigned>& corners,
-                                    const std::vector<glm::vec3>& positions, size_t triangles) {
-    std::vector<unsigned> out(corners.size());
-    constexpr float anyError = 1e10f;
-    out.resize(meshopt_simplify(out.data(), corners.data(), corners.size(), &positions[0].x, positions.size(),
-                                sizeof(glm::vec3), std::min(3 * triangles, corners.size()), anyError, 0,
-                                nullptr));
-    return out;
-}
 
 double flatness(const std::vector<glm::dvec3>& points) {
     glm::dvec3 middle(0);

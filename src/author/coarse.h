@@ -25,10 +25,6 @@ struct CoarseMesh {
 // meshes, of which every collapse costs nothing, vertices are gathered about seeds far from one another.
 CoarseMesh simplify(const Mesh& mesh, int vertices);
 
-// Collapses edges by that metric, to about so many triangles; `corners`: three a triangle.
-std::vector<unsigned> collapseEdges(const std::vector<unsigned>& corners,
-                                    const std::vector<glm::vec3>& positions, size_t triangles);
-
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its
 // positive end to its negative one, closed at the ends. Error: the mesh is flat along an axis.
 CoarseMesh ringsOf(const Mesh& mesh, int rings);

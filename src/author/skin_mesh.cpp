@@ -1,4 +1,5 @@
 #include "author/from_mesh.h"
+#include "geometry/mesh_levels.h"
 
 #include <algorithm>
 #include <cmath>

@@ -74,7 +74,7 @@ std::vector<glm::vec4> unsteered(size_t molecules) {
 }
 
 double lifeOf(const glm::dvec2& life, uint32_t seed) {
-    return glm::mix(life.x, life.y, double(hash(seed, bornLife) >> 8) / 16777216.0);
+    return glm::mix(life.x, life.y, uniformFrom(hash(seed, bornLife)));
 }
 
 // Sets molecule m of the start state to where it is placed.

@@ -344,4 +344,14 @@ void removePartFiles() noexcept {
         if (slot.state == Slot::taken && slot.owner == ::getpid()) ::unlink(slot.path);
 }
 
+FilePointer unnamedFile(const std::filesystem::path& target) {
+    std::string name = (target.parent_path() / ".shoal-spool-XXXXXX").string();
+    const int file = ::mkstemp(name.data());
+    if (file < 0)
+        throw Error(Location{target.string(), 0, 0, {}},
+                    "no file can be made beside it: ", std::strerror(errno));
+    ::unlink(name.c_str());
+    return FilePointer(::fdopen(file, "w+b"));
+}
+
 }  // namespace shoal

@@ -57,6 +57,10 @@ struct CloseFile {
 };
 using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 
+// For what is too long for memory: open for writing and reading, beside `target`, where there is room for it
+// if there is for that. It has no name, and so never stays. Error: cannot be made.
+FilePointer unnamedFile(const std::filesystem::path& target);
+
 // Reads a file piece by piece, where it need not lie in memory as a whole.
 class FileReader {
   public:

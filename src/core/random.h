@@ -54,6 +54,10 @@ inline uint32_t hash(uint32_t seed, uint32_t counter) {
     const uint32_t word = ((state >> ((state >> 28) + 4)) ^ state) * 277803737u;
     return (word >> 22) ^ word;
 }
+// Uniform in [0, 1), as uniformFrom in that file.
+inline double uniformFrom(uint32_t bits) {
+    return double(bits >> 8) / 16777216.0;
+}
 inline uint32_t hash(uint32_t value) {
     return hash(value, 0);
 }

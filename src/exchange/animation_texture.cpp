@@ -45,7 +45,7 @@ class PngRows : public RowWriter {
             png_set_IHDR(png_, info_, png_uint_32(width), png_uint_32(height), 16,
                          channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                          PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-            // What moves is near where it was: the row above says most. Little more is gained by more time.
+            // A vertex is near where it was, so the row above says most; more time gains little more.
             png_set_filter(png_, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
             png_set_compression_level(png_, 1);
             png_write_info(png_, info_);
@@ -169,12 +169,7 @@ std::unique_ptr<RowWriter> rowWriter(const std::filesystem::path& target, size_t
 AnimationTexture::AnimationTexture(const std::filesystem::path& target, size_t columns)
     : target_(target), columns_(columns), low_(INFINITY), high_(-INFINITY) {
     checkWritable(target);
-    // Beside the image, where there is room for it if there is for that; it has no name, and so never stays.
-    std::string name = (target.parent_path() / ".shoal-frames-XXXXXX").string();
-    const int file = ::mkstemp(name.data());
-    if (file < 0) throw diskFull(target);
-    ::unlink(name.c_str());
-    spool_.reset(::fdopen(file, "w+b"));
+    spool_ = unnamedFile(target);
 }
 
 void AnimationTexture::add(const AnimationFrame& frame) {

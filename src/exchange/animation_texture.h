@@ -71,7 +71,7 @@ class AnimationTexture {
     mutable std::vector<float> row_;  // of the spool
 };
 
-// Of ours into Blender's axes.
+// Turns a vector of ours into Blender's axes.
 inline glm::vec3 toBlender(const glm::vec3& v) {
     return {v.x, -v.z, v.y};
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
 
 #include "core/random.h"
 
@@ -39,10 +38,6 @@ SurfaceMaterial materialOf(const Material& looks) {
     }
     if (looks.blend != Blend::none) out.alpha = SurfaceMaterial::Alpha::blend;
     return out;
-}
-
-float uniform(uint32_t seed, uint32_t counter) {
-    return float(hash(seed, counter) >> 8) / 16777216.0f;
 }
 
 }  // namespace
@@ -104,8 +99,8 @@ glm::vec3 GroupMesh::colorOf(size_t molecule) const {
     const glm::dvec3 second = group_->secondColor
                                   ? *group_->secondColor
                                   : group_->color.value_or(looks.secondColor.value_or(looks.color));
-    const float between = uniform(seeds_[molecule], 0xc0101u),
-                brightness = uniform(seeds_[molecule], 0xc0102u);
+    const float between = float(uniformFrom(hash(seeds_[molecule], 0xc0101u))),
+                brightness = float(uniformFrom(hash(seeds_[molecule], 0xc0102u)));
     const float share = between * between * (1.5f - 0.5f * between);
     return glm::mix(glm::vec3(first), glm::vec3(second), share) * (0.8f + 0.4f * brightness);
 }
@@ -144,27 +139,13 @@ DrawnMesh modelMesh(const Model& model) {
     // Other programs take colours up to 1.
     for (const glm::dvec3& color : mesh.colors)
         out.colors.emplace_back(glm::min(color * model.color, 1.0));
-    // The triangles of each material one after another.
-    std::vector<int> lookOf(mesh.triangles.size(), -1);
-    for (const Mesh::Part& part : mesh.parts)
-        std::fill_n(lookOf.begin() + part.firstTriangle, part.triangleCount, part.look);
-    std::vector<size_t> order(mesh.triangles.size());
-    std::iota(order.begin(), order.end(), size_t{0});
-    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return lookOf[a] < lookOf[b]; });
-    int last = -2;
-    for (const size_t t : order) {
-        if (lookOf[t] != last) {
-            last = lookOf[t];
-            SurfaceMaterial material;
-            if (last >= 0) material = mesh.materials[size_t(last)];
-            if (mesh.colors.empty()) material.color *= glm::dvec4(model.color, 1);
-            material.color = glm::min(material.color, 1.0);
-            if (model.roughness) material.roughness = *model.roughness;
-            out.pieces.push_back({out.corners.size(), 0, material});
-        }
-        for (int i = 0; i < 3; ++i)
-            out.corners.push_back(uint32_t(mesh.triangles[t][i]));
-        out.pieces.back().count += 3;
+    for (const MeshPiece& alike : piecesByLook(mesh, out.corners)) {
+        SurfaceMaterial material;
+        if (alike.look >= 0) material = mesh.materials[size_t(alike.look)];
+        if (mesh.colors.empty()) material.color *= glm::dvec4(model.color, 1);
+        material.color = glm::min(material.color, 1.0);
+        if (model.roughness) material.roughness = *model.roughness;
+        out.pieces.push_back({alike.first, alike.count, material});
     }
     return out;
 }
@@ -184,6 +165,14 @@ void recentre(DrawnMesh& mesh, const std::vector<glm::dvec3>& positions) {
     mesh.positions.clear();
     for (const glm::dvec3& p : positions)
         mesh.positions.emplace_back(p - mesh.origin);
+}
+
+glm::dmat3 directionsOf(const Camera& camera) {
+    const glm::dvec3 away = camera.eye - camera.target;
+    const glm::dvec3 back = glm::length(away) > 0 ? glm::normalize(away) : glm::dvec3(0, 0, 1);
+    const glm::dvec3 up = std::abs(back.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
+    const glm::dvec3 right = glm::normalize(glm::cross(up, back));
+    return {right, glm::cross(back, right), back};
 }
 
 }  // namespace shoal::exchange

@@ -1,4 +1,4 @@
-// What a scene draws, as meshes that other programs take: skins or triangles of molecules, points, models.
+// Meshes that other programs take of what a scene draws: skins or triangles of molecules, points, models.
 #pragma once
 
 #include <span>
@@ -48,7 +48,7 @@ class GroupMesh {
     // Adds its velocities (m/s), from the simulated vertices'; those of skins without what lifts them off
     // turning.
     void addVelocities(std::span<const glm::dvec3> simulated, std::vector<glm::vec3>& velocities) const;
-    // Those molecules as one mesh, without positions and normals.
+    // Returns those molecules as one mesh, without positions and normals.
     DrawnMesh mesh(std::span<const size_t> molecules) const;
     // As it is at rest, about the molecule's origin.
     std::vector<glm::dvec3> restPlaces() const;
@@ -65,6 +65,9 @@ class GroupMesh {
 };
 
 DrawnMesh modelMesh(const Model& model);
+
+// Columns: right, up, towards the eye.
+glm::dmat3 directionsOf(const Camera& camera);
 
 // A whole number of metres in the middle of positions that lie far from the origin, else 0: floats hold what
 // is relative to it.

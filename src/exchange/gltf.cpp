@@ -147,11 +147,7 @@ class Glb {
         cameras_.push_back(
             object(key("type", "perspective"),
                    key("perspective", object(key("yfov", camera.fieldOfView), key("znear", 0.01)))));
-        const glm::dvec3 away = camera.eye - camera.target;
-        const glm::dvec3 back = glm::length(away) > 0 ? glm::normalize(away) : glm::dvec3(0, 0, 1);
-        const glm::dvec3 up = std::abs(back.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
-        const glm::dvec3 right = glm::normalize(glm::cross(up, back));
-        const glm::dquat turn = glm::quat_cast(glm::dmat3(right, glm::cross(back, right), back));
+        const glm::dquat turn = glm::quat_cast(directionsOf(camera));
         addNode(object(key("name", "camera"), key("camera", 0), key("translation", camera.eye),
                        key("rotation", std::vector<double>{turn.x, turn.y, turn.z, turn.w})));
     }

@@ -85,9 +85,8 @@ std::string identifier(const std::string& name) {
 // Text that may be too long for memory: appended to a file without a name, and copied in the end.
 class Spool {
   public:
-    Spool() : file_(std::tmpfile()) {
-        if (!file_) throw Error("no temporary file can be made");
-    }
+    // Beside the file that it becomes a part of.
+    explicit Spool(const fs::path& target) : file_(unnamedFile(target)) {}
     void add(const std::string& piece) {
         if (std::fwrite(piece.data(), 1, piece.size(), file_.get()) != piece.size())
             throw Error("a temporary file cannot be written: is the disk full?");
@@ -302,7 +301,7 @@ struct UsdStage::Parts {
             return;
         }
         std::unique_ptr<Spool>& spool = it.samples[attribute];
-        if (!spool) spool = std::make_unique<Spool>();
+        if (!spool) spool = std::make_unique<Spool>(file);
         spool->add(concat("            ", frame, ": ", values, ",\n"));
     }
 
@@ -368,14 +367,11 @@ void UsdStage::add(const DrawnMesh& mesh) {
 }
 
 void UsdStage::add(const Camera& camera) {
-    const glm::dvec3 away = camera.eye - camera.target;
-    const glm::dvec3 back = glm::length(away) > 0 ? glm::normalize(away) : glm::dvec3(0, 0, 1);
-    const glm::dvec3 up = std::abs(back.y) < 0.999 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1);
-    const glm::dvec3 right = glm::normalize(glm::cross(up, back)), above = glm::cross(back, right);
+    const glm::dmat3 directions = directionsOf(camera);
     std::string matrix = "(";
-    for (const glm::dvec3& row : {right, above, back}) {
+    for (int row = 0; row < 3; ++row) {
         for (int i = 0; i < 3; ++i)
-            matrix += (i == 0 ? " (" : ", ") + text(row[i]);
+            matrix += (i == 0 ? " (" : ", ") + text(directions[row][i]);
         matrix += ", 0),";
     }
     matrix += " (" + text(camera.eye.x) + ", " + text(camera.eye.y) + ", " + text(camera.eye.z) + ", 1) )";

@@ -19,7 +19,7 @@
 
 namespace shoal::exchange {
 
-// What a moving thing is at one time. Arrays that are empty are not written.
+// A moving thing at one time. Arrays that are empty are not written.
 struct UsdSample {
     std::vector<glm::dvec3> points;  // m; of instances their middles
     std::vector<glm::vec3> normals, velocities;
@@ -43,10 +43,10 @@ class UsdStage {
     UsdStage(const std::filesystem::path& target, double frameRate);
     ~UsdStage();
 
-    // What does not move, whole.
+    // Adds a mesh that does not move.
     void add(const DrawnMesh& mesh);
     void add(const Camera& camera);
-    // What moves, by its topology; without corners points. Returns its number.
+    // Adds something that moves, by its topology; without corners points. Returns its number.
     size_t addMoving(const DrawnMesh& mesh, const UsdMoving& how);
     void sample(size_t moving, int frame, const UsdSample& sample);  // frames in order
     void endFrame(int frame);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <unordered_map>
 
 #include "core/error.h"
@@ -206,6 +207,25 @@ std::string whyOpen(const SurfaceReport& report) {
     out += concat(report.unsound() == 1 ? ", at (" : ", the first at (", report.where.x, ", ", report.where.y,
                   ", ", report.where.z, ")");
     if (!report.object.empty()) out += concat(" of \"", report.object, "\"");
+    return out;
+}
+
+std::vector<MeshPiece> piecesByLook(const Mesh& mesh, std::vector<uint32_t>& corners) {
+    std::vector<int> lookOf(mesh.triangles.size(), -1);
+    for (const Mesh::Part& part : mesh.parts)
+        std::fill_n(lookOf.begin() + part.firstTriangle, part.triangleCount, part.look);
+    std::vector<size_t> order(mesh.triangles.size());
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return lookOf[a] < lookOf[b]; });
+    std::vector<MeshPiece> out;
+    corners.clear();
+    corners.reserve(3 * order.size());
+    for (const size_t i : order) {
+        if (out.empty() || out.back().look != lookOf[i]) out.push_back({lookOf[i], corners.size(), 0});
+        out.back().count += 3;
+        for (int k = 0; k < 3; ++k)
+            corners.push_back(uint32_t(mesh.triangles[i][k]));
+    }
     return out;
 }
 

@@ -81,6 +81,14 @@ Mesh loadMesh(const std::string& file);
 // by position (within 1e-6 of the bounding box's diagonal), welded positions and normals, the box.
 void completeMesh(Mesh& mesh);
 
+// The triangles of each material one after another, as three corners each; of two parts that look alike they
+// are one piece.
+struct MeshPiece {
+    int look = -1;                // in Mesh::materials; -1: the file says nothing of it
+    size_t first = 0, count = 0;  // corners
+};
+std::vector<MeshPiece> piecesByLook(const Mesh& mesh, std::vector<uint32_t>& corners);
+
 // Whether a mesh encloses a volume, and where it does not.
 //
 // An edge is sound when as many triangles pass it one way as the other: then every point off the surface has

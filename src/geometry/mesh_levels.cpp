@@ -80,28 +80,38 @@ double shadingError(const std::vector<glm::dvec3>& positions, const std::vector<
 
 }  // namespace
 
+std::vector<uint32_t> collapseEdges(const std::vector<uint32_t>& corners,
+                                    const std::vector<glm::vec3>& positions, size_t triangles,
+                                    double* error) {
+    std::vector<uint32_t> out(corners.size());
+    constexpr float anyError = 1e10f;
+    const auto* floats = &positions[0].x;
+    float relative = 0;
+    out.resize(meshopt_simplify(out.data(), corners.data(), corners.size(), floats, positions.size(),
+                                sizeof(glm::vec3), std::min(3 * triangles, corners.size()), anyError, 0,
+                                &relative));
+    if (error)
+        *error =
+            double(relative) * double(meshopt_simplifyScale(floats, positions.size(), sizeof(glm::vec3)));
+    return out;
+}
+
 std::vector<MeshLevel> levelsOf(const std::vector<glm::dvec3>& positions,
                                 const std::vector<glm::dvec3>& normals,
                                 const std::vector<uint32_t>& corners) {
     constexpr size_t fewest = 8;  // triangles
     constexpr double ratio = 0.4;
-    constexpr float anyError = 1e10f;
     std::vector<MeshLevel> out{{corners, 0}};
     const std::vector<glm::vec3> places = bent(positions);
-    const auto* floats = &places[0].x;
-    const double scale = double(meshopt_simplifyScale(floats, places.size(), sizeof(glm::vec3)));
     for (;;) {
         const size_t last = out.back().corners.size();
-        const size_t wanted = 3 * std::max(size_t(ratio * double(last / 3)), fewest);
         MeshLevel level;
-        level.corners.resize(corners.size());
-        float error = 0;
-        level.corners.resize(meshopt_simplify(level.corners.data(), corners.data(), corners.size(), floats,
-                                              places.size(), sizeof(glm::vec3), wanted, anyError, 0, &error));
+        level.corners =
+            collapseEdges(corners, places, std::max(size_t(ratio * double(last / 3)), fewest), &level.error);
         constexpr double least = 0.7;  // of the triangles: above, another level saves nothing
         if (level.corners.empty() || double(level.corners.size()) > least * double(last)) return out;
-        level.error = std::max(
-            {out.back().error, double(error) * scale, shadingError(positions, normals, level.corners)});
+        level.error =
+            std::max({out.back().error, level.error, shadingError(positions, normals, level.corners)});
         out.push_back(std::move(level));
     }
 }

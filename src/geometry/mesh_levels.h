@@ -9,13 +9,19 @@
 
 namespace shoal {
 
+// Collapses edges by that metric, to about so many triangles or as far as seams let; `corners`: three a
+// triangle. `error`, where asked for: m, how far the result lies off.
+std::vector<uint32_t> collapseEdges(const std::vector<uint32_t>& corners,
+                                    const std::vector<glm::vec3>& positions, size_t triangles,
+                                    double* error = nullptr);
+
 struct MeshLevel {
     std::vector<uint32_t> corners;  // three a triangle
     double error = 0;               // m: how large a pixel has to be for the level to look like the mesh
 };
 
 // All of the mesh, then levels of 0.4 times as many triangles as the last, down to 8 or as far as seams let.
-// What is flat is taken to bend: no level is coarser than it may be on a bowl as wide as the mesh. Normals
+// A flat part is taken to bend: no level is coarser than it may be on a bowl as wide as the mesh. Normals
 // count as places do: the error is at least what they are off (root of the mean square, of unit vectors) over
 // an edge of the level.
 std::vector<MeshLevel> levelsOf(const std::vector<glm::dvec3>& positions,

@@ -12,7 +12,7 @@
 
 namespace shoal {
 
-// Of rad/s.
+// Hz, of a frequency in rad/s.
 inline double hertz(double rate) {
     return rate / (2 * std::numbers::pi);
 }

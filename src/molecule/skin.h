@@ -47,8 +47,8 @@ struct SkinFrame {
 // theirs unless they differ by more than 40 degrees, as at the edge of a box.
 std::vector<SkinFrame> skinFrames(const Molecule& molecule);
 std::vector<glm::dvec3> skinNormals(const Skin& skin);  // the same normals, in the rest shape
-// The same where the simulated vertices lie at `positions`; `frames`: skinFrames(). Zero where the tangents
-// have fallen together.
+// Returns the normals where the simulated vertices lie at `positions`; `frames`: skinFrames(). Zero where the
+// tangents have fallen together.
 std::vector<glm::dvec3> skinNormals(const Molecule& molecule, const std::vector<SkinFrame>& frames,
                                     const std::vector<glm::dvec3>& positions);
 

@@ -323,16 +323,6 @@ class PySimulation {
     }
 
   private:
-    static std::optional<SolverKind> solverOf(const std::string& word) {
-        if (word == "auto") return {};
-        std::vector<std::string> names = {"auto"};
-        for (const Solver& one : solvers()) {
-            if (word == one.name) return one.kind;
-            names.emplace_back(one.name);
-        }
-        throw Error("unknown solver \"", word, "\"", suggestion(word, names));
-    }
-
     // By name, number, or None where there is one.
     size_t groupOf(const py::object& group) {
         const std::vector<GroupPlan>& groups = use().plan().groups;
@@ -405,7 +395,7 @@ FileFinding findingOf(const Location& where, const std::string& message, bool er
     return {where.file, where.path, message, where.line, error};
 }
 
-// What is wrong with a file or, as warnings, what is probably not meant.
+// Returns the mistakes in a file and, as warnings, what is probably not meant.
 std::vector<FileFinding> checkFile(const std::filesystem::path& file) {
     std::vector<FileFinding> out;
     const auto tell = [&](const Molecule& molecule) {

@@ -95,14 +95,12 @@ const DrawOrder* DrawnGroups::orderOf(size_t group) const {
 
 // ---- Levels of detail
 
-// Where compute shaders can cut the order, and there is something to save.
+// Where compute shaders can cut the order.
 void DrawnGroups::makeLevels(gpu::Context& context, const std::string& shaderRoot, const Plan& plan) {
-    constexpr int64_t few = 20000;  // triangles: ordering the molecules would cost about as much
     for (Drawn& group : groups_) {
         GroupDrawer& drawer = *group.drawer;
         const std::vector<DrawStream>& streams = drawer.streams();
         if (group.blend != Blend::none || streams.size() < 2 || !context.info().computeShaders) continue;
-        if (int64_t(streams[0].corners) / 3 * drawer.count() < few) continue;
         group.levels = std::make_unique<LevelDraws>(context, shaderRoot, plan.groups[drawer.index()],
                                                     drawer.index(), streams, double(group.scale));
         drawer.addOrderDefines({"ORDERED", "SLAB_DRAWS"});

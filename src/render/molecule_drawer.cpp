@@ -15,7 +15,10 @@ static std::vector<uint32_t> cornersOf(const Triangles& triangles) {
     return out;
 }
 
-static std::vector<MeshLevel> levelsOf(const Skin& skin) {
+// All of it where there are few triangles in all: ordering the molecules would cost about as much.
+static std::vector<MeshLevel> levelsOf(const Skin& skin, int molecules) {
+    constexpr int64_t few = 20000;
+    if (int64_t(skin.triangles.size()) * molecules < few) return {{cornersOf(skin.triangles), 0}};
     std::vector<glm::dvec3> positions;
     for (const SkinVertex& vertex : skin.vertices)
         positions.push_back(vertex.position);
@@ -69,7 +72,7 @@ void MoleculeDrawer::makeCorners(const Vertices& vertices, const std::vector<uin
 void MoleculeDrawer::makeSkinCorners(const Molecule& molecule) {
     std::vector<uint32_t> indices;
     std::vector<DrawStream> streams;
-    for (const MeshLevel& level : levelsOf(molecule.skin)) {
+    for (const MeshLevel& level : levelsOf(molecule.skin, count())) {
         streams.push_back({.corners = int(level.corners.size()),
                            .indexed = true,
                            .first = int(indices.size()),

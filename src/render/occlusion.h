@@ -1,5 +1,5 @@
-// What things hide of the sky from one another, as far as the picture shows them: contact shadows of the
-// ambient light [McGuire 2012]. Worked out from the picture's depth, at half its size.
+// Finds what things hide of the sky from one another, as far as the picture shows them: contact shadows of
+// the ambient light [McGuire 2012]. Worked out from the picture's depth, at half its size.
 #pragma once
 
 #include <string>

@@ -1,7 +1,7 @@
 // The picture: sky, host models, colliders and every molecule, with the sun's shadows, anti-aliased and
 // gamma-correct. Draws straight from the state; moves no byte of state and writes none of it.
 //
-// What near things hide of the sky is worked out from the depth of all that is not blended, and taken from
+// The sky that near things hide is worked out from the depth of all that is not blended, and taken from
 // the resolved light (render/occlusion.h).
 //
 // In scenes with water the net of caustics is drawn before all this, and its beams are added to the resolved

@@ -51,22 +51,8 @@ SurfaceMesh meshOf(const Mesh& mesh) {
         if (!mesh.uvs.empty()) corner.uv = glm::vec2(mesh.uvs[i]);
         out.corners.push_back(corner);
     }
-    // The triangles of each material one after another; of two that look alike, they are one piece.
-    std::vector<int> materialOf(mesh.triangles.size(), -1);
-    for (const Mesh::Part& part : mesh.parts)
-        std::fill_n(materialOf.begin() + part.firstTriangle, part.triangleCount, part.look);
-    std::vector<size_t> order(mesh.triangles.size());
-    std::iota(order.begin(), order.end(), size_t{0});
-    std::stable_sort(order.begin(), order.end(),
-                     [&](size_t a, size_t b) { return materialOf[a] < materialOf[b]; });
-    out.indices.reserve(mesh.triangles.size() * 3);
-    for (const size_t i : order) {
-        if (out.pieces.empty() || out.pieces.back().material != materialOf[i])
-            out.pieces.push_back({materialOf[i], int(out.indices.size()), 0});
-        out.pieces.back().indexCount += 3;
-        const glm::ivec3& t = mesh.triangles[i];
-        out.indices.insert(out.indices.end(), {uint32_t(t[0]), uint32_t(t[1]), uint32_t(t[2])});
-    }
+    for (const MeshPiece& piece : piecesByLook(mesh, out.indices))
+        out.pieces.push_back({piece.look, int(piece.first), int(piece.count)});
     return out;
 }
 

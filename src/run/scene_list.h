@@ -11,9 +11,8 @@ struct ListedScene {
     std::string file, name, comment;  // as the scene calls itself; without a name, the file's
 };
 
-// Every *.scene.json in the folder and those below it, by their names. Files that cannot be read are listed
-// by their file's name: opening one tells what is wrong.
-// In the order of the folder's scenes.txt, then by their names.
+// Every *.scene.json in the folder and those below it, in the order of its scenes.txt, then by their names.
+// Files that cannot be read are listed by their file's name: opening one tells what is wrong.
 std::vector<ListedScene> scenesBelow(const std::string& folder);
 
 // The file of a word on the command line: a file's name, or a scene that ships, such as tree/leaves; hello is

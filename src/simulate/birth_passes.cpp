@@ -131,7 +131,7 @@ void BirthPasses::takePlaces(Living& living, double end, Newborns& newborns) {
                                        uint32_t(run.ordinal) + uint32_t(j)) >>
                                   8;
             const int turn = j / run.each;
-            const double moment = run.random ? double(hash(seed, bornTime) >> 8) / 16777216.0 : turn;
+            const double moment = run.random ? uniformFrom(hash(seed, bornTime)) : turn;
             const double dies = run.first + run.interval * moment + lifeOf(living.life.life, seed);
             uint32_t place = 0;
             if (!living.book.take(dies, place)) {

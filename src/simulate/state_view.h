@@ -22,8 +22,9 @@ struct StateView {
 };
 
 // The state of molecules where it lies, for shaders of others: a range of a buffer of OpenGL, of 4-vectors.
-// Number 3 v + c of a molecule's positions is coordinate c of vertex v, in component (3 v + c) mod 4 of its 4-vector
-// e = (3 v + c) / 4; its velocities follow `elements` 4-vectors later. 4-vector e of molecule m, from `first` on, is
+// Number 3 v + c of a molecule's positions is coordinate c of vertex v, in component (3 v + c) mod 4 of its
+// 4-vector e = (3 v + c) / 4; its velocities follow `elements` 4-vectors later. 4-vector e of molecule m,
+// from `first` on, is
 //   m / 16 * 16 * stride + e * 16 + m mod 16.
 // Positions are relative to the molecule's anchor, xyz of 4-vector m of `anchors`.
 struct SharedState {
@@ -33,8 +34,8 @@ struct SharedState {
     int elements = 0, stride = 0;  // 4-vectors a molecule: of positions; in all
 };
 
-// Of a group after the last frame, in as many parts as it is stored in; none where it is not in buffers
-// (compute shaders). The next frame writes elsewhere: ask again after each.
+// Locates a group's state after the last frame, in as many parts as it is stored in; none where it is not in
+// buffers (compute shaders). The next frame writes elsewhere: ask again after each.
 std::vector<SharedState> sharedState(const StateView& view, size_t group);
 
 }  // namespace shoal
