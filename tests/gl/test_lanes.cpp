@@ -2,12 +2,15 @@
 #include <GL/glew.h>
 
 #include <algorithm>
+#include <chrono>
 #include <ctime>
 #include <memory>
 
 #include "gl/agreement.h"
 #include "gl/births.h"
 #include "gl/feature_scenes.h"
+#include "gpu/pass_timers.h"
+#include "molecule/molecule_file.h"
 #include "scene/collider_kinds.h"
 #include "scene/force_kinds.h"
 #include "support/catch.h"
@@ -199,8 +202,8 @@ TEST_CASE("by name a form refuses what it cannot hold, in one line", "[fused][la
 
 // Reports, and fails on nothing: shoal-gl "[.lanes-cost]". Seconds to the first frame without a cache, and
 // processor time of a frame, because others may use the machine.
-TEST_CASE("what the forms cost", "[.lanes-cost]") {
-    if (!canFuse()) return;
+TEST_CASE("what the forms cost a CPU rasteriser", "[.lanes-cost]") {
+    if (!canFuse() || !testContext().info().software) return;
     const auto seconds = [] { return double(std::clock()) / CLOCKS_PER_SEC; };
     for (const int vertices : {20, 24, 33, 48, 64}) {
         const int rows = vertices == 20 || vertices == 24 ? 4 : vertices == 33 ? 3 : vertices == 48 ? 6 : 8;
@@ -245,6 +248,62 @@ TEST_CASE("what the forms cost", "[.lanes-cost]") {
                                 << ": to the first frame; ns a molecule and frame, minimum / median: lane a "
                                    "molecule "
                                 << text(0) << "; lane a vertex " << text(1));
+            }
+        }
+    }
+}
+
+// Reports, and fails on nothing: the same on a GPU, by its own clock.
+TEST_CASE("what the forms cost a GPU", "[.lanes-cost]") {
+    if (!canFuse() || testContext().info().software) return;
+    const auto shipped = [](const char* name) {
+        return readMolecule(concat(SHOAL_SOURCE_DIR "/molecules/", name, ".json"));
+    };
+    Molecule cloth = sheet(8, 8, false);
+    for (Spring& spring : cloth.springs)
+        spring.stiffness *= 0.01, spring.damping *= 0.01;
+    enum { free, inTheAir, onTheGround };
+    static constexpr const char* states[] = {"no collider", "a plane, in the air", "a plane, on the ground"};
+    gpu::DeviceTimer timer;
+    for (const Molecule& shape : {shipped("quad"), shipped("leaf"), shipped("cross"), shipped("fry"),
+                                  shipped("fish"), sheet(8, 4, false), cloth}) {
+        for (const int count : {16384, 131072, 1048576}) {
+            if (shape.vertices.size() > 24 && count > 131072) continue;
+            for (const int state : {free, inTheAir, onTheGround}) {
+                Scene scene = swarm(shape, count, SolverKind::leapfrog);
+                scene.gravity = {0, -9.81, 0};
+                scene.fields = {test::field(UniformField{{2, 0, 0.5}})};
+                scene.solver.substeps = 5;
+                Group& group = scene.groups[0];
+                group.drag = {6, 1};
+                group.place.scale = {1, 1};
+                if (state != free) {
+                    PlaneCollider plane;
+                    plane.point = {0, state == inTheAir ? -6 : 0, 0};
+                    scene.colliders.emplace_back().shape = plane;
+                    if (state == onTheGround) group.place.box.low.y = 0, group.place.box.high.y = 0.02;
+                }
+                const Plan plan = compile(scene);
+                std::string line;
+                for (const Lanes form : {Lanes::molecule, Lanes::vertex}) {
+                    if (form == Lanes::molecule && !fitsLane(plan.groups[0])) continue;
+                    const auto start = std::chrono::steady_clock::now();
+                    Simulation simulation = on(plan, form);
+                    test::run(simulation, 1);
+                    glFinish();
+                    const double first =
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                    test::run(simulation, 10);
+                    std::vector<double> times;
+                    for (int round = 0; round < 8; ++round)
+                        times.push_back(timer.secondsOf([&] { test::run(simulation, 2); }) / 2 * 1e3);
+                    simulation.check();
+                    std::sort(times.begin(), times.end());
+                    line += concat("; a lane a ", name(form), " ", times.front(), " / ", times[4],
+                                   " ms, first frame after ", first, " s");
+                }
+                WARN(shape.name << ", " << shape.vertices.size() << " vertices, " << shape.springs.size()
+                                << " springs, " << count << ", " << states[state] << line);
             }
         }
     }
