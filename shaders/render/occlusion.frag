@@ -49,7 +49,7 @@ vec3 flatter(vec3 a, vec3 b)
 void main()
 {
     ivec2 size = textureSize(sceneDepth, 0);
-    ivec2 texel = min(2 * ivec2(gl_FragCoord.xy), size - 1);
+    ivec2 texel = clamp(2 * ivec2(gl_FragCoord.xy), ivec2(1), max(size - 2, ivec2(1)));  // with a neighbour at either side
     vec3 place = placeAt(texel);
     float depth = -place.z;
     fragment = vec4(1.0, min(depth, 6e4), 0.0, 1.0);
@@ -60,7 +60,10 @@ void main()
     if (pixels < 2.0) return;
     vec3 across = flatter(placeAt(texel + ivec2(1, 0)) - place, place - placeAt(texel - ivec2(1, 0)));
     vec3 up = flatter(placeAt(texel + ivec2(0, 1)) - place, place - placeAt(texel - ivec2(0, 1)));
-    vec3 normal = normalize(cross(across, up));
+    vec3 normal = cross(across, up);
+    float area = length(normal);
+    if (area == 0.0) return;  // a picture of one or two texels
+    normal /= area;
     // Ordered dithering: the turns of every two by two texels are a quarter apart.
     ivec2 one = ivec2(gl_FragCoord.xy) & 1;
     ivec2 two = ivec2(gl_FragCoord.xy) >> 1 & 1;

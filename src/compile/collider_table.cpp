@@ -1,7 +1,6 @@
 #include "compile/collider_table.h"
 
 #include "compile/call_writer.h"
-#include "compile/glsl_text.h"
 #include "compile/pack.h"
 #include "scene/collider_kinds.h"
 
@@ -26,9 +25,7 @@ bool ColliderTable::holds(const Collider& collider) {
 
 void ColliderTable::add(const Collider& collider, size_t number, size_t material) {
     CallFrame frame{.origin = middle_};
-    if (middle_ != glm::dvec3(0))
-        frame.anchor = concat("(anchor - vec3(", glslLiteral(middle_.x), ", ", glslLiteral(middle_.y), ", ",
-                              glslLiteral(middle_.z), "))");
+    if (isFar()) frame.anchor = "(anchor - middle)";
     CallWriter writer("t#", 0, nullptr, std::move(frame));
     Kind& kind = kinds_[collider.shape->index()];
     kind.name = kindName(*collider.shape);
@@ -53,6 +50,12 @@ std::string ColliderTable::loopOver(const Kind& kind, size_t base, size_t read, 
 
 ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const {
     Loops out;
+    if (isFar() && !empty()) {
+        // Not a constant of the text, which NVIDIA's compiler would add to what is near, where it loses that.
+        const std::string middle = concat("    vec3 middle = sampleAt(", samples.size(), ").xyz;\n");
+        samples.emplace_back(glm::vec3(middle_), 0);
+        out = {middle, middle, middle};
+    }
     for (const auto& [index, kind] : kinds_) {
         const size_t base = samples.size(), all = kind.texelsOfOne();
         samples.insert(samples.end(), kind.texels.begin(), kind.texels.end());

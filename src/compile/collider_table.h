@@ -4,7 +4,8 @@
 // is left for it (NumberLayout), and in z and w of the last its number and its material.
 //
 // material: index of the uniform whose x is the restitution and y the friction. Where one float is not enough
-// for some of their places, all are relative to a point of the anchors' lattice amid them.
+// for some of their places, all are relative to a point of the anchors' lattice amid them, in a texel before
+// theirs.
 #pragma once
 
 #include <map>
@@ -40,6 +41,7 @@ class ColliderTable {
         std::vector<glm::vec4> texels;
         size_t texelsOfOne() const { return texels.size() / count; }
     };
+    bool isFar() const { return middle_ != glm::dvec3(0); }
     static std::string loopOver(const Kind& kind, size_t base, size_t read, const std::string& body);
 
     glm::dvec3 middle_{0};          // m

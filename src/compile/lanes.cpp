@@ -13,24 +13,34 @@ namespace {
 
 // The measurements that the choice rests on.
 //
-// A GPU: one NVIDIA H100 (driver 580.159.04), 22 November 2026, fused milliseconds a frame, minimum;
-// `leapfrog`, 5 substeps, uniform wind, drag by direction; without and with a plane. "By hand" is a kernel
-// written in CUDA of the idea of a lane a vertex: ours is not measured on a GPU yet.
+// A GPU: one NVIDIA H200 (driver 580.159.04), 26 November 2026, milliseconds of the device a frame, minimum
+// of 16 frames after 11; `leapfrog`, 5 substeps, uniform wind, drag by direction; without a collider, over a
+// plane, and on it (shoal-gl "[.lanes-cost]"). "By hand" is a kernel written in CUDA that does less
+// (shaders/fused/gather.glsl has its idea), over a plane, on an NVIDIA H100. A lane a vertex had the
+// workgroups of 3 x 32 (fry, fish) and 4 x 32 below.
 //
-//   molecule, vertices   number       a lane a molecule   by hand, with a plane
-//   quad, 4              1,048,576    0.11     0.13       0.23
-//   leaf, 9              1,048,576    0.38     0.43       0.84
-//   cross, 12            1,048,576    0.44     0.50       0.92
-//   fry, 20              16,384       0.056    1.22       0.044
-//                        131,072      0.25     1.70       0.30
-//                        1,048,576    1.38     13.4       2.29
-//   fish, 24             16,384       0.106    2.71       0.051
-//                        131,072      0.73     20.7       0.35
-//                        1,048,576    5.72     160        2.56
-//   cloth, 64            131,072                          1.04
+//   molecule, vertices   number       a lane a molecule      a lane a vertex        by hand
+//   quad, 4              1,048,576    0.13   0.14   0.25     0.43   0.41   0.49     0.23
+//   fry, 20              1,048,576    2.04   5.98   10.6     5.30   6.73   7.31     2.29
+//   fish, 24             1,048,576    7.02   21.2   53.0     5.92   6.02   6.57     2.56
+//   32 vertices            131,072    5.50   20.3   30.0     1.18   1.23   1.32
+//   cloth, 64               16,384    25.6   29.7   40.1     0.36   0.38   0.40
 //
-// A lane a molecule is best up to 12 vertices, and without colliders up to 20 from 131,072 molecules on.
-constexpr int gpuLane = 12, gpuLaneFree = 20, many = 131072;
+// Leaves (9 vertices) and crosses (12) are two to five times as fast with a lane a molecule in the same run,
+// 16,384 and 131,072 fry without a collider 2.3 and 3.1 times.
+constexpr int gpuLane = 12, gpuLaneFree = 20;  // vertices of a lane, with colliders and without
+
+// A workgroup of the form with a lane a vertex has as many lanes as let it take one vertex each, or two. The
+// same machine, 131,072 molecules over a plane, ms: vertices of a lane x molecules of a workgroup:
+//
+//              1 x 32   2 x 32   3 x 32   4 x 32   1 x 16   2 x 16
+//   fry, 20    0.66     0.76     0.91              0.68     0.78
+//   fish, 24   0.83     0.73     0.81              0.82     0.71
+//   cloth, 64           2.34              2.78     2.54     3.08
+//
+// The table of springs in a uniform block took as long as in a storage block, or up to three times; in shared
+// memory, and probes with a place of their own there, which saves every second barrier, within 3 % or longer.
+constexpr int mostMolecules = 32, fewLanes = 640, mostLanes = 1024;
 
 // A CPU rasteriser, nanoseconds of a processor a molecule and frame, minimum: 4,096 molecules, `leapfrog`, 5
 // substeps, uniform wind, drag by direction where there are triangles; without and with a plane
@@ -85,7 +95,7 @@ double secondsOf(SolverKind solver) {
 
 bool prefersLane(const Plan& plan, const GroupPlan& group, const PathLimits& limits) {
     if (limits.software) return secondsToCompile(plan, group) <= mostSeconds;
-    return group.vertexCount <= (!group.needs.collide && group.count >= many ? gpuLaneFree : gpuLane);
+    return group.vertexCount <= (group.needs.collide ? gpuLane : gpuLaneFree);
 }
 
 // Error: its code would take a CPU rasteriser too long.
@@ -116,15 +126,14 @@ bool fitsLane(const GroupPlan& group) {
 }
 
 WorkgroupShape workgroupShape(int vertices, int sharedBytes) {
-    constexpr int mostMolecules = 32, mostLanes = 512, mostOfLane = 4, fewestRows = 8;
     WorkgroupShape out;
     out.molecules = mostMolecules;
     while (out.molecules > 1 && out.molecules * FusedLimits::sharedBytes(vertices) > sharedBytes)
         out.molecules /= 2;
     EXPECTS(out.molecules * FusedLimits::sharedBytes(vertices) <= sharedBytes);
     const auto parts = [](int whole, int part) { return (whole + part - 1) / part; };
-    out.vertices = std::clamp(parts(vertices, fewestRows), 1, mostOfLane);
-    out.vertices = std::max(out.vertices, parts(vertices, mostLanes / out.molecules));
+    out.vertices = parts(vertices * out.molecules, fewLanes);
+    if (out.vertices > 2) out.vertices = std::max(2, parts(vertices * out.molecules, mostLanes));
     out.rows = parts(vertices, out.vertices);
     return out;
 }
