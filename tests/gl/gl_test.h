@@ -7,5 +7,10 @@
 // The one context of the process: SHOAL_TEST_CONTEXT=egl|osmesa|window, egl when it is not set. Current when
 // a test begins; a test that makes others current puts it back.
 shoal::gpu::Context& testContext();
+// Whether programs with the same arithmetic leave the same bits: compilers of GPUs contract and reorder sums
+// (docs/testing.md tells what else devices may differ in).
+inline bool keepsBits() {
+    return testContext().info().software;
+}
 // The path that simulations are tested on: SHOAL_TEST_PATH=fused|ping-pong, else what the context can do.
 shoal::Path testPath();

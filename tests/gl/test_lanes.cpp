@@ -26,11 +26,33 @@ Simulation on(const Plan& plan, Lanes lanes) {
                       {.path = Path::fused, .lanes = lanes});
 }
 
+// One frame from the same state, to what roundings make of it.
+void checkClose(Simulation& lane, Simulation& rows) {
+    rows.load(lane.save());
+    lane.frame();
+    rows.frame();
+    for (size_t g = 0; g < lane.plan().groups.size(); ++g) {
+        const GroupPlan& group = lane.plan().groups[g];
+        const Snapshot one = lane.snapshot(g), other = rows.snapshot(g);
+        int apart = 0;
+        for (size_t i = 0; i < one.positions.size(); ++i)
+            apart += glm::distance(one.positions[i], other.positions[i]) > Agreement::tolerance * group.size;
+        CHECK(apart <= int(one.positions.size()) / 20);  // where a rounding decides what touches
+        CHECK(one.released == other.released);
+        CHECK(one.alive == other.alive);
+    }
+}
+
 // So many frames in both forms, and what is left of each group.
 void checkSame(const Scene& scene, int frames, const CompileOptions& options = {}) {
     const Plan plan = compile(scene, options);
     Simulation lane = on(plan, Lanes::molecule), rows = on(plan, Lanes::vertex);
     REQUIRE(rows.lanes(0) == Lanes::vertex);
+    if (!keepsBits()) {
+        for (int frame = 0; frame < frames; ++frame)
+            checkClose(lane, rows);
+        return;
+    }
     test::run(lane, frames);
     test::run(rows, frames);
     const SavedState one = lane.save(), other = rows.save();
@@ -150,10 +172,10 @@ TEST_CASE("schools, contact between molecules and live springs are the same with
     }
     test::run(lane, 3);
     test::run(rows, 3);
-    const uint64_t before = rows.hash();
-    CHECK(lane.hash() == before);
+    if (keepsBits()) CHECK(lane.hash() == rows.hash());
     REQUIRE(lane.changeSprings(0, changed));
     REQUIRE(rows.changeSprings(0, changed));
+    if (!keepsBits()) return checkClose(lane, rows);
     test::run(lane, 3);
     test::run(rows, 3);
     CHECK(lane.hash() == rows.hash());

@@ -25,6 +25,7 @@ Scene sceneOfParticles(const ParticleType& type, const std::vector<glm::dvec3>& 
     group.molecule = moleculeOf(type);
     scene.light.shadows = false;
     scene.light.intensity = 0;
+    scene.sky.occlusion = 0;
     scene.sky.zenith = scene.sky.horizon = scene.sky.ground = glm::dvec3(0.05);
     return scene;
 }
