@@ -18,6 +18,17 @@ bool followAnchor()
     return shift != vec3(0.0);
 }
 
+#ifdef SOFTWARE
+// Whether loops end early, because there were more turns than Mesa's CPU rasterisers take (mostSoftwareTurns in
+// src/gpu/context.h).
+bool loopsEndEarly()
+{
+    int turns = 0;
+    for (int i = 0; i <= substeps; ++i) ++turns;  // a loop that Mesa does not write out
+    return turns <= substeps;
+}
+#endif
+
 #ifdef RESTING
 uniform bool probes;     // whether what acts beside contact is not what it was in the last step
 vec3 gained[VERTICES];  // m/s, in a step from rest
@@ -60,6 +71,10 @@ void main()
     sampleFrame();
     run();
     finishSolver();
+#ifdef SOFTWARE
+    // infinity in all of a vertex: for the watchdog (src/simulate/watchdog.cpp)
+    if (loopsEndEarly()) x[0] = vec3(uintBitsToFloat(0x7f800000u));
+#endif
 #ifdef RESTING
     // What rests stays; that it would move otherwise than when it came to rest wakes it (contact/rest.comp).
     if (resting > 0.0) {

@@ -49,7 +49,8 @@ int benchSchoolCommand(const Options& options) {
     const Molecule fry = readMolecule(moleculeFolder() + "/fry.json");
     BenchSession session(options, 20, 1);
     const std::vector<SchoolTimes> times =
-        measureSchools(schoolCases(options.quick), fry, session.device, session.schedule.seconds);
+        measureSchools(schoolCases(options.quick, session.machine.context.software), fry, session.device,
+                       session.schedule.seconds);
     session.end();
     std::cout << (options.json ? writeJson(asJson(session.machine, times)) : asText(session.machine, times));
     return 0;

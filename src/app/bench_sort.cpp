@@ -18,9 +18,11 @@ struct Report {
     std::vector<SortTable> tables;
 };
 
-// Ratios of the shortest times of one size, the largest of this run.
+// Ratios of the shortest times of one size, the largest of this run for which all sorts ran.
 std::vector<Target> targets(const Report& report) {
-    const SortTable& table = report.tables.back();
+    const auto last = std::find_if(report.tables.rbegin(), report.tables.rend(),
+                                   [](const SortTable& one) { return one.side <= SortTable::mostOfAll; });
+    const SortTable& table = *last;
     const SortTime* radix = table.find(SortMethod::radix);
     const SortTime* bitonic = table.find(SortMethod::bitonic);
     const auto over = [&](const SortTime* slow) -> std::optional<double> {
@@ -33,6 +35,11 @@ std::vector<Target> targets(const Report& report) {
     if (!report.machine.context.software && radix)
         out.push_back(
             {"radix, share of the copy bandwidth in each pass" + at, 0.25, true, table.shareOfCopy(*radix)});
+    const SortTable& most = report.tables.back();
+    const SortTime* many = most.find(SortMethod::radix);
+    if (!report.machine.context.software && many && most.side > table.side)
+        out.push_back({concat("radix, billion items a second at ", most.side, " x ", most.side), 5, true,
+                       most.itemsPerSecond(*many) * 1e-9});
     return out;
 }
 
@@ -49,12 +56,14 @@ std::string ratesText(const Report& report) {
             continue;
         }
         for (const SortTable& table : report.tables)
-            out += formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6);
+            out += table.times[i].leftOut.empty()
+                       ? formatted("%17.2f", table.itemsPerSecond(table.times[i]) * 1e-6)
+                       : formatted("%17s", "-");
         out += "\n";
     }
     for (const PublishedSort& published : publishedSorts()) {
         out += formatted("  %-40s", published.where);
-        for (size_t i = 0; i < report.tables.size(); ++i)
+        for (size_t i = 0; i < std::min(report.tables.size(), published.millionItems.size()); ++i)
             out += formatted("%17.2f", published.millionItems[i]);
         out += "\n";
     }
@@ -119,7 +128,7 @@ int benchSortCommand(const Options& options) {
     report.machine = session.machine;
     report.machine.pinned = measure::pinRasteriserThreads();
     report.secondsASize = session.schedule.seconds;
-    std::vector<int> sides = {128, 256, 512, 1024};
+    std::vector<int> sides = {128, 256, 512, SortTable::mostOfAll, 4096};
     if (options.quick) sides.resize(2);
     std::cerr << "This takes about " << roughly(double(sides.size()) * (report.secondsASize + 1)) << ".\n";
     Progress progress("sizes", int(sides.size()));

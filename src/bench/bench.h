@@ -202,7 +202,7 @@ struct SchoolCase {
 
 constexpr double schoolDensity = 100;  // fish a m^3
 
-std::vector<SchoolCase> schoolCases(bool quick);
+std::vector<SchoolCase> schoolCases(bool quick, bool software);
 Scene schoolScene(const SchoolCase& one, const Molecule& fry);
 
 struct SchoolTimes {

@@ -50,11 +50,13 @@ class SchoolEntrant {
 
 }  // namespace
 
-std::vector<SchoolCase> schoolCases(bool quick) {
+std::vector<SchoolCase> schoolCases(bool quick, bool software) {
     constexpr Path fragments = Path::fragments;
     if (quick) return {{1000, true}, {1000, true, fragments}, {1000, false}};
-    return {{1000, true},   {3000, true},  {10000, true}, {10000, true, fragments},
-            {10000, false}, {30000, true}, {100000, true}};
+    std::vector<SchoolCase> out = {{1000, true},   {3000, true},  {10000, true}, {10000, true, fragments},
+                                   {10000, false}, {30000, true}, {100000, true}};
+    if (!software) out.insert(out.end(), {{1000000, true}, {1000000, false}});
+    return out;
 }
 
 Scene schoolScene(const SchoolCase& one, const Molecule& fry) {

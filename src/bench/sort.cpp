@@ -118,6 +118,11 @@ std::vector<Running> runnersOf(int side, const BenchDevice& device, const KeyPai
             time.name = concat(method.name, rowsOnly ? ", rows only" : "");
             time.method = method.method;
             time.rowsOnly = rowsOnly;
+            if (side > SortTable::mostOfAll && method.method != SortMethod::radix) {
+                time.leftOut = "too slow for so many";
+                add(time, nullptr);
+                continue;
+            }
             if (!canRun(method.method, info)) {
                 time.leftOut = concat("needs OpenGL ", method.major, ".", method.minor, "; this context has ",
                                       info.major, ".", info.minor);

@@ -29,7 +29,8 @@ struct SortTime {
 };
 
 struct SortTable {
-    int side = 0;  // side * side pairs, in rows of `side`
+    static constexpr int mostOfAll = 1024;  // the largest side for every sort, beyond it for radix
+    int side = 0;                           // side * side pairs, in rows of `side`
     std::vector<SortTime> times;
 
     size_t pairs() const { return size_t(side) * size_t(side); }

@@ -79,12 +79,16 @@ struct ContextOptions {
     bool visible = true;        // window: shown at once
     bool preferWindow = false;  // automatic: a window where there is a display, else headless
     bool debug = false;         // the driver's messages on stderr (OpenGL 4.3+)
-    // The functions of OpenGL by name (as eglGetProcAddress gives them): the caller has made a context, which is
-    // current now and whenever Shoal is called. It is never released or destroyed.
+    // The functions of OpenGL by name (as eglGetProcAddress gives them): the caller has made a context, which
+    // is current now and whenever Shoal is called. It is never released or destroyed.
     void (*(*loader)(const char* name))() = nullptr;
     std::optional<int> device;  // EGL: that of probeDevices(); nothing: the best that there is
     bool tellsLoss = false;     // EGL: the driver is asked to say when it has reset the device (checkAlive)
 };
+
+// How often all loops of a shader together turn on Mesa's CPU rasterisers, which then leave every loop after
+// one more turn and say nothing.
+constexpr int mostSoftwareTurns = 65535;
 
 struct ContextInfo {
     ContextKind kind = ContextKind::automatic;  // never automatic once there is a context

@@ -1,6 +1,7 @@
 #include "simulate/watchdog.h"
 
 #include <cmath>
+#include <limits>
 
 #include "compile/choose_solver.h"
 #include "compile/pack.h"
@@ -38,20 +39,28 @@ bool wasHeld(const GroupPlan& group, const GroupState& state, size_t molecule) {
 }
 
 std::string cause(const Plan& plan, const Alarm& alarm) {
+    if (alarm.cutShort)
+        return concat("Mesa's rasteriser leaves off after ", gpu::mostSoftwareTurns,
+                      " turns of loops for a molecule and frame, which many colliders, vertices and substeps "
+                      "need. Try fewer --substeps at a higher frameRate, or fewer colliders");
     std::string hasty = hastyForce(plan.forces, plan.groups[alarm.group], 1 / plan.frameRate / plan.substeps);
-    if (!hasty.empty()) return hasty;
+    constexpr const char* remedy = ". Try more --substeps, another --solver, or smaller numbers";
+    if (!hasty.empty()) return hasty + remedy;
     if (!alarm.finite)
-        return "the step is too long for something here, or a force is beyond what a float holds";
+        return concat("the step is too long for something here, or a force is beyond what a float holds",
+                      remedy);
     return concat("the limit is ", runawaySpeed,
                   " m/s: the step is too long for something here, or a field, a ",
-                  "force, drag or start velocity is too large");
+                  "force, drag or start velocity is too large", remedy);
 }
 
 std::string describe(const Plan& plan, const Alarm& alarm) {
     return concat("stopped at frame ", alarm.frame, ", ", alarm.time, " s: group \"",
                   plan.groups[alarm.group].name, "\", molecule ", alarm.molecule, ", vertex ", alarm.vertex,
-                  alarm.finite ? concat(" moves with ", alarm.speed, " m/s") : " is not finite", "; ",
-                  cause(plan, alarm), ". Try more --substeps, another --solver, or smaller numbers");
+                  alarm.cutShort ? " was cut short"
+                  : alarm.finite ? concat(" moves with ", alarm.speed, " m/s")
+                                 : " is not finite",
+                  "; ", cause(plan, alarm));
 }
 
 }  // namespace
@@ -102,6 +111,7 @@ Alarm findAlarm(const SavedState& saved) {
             worst.vertex = int(i % vertices);
             worst.speed = speed;
             worst.finite = finite;
+            worst.cutShort = state.positions[i] == glm::vec3(std::numeric_limits<float>::infinity());
             if (!finite) return worst;
         }
     }

@@ -32,8 +32,9 @@ struct Alarm {
     size_t group = 0;
     int molecule = 0, vertex = 0;
     bool finite = true;
-    double speed = 0;  // m/s, where finite
-    double time = 0;   // s, of the state that it was found in
+    bool cutShort = false;  // by a rasteriser that leaves loops (gpu::mostSoftwareTurns), which shaders mark
+    double speed = 0;       // m/s, where finite
+    double time = 0;        // s, of the state that it was found in
     int frame = 0;
 };
 Alarm findAlarm(const SavedState& state);

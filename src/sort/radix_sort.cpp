@@ -21,6 +21,8 @@ constexpr size_t pairBytes = 2 * sizeof(uint32_t);
 constexpr int simdLanes = 8;  // of a workgroup of pieces: what a CPU rasteriser runs in step
 constexpr int tileLanes = 256, tilePairs = 2048;
 constexpr int tileDigitBits = 8, pieceDigitBits = 11;
+// A piece is a loop, beside two over the digits.
+constexpr size_t longestPiece = size_t(gpu::mostSoftwareTurns) - 2 * (size_t(1) << pieceDigitBits) - 1;
 // Fewer pairs than these are not worth the work on 2,048 counters a lane.
 constexpr size_t manyPairs = size_t(1) << 16;
 
@@ -74,7 +76,7 @@ RadixSort::RadixSort(gpu::Context& context, const std::string& shaderRoot, size_
         tiles_ ? make("sort/tiles_scatter.comp", tileLanes) : make("sort/pieces_scatter.comp", simdLanes);
 
     const size_t digits = size_t(1) << (tiles_ ? tileDigitBits : pieceDigitBits);
-    const size_t most = tiles_ ? size_t(parts(capacity_, int(digits))) : size_t(mostLanes_);
+    const auto most = size_t(std::max(parts(capacity_, int(digits)), tiles_ ? 0 : mostLanes_));
     const auto storage = [&](size_t bytes, const char* label) {
         return Buffer(context, Buffer::Use::storage, nullptr, bytes, label);
     };
@@ -94,8 +96,9 @@ int RadixSort::passes(size_t count, int keyBits) const {
 // A piece is several times as long as its lane has counters, which it clears, writes and reads.
 int RadixSort::parts(size_t count, int digits) const {
     if (tiles_) return dividedUp(count, tilePairs);
-    const int lanes = dividedUp(count, size_t(4 * digits));
-    return std::clamp(dividedUp(size_t(lanes), simdLanes) * simdLanes, simdLanes, mostLanes_);
+    const auto wholeGroups = [](int lanes) { return dividedUp(size_t(lanes), simdLanes) * simdLanes; };
+    const int lanes = std::min(dividedUp(count, size_t(4 * digits)), mostLanes_);
+    return std::max(wholeGroups(lanes), wholeGroups(dividedUp(count, longestPiece)));
 }
 
 void RadixSort::setPass(const Program& program, const Pass& pass) const {
