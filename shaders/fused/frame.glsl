@@ -19,8 +19,13 @@ bool followAnchor()
 }
 
 #ifdef SOFTWARE
-// Whether loops end early, because there were more turns than Mesa's CPU rasterisers take (mostSoftwareTurns in
-// src/gpu/context.h).
+// Where loops end early, because there were more turns than Mesa's CPU rasterisers take (mostSoftwareTurns in
+// src/gpu/context.h), a vertex gets this, m, for the watchdog (src/simulate/watchdog.cpp).
+vec3 cutShort()
+{
+    return vec3(uintBitsToFloat(0x7f800000u));
+}
+
 bool loopsEndEarly()
 {
     int turns = 0;
@@ -62,6 +67,10 @@ void main()
     if (resting > 0.0 && !probed) substeps = 0;
 #endif
 #endif
+#ifdef SOFTWARE
+    bool wasCutShort = x[0] == cutShort();
+    if (wasCutShort) substeps = 0;
+#endif
     bool wasReleased = released;
     bool moved = false;
 #ifdef RECORDS
@@ -72,8 +81,7 @@ void main()
     run();
     finishSolver();
 #ifdef SOFTWARE
-    // infinity in all of a vertex: for the watchdog (src/simulate/watchdog.cpp)
-    if (loopsEndEarly()) x[0] = vec3(uintBitsToFloat(0x7f800000u));
+    if (wasCutShort || loopsEndEarly()) x[0] = cutShort();
 #endif
 #ifdef RESTING
     // What rests stays; that it would move otherwise than when it came to rest wakes it (contact/rest.comp).

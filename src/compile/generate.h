@@ -42,6 +42,7 @@ struct GeneratedColliders : Generated {
     std::vector<size_t> materials;
     std::vector<MovingCollider> moving;
     std::optional<size_t> fastestSlot;  // setPoses
+    size_t tabled = 0;                  // colliders among the samples
 };
 
 // Whether a vertex has contact with all of them at once, with JOINT_CONTACT: not where there is only one

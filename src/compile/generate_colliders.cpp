@@ -137,6 +137,7 @@ class Joint {
             if (slots > maxParameters && ColliderTable::holds(collider)) {
                 writer_.result.materials[i] = tabledMaterial(collider);
                 table_.add(collider, i, writer_.result.materials[i]);
+                ++writer_.result.tabled;
             } else {
                 write(writer_.text(collider, i), i);
             }

@@ -152,6 +152,13 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
     return secondsToCompile(plan, group) > longestSeconds;
 }
 
+int piecesOf(const Plan& plan, int vertices, int substeps) {
+    constexpr double looks = 8;        // at all colliders, of a vertex and substep that touches some
+    constexpr double mostTurns = 6e4;  // somewhat fewer than gpu::mostSoftwareTurns
+    const double turns = looks * double(plan.tabledColliders) * vertices * substeps;
+    return int(std::clamp(std::ceil(turns / mostTurns), 1.0, double(substeps)));
+}
+
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {
     const bool implicit = solver(group.solver).implicit;
     if (implicit && (wanted == Lanes::vertex || group.vertexCount > FusedLimits::laneVertices))

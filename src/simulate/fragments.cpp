@@ -59,6 +59,8 @@ Fragments::Fragments(gpu::Context& context, const std::string& shaderRoot, const
     for (size_t g = 0; g < plan.groups.size(); ++g) {
         const GroupPlan& group = plan.groups[g];
         state.emplace_back(context, group, options.drawn, targets);
+        if (kernel.software && group.needs.collide)
+            mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
         Programs& programs = programs_.emplace_back();
         const std::vector<Targets> draws = drawsOf(storedByStep(group), targets);
         programs.kernel = std::make_unique<GroupKernel>(
@@ -123,16 +125,13 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
 void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, state, timers);
-    if (!contact_) {
-        run(frame, timers);
-        if (births_) births_->step(frame, state, timers);
-    }
-    const int steps = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps) : 0;
-    for (int i = 0; i < steps; ++i) {
-        const Frame piece = pieceOf(frame, i, steps);
+    pieces_ = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps)
+                       : piecesOf(*plan_, mostVertices_, frame.parameters.substeps);
+    for (int i = 0; i < pieces_; ++i) {
+        const Frame piece = pieceOf(frame, i, pieces_);
         run(piece, timers);
         if (births_) births_->step(piece, state, timers);
-        contact_->step(piece, *contactState_, timers);
+        if (contact_) contact_->step(piece, *contactState_, timers);
     }
     computeNormals(timers);
     if (query_) watch(timers);
@@ -160,9 +159,9 @@ void Fragments::watch(gpu::PassTimers& timers) {
 }
 
 std::optional<std::vector<GroupState>> Fragments::readBefore() const {
-    if (births_) return {};   // newborns have taken places since
-    if (school_) return {};   // the muscles' clocks have moved on
-    if (contact_) return {};  // the side before is that of a step within the frame
+    if (births_) return {};                  // newborns have taken places since
+    if (school_) return {};                  // the muscles' clocks have moved on
+    if (contact_ || pieces_ > 1) return {};  // the side before is that of a step within the frame
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g)
         out.push_back(plan_->groups[g].isStill() ? state[g].read(plan_->groups[g])

@@ -68,6 +68,8 @@ class Fragments : public ExecutionPath {
     void watch(gpu::PassTimers& timers);
 
     const Plan* plan_;
+    int mostVertices_ = 0;  // of a lane, where loops end early (compile/lanes.h: piecesOf)
+    int pieces_ = 1;        // dispatches of the last frame
     gpu::Programs made_;
     std::vector<Programs> programs_;  // per group
     gpu::VertexArray noAttributes_;

@@ -48,6 +48,8 @@ Fused::Fused(gpu::Context& context, const std::string& shaderRoot, const Plan& p
         kernel.groupVote = info.groupVote;
         kernel.software = info.software;
         kernel.watch = options.watchdog;
+        if (info.software && group.needs.collide)
+            mostVertices_ = std::max(mostVertices_, verticesOfLane(group, kernel));
         together.push_back(workgroupMolecules(group, kernel));
         state.emplace_back(context, group, options.drawn, options.inPlace,
                            atMost(size_t(info.maxWorkGroupsX) * size_t(together.back())));
@@ -94,21 +96,16 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, state, timers);
-    if (!contact_) {
-        run(frame, timers);
-        if (births_) births_->step(frame, state, timers);
-        if (births_) computeNormals(timers);
-        return;
-    }
-    const int steps = std::min(plan_->contact.steps, frame.parameters.substeps);
-    for (int i = 0; i < steps; ++i) {
-        const Frame piece = pieceOf(frame, i, steps);
-        contact_->begin(piece);
+    pieces_ = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps)
+                       : piecesOf(*plan_, mostVertices_, frame.parameters.substeps);
+    for (int i = 0; i < pieces_; ++i) {
+        const Frame piece = pieceOf(frame, i, pieces_);
+        if (contact_) contact_->begin(piece);
         run(piece, timers);
         if (births_) births_->step(piece, state, timers);
-        contact_->step(piece, state, timers);
+        if (contact_) contact_->step(piece, state, timers);
     }
-    computeNormals(timers);
+    if (contact_ || births_) computeNormals(timers);
 }
 
 void Fused::run(const Frame& frame, gpu::PassTimers& timers) {
@@ -139,9 +136,9 @@ GroupState Fused::read(size_t group) const {
 }
 
 std::optional<std::vector<GroupState>> Fused::readBefore() const {
-    if (births_) return {};                               // newborns have taken places since
-    if (school_) return {};                               // the muscles' clocks have moved on
-    if (contact_ && plan_->contact.steps > 1) return {};  // the side of a step within the frame
+    if (births_) return {};      // newborns have taken places since
+    if (school_) return {};      // the muscles' clocks have moved on
+    if (pieces_ > 1) return {};  // the side of a step within the frame
     std::vector<GroupState> out;
     for (size_t g = 0; g < state.size(); ++g) {
         if (state[g].inPlace()) return {};

@@ -57,6 +57,8 @@ class Fused : public ExecutionPath {
                   KernelOptions::Work work) const;
 
     const Plan* plan_;
+    int mostVertices_ = 0;  // of a lane, where loops end early (compile/lanes.h: piecesOf)
+    int pieces_ = 1;        // dispatches of the last frame
     bool drawn_;
     gpu::Programs programs_;
     std::vector<std::unique_ptr<GroupKernel>> kernels_;  // per group, as the next

@@ -221,9 +221,7 @@ VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOption
     using Form = VertexLoops::Form;
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };
     constexpr size_t longest = 48;  // calls of a field or a collider
-    const int ofLane = options.lanes == Lanes::molecule
-                           ? group.vertexCount
-                           : workgroupShape(group.vertexCount, options.sharedBytes).vertices;
+    const int ofLane = verticesOfLane(group, options);
     const auto vertices = size_t(ofLane);
     const bool software = options.software;
     const bool isLong = plan.longFields || (!software && !plan.noiseTiles.empty());
@@ -263,6 +261,11 @@ std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets) {
     for (int first = 0; first < int(values); first += targets)
         out.push_back({first, std::min(targets, int(values) - first)});
     return out;
+}
+
+int verticesOfLane(const GroupPlan& group, const KernelOptions& options) {
+    return options.lanes == Lanes::molecule ? group.vertexCount
+                                            : workgroupShape(group.vertexCount, options.sharedBytes).vertices;
 }
 
 int workgroupMolecules(const GroupPlan& group, const KernelOptions& options) {

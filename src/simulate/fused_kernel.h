@@ -44,6 +44,8 @@ std::vector<std::string> storedAtBirth(const GroupPlan& group);
 std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)
+// Vertices that a lane of the step holds, at most.
+int verticesOfLane(const GroupPlan& group, const KernelOptions& options);
 // Molecules of a workgroup of the step.
 int workgroupMolecules(const GroupPlan& group, const KernelOptions& options);
 

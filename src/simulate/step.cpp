@@ -26,6 +26,7 @@ bool jumps(const Parameters& from, const Parameters& to) {
 }
 
 Frame pieceOf(const Frame& frame, int i, int steps) {
+    if (steps == 1) return frame;
     const int substeps = frame.parameters.substeps;
     Frame out = frame;
     const auto begin = [&](int piece) {

@@ -2,10 +2,12 @@
 // What every solver makes of it is in tests/hard/test_colliders.cpp.
 #include <cmath>
 
+#include "gl/feature_scenes.h"
 #include "gl/numerics.h"
 #include "scene/collider_kinds.h"
 #include "support/catch.h"
 #include "support/colliders.h"
+#include "support/message_of.h"
 
 namespace shoal {
 
@@ -28,6 +30,20 @@ ColliderPath ride(const glm::dvec3& velocity) {
     ColliderPath out;
     out.keyframes = {{0, {}}, {9, {9.0 * velocity, {1, 0, 0, 0}}}};
     return out;
+}
+
+// A quad that drops onto a ball and rests there, with so many balls far away.
+Simulation amongMany(int far) {
+    Scene scene = test::swarm(test::shippedMolecule("quad"), 1, SolverKind::euler);
+    scene.gravity = {0, -9.81, 0};
+    scene.solver.substeps = 64;
+    scene.groups[0].place.box = {{0, 0.3, 0}, {0, 0.3, 0}};
+    scene.groups[0].place.turn = Placement::Turn::none;
+    for (int i = 0; i < far; ++i)
+        scene.colliders.push_back(
+            {.name = concat("far ", i), .shape = SphereCollider{{50 + 3 * i, 0, 0}, 1}});
+    scene.colliders.push_back({.name = "near", .shape = SphereCollider{{0, -1, 0}, 1}});
+    return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = testPath()});
 }
 
 }  // namespace
@@ -244,6 +260,21 @@ TEST_CASE("verlet: between colliders the velocity is that of the positions, too"
         before = now;
     }
     CHECK(glm::length(simulation.snapshot(0).velocities[0]) < 1e-5);
+}
+
+TEST_CASE("however many colliders there are, all substeps of a frame are done", "[contact]") {
+    if (testPath() == Path::pingPong) return;
+    // a CPU rasteriser leaves loops after 65,535 turns: 64 substeps of four vertices pass 60 balls, and look
+    // again
+    Simulation few = amongMany(60), many = amongMany(1000);
+    test::run(few, 90);
+    test::run(many, 90);
+    CHECK(few.hash() == many.hash());
+    CHECK(few.snapshot(0).positions[0].y < 0);
+    if (!testContext().info().software) return;
+    Simulation most = amongMany(5000);
+    CHECK_THAT(messageOf([&] { test::run(most, 90), most.check(); }),
+               Catch::Contains("was cut short") && Catch::Contains("fewer colliders"));
 }
 
 }  // namespace shoal
