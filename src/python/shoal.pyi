@@ -4,7 +4,7 @@ SI units. Arrays have the shape (molecules, vertices, 3). A group is given by na
 has one.
 """
 from os import PathLike
-from typing import Any, Sequence
+from typing import Any, Iterator, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -37,6 +37,15 @@ class Scene:
     @property
     def groups(self) -> list[str]: ...
 
+class Factors:
+    def __len__(self) -> int: ...
+    def __getitem__(self, key: str | int) -> float: ...
+    def __setitem__(self, key: str | int, factor: float) -> None: ...
+    def __iter__(self) -> Iterator[str]: ...
+    def keys(self) -> list[str]: ...
+    def values(self) -> list[float]: ...
+    def items(self) -> list[tuple[str, float]]: ...
+
 class Parameters:
     wind: float
     drag: float
@@ -45,8 +54,14 @@ class Parameters:
     substeps: int
     frame_time: float
     gravity: Sequence[float]
-    fields: list[float]
-    forces: list[float]
+    @property
+    def fields(self) -> Factors: ...
+    @fields.setter
+    def fields(self, value: Factors | Sequence[float] | Mapping[str | int, float]) -> None: ...
+    @property
+    def forces(self) -> Factors: ...
+    @forces.setter
+    def forces(self, value: Factors | Sequence[float] | Mapping[str | int, float]) -> None: ...
 
 class Simulation:
     def __init__(

@@ -99,16 +99,47 @@ def test_parameters_act(hello):
 def test_fields_and_forces_have_factors():
     scene = pairs(
         gravity=[0, 0, 0],
-        fields=[{"type": "uniform", "velocity": [1, 0, 0]}],
-        forces=[{"type": "wind", "velocity": [0, 2, 0]}],
+        fields=[{"name": "breeze", "type": "uniform", "velocity": [1, 0, 0]}, {"type": "uniform", "velocity": [0, 0, 1]}],
+        forces=[{"name": "draught", "type": "wind", "velocity": [0, 2, 0]}],
     )
     with shoal.Simulation(scene) as simulation:
-        assert simulation.parameters.forces == [1]
-        simulation.parameters.forces = [0]
-        with pytest.raises(shoal.Error, match="expected 1 factors, found 2"):
-            simulation.parameters.forces = [1, 2]
-        simulation.parameters.fields = [2]
-        assert simulation.parameters.fields == [2]
+        parameters = simulation.parameters
+        forces, fields = parameters.forces, parameters.fields
+        assert list(forces.items()) == [("draught", 1)] and forces[0] == forces["draught"] == 1
+        forces["draught"] = 0
+        fields[1] = 0
+        assert dict(forces) == {"draught": 0} and fields.values() == [1, 0] and len(fields) == 2
+        parameters.fields = [2, 3]
+        parameters.fields = {"breeze": 0.5}
+        assert fields.values() == [0.5, 3]
+        for wrong, words in (
+            (lambda: setattr(parameters, "forces", [1, 2]), "expected 1 factors, found 2"),
+            (lambda: setattr(parameters, "fields", {1: 7, "breze": 1}), 'did you mean "breeze"'),
+            (lambda: forces[1], "there is no number 1"),
+            (lambda: forces.__setitem__("draught", np.inf), "forces is not finite"),
+        ):
+            with pytest.raises(shoal.Error, match=words):
+                wrong()
+        assert fields.values() == [0.5, 3]
+        simulation.step()
+
+
+def test_fields_act_by_name():
+    place = {"on": "list", "items": [{"position": [0, 0, 0]}]}
+    scene = shoal.Scene(
+        {
+            "groups": [{"molecule": PAIR, "place": place, "drag": 2}],
+            "gravity": [0, 0, 0],
+            "fields": [{"name": "breeze", "type": "uniform", "velocity": [1, 0, 0]}],
+        }
+    )
+    with shoal.Simulation(scene) as simulation:
+        simulation.parameters.fields["breeze"] = 0
+        simulation.step(20)
+        assert np.abs(simulation.velocities()).max() < 1e-3
+        simulation.parameters.fields["breeze"] = 2
+        simulation.step(20)
+        assert (simulation.velocities().mean(axis=1)[:, 0] > 0.1).all()
 
 
 def test_pictures_are_arrays(hello):
@@ -147,6 +178,15 @@ def test_errors_say_where(tmp_path, hello):
         (lambda: shoal.Simulation(shoal.Scene("hello"), solver="leapfog"), 'did you mean "leapfrog"'),
         (lambda: shoal.Simulation(shoal.Scene("hello"), device=99), "no device 99"),
         (lambda: hello.load(tmp_path / "none.shoal"), "none.shoal"),
+        (lambda: hello.picture(eye=[np.nan, 0, 0]), "eye is not finite"),
+        (lambda: hello.picture(target=[0, np.inf, 0]), "target is not finite"),
+        (lambda: hello.picture(field_of_view=4), "between 0 and pi"),
+        (lambda: shoal.measure(shoal.Scene("hello"), duration=np.nan), "duration is not finite"),
+        (lambda: shoal.measure(shoal.Scene("hello"), seconds=0), "seconds is above 0"),
+        (lambda: setattr(hello.parameters, "wind", np.nan), "wind is not finite"),
+        (lambda: setattr(hello.parameters, "gravity", [0, np.nan, 0]), "gravity is not finite"),
+        (lambda: setattr(hello.parameters, "substeps", 0), "1 to 1000 substeps"),
+        (lambda: setattr(hello.parameters, "frame_time", 0), "frame_time is above 0"),
     ):
         with pytest.raises(shoal.Error, match=words):
             wrong()

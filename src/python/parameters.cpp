@@ -1,0 +1,160 @@
+#include "python/parameters.h"
+
+#include "core/error.h"
+
+namespace shoal::python {
+
+namespace {
+
+// Factors on the fields' weights or the forces' strengths, by name or number.
+class PyFactors {
+  public:
+    enum class Of { fields, forces };
+
+    PyFactors(PySimulation& simulation, Of of) : simulation_(&simulation), of_(of) {}
+
+    size_t size() const { return names().size(); }
+    std::vector<std::string> names() const {
+        std::vector<std::string> out;
+        const Scene& scene = simulation_->scene();
+        if (of_ == Of::fields)
+            for (const Field& field : scene.fields)
+                out.push_back(field.name);
+        else
+            for (const Force& force : scene.forces)
+                out.push_back(force.name);
+        return out;
+    }
+    double get(const py::object& key) const { return valueOf(indexOf(key)); }
+    std::vector<double> values() const {
+        std::vector<double> out;
+        for (size_t i = 0; i < size(); ++i)
+            out.push_back(valueOf(i));
+        return out;
+    }
+    py::list items() const {
+        py::list out;
+        for (const std::string& name : names())
+            out.append(py::make_tuple(name, valueOf(out.size())));
+        return out;
+    }
+    void set(const py::object& key, double factor) { setValue(indexOf(key), finite(what(), factor)); }
+    // A dict changes those that it names, a list all.
+    void setAll(const py::object& factors) {
+        if (py::isinstance<PyFactors>(factors)) return setAll(py::cast(factors.cast<PyFactors&>().values()));
+        if (py::isinstance<py::dict>(factors)) {
+            std::vector<std::pair<size_t, double>> all;  // nothing changes where one of them is wrong
+            for (const auto& [key, value] : factors.cast<py::dict>())
+                all.emplace_back(indexOf(py::reinterpret_borrow<py::object>(key)),
+                                 finite(what(), value.cast<double>()));
+            for (const auto& [index, value] : all)
+                setValue(index, value);
+            return;
+        }
+        const auto list = factors.cast<std::vector<double>>();
+        if (list.size() != size())
+            throw Error(what(), ": expected ", size(), " factors, found ", list.size());
+        for (const double value : list)
+            finite(what(), value);
+        for (size_t i = 0; i < list.size(); ++i)
+            setValue(i, list[i]);
+    }
+    std::string text() const { return concat("Factors(", std::string(py::str(py::dict(items()))), ")"); }
+
+  private:
+    const char* what() const { return of_ == Of::fields ? "fields" : "forces"; }
+    size_t indexOf(const py::object& key) const {
+        const std::vector<std::string> all = names();
+        if (py::isinstance<py::int_>(key)) {
+            const auto number = key.cast<py::ssize_t>();
+            if (number >= 0 && size_t(number) < all.size()) return size_t(number);
+            throw Error(what(), ": there is no number ", number, ": the scene has ", all.size());
+        }
+        const auto word = key.cast<std::string>();
+        const auto found = std::find(all.begin(), all.end(), word);
+        if (found == all.end()) throw Error(what(), ": there is no \"", word, "\"", suggestion(word, all));
+        return size_t(found - all.begin());
+    }
+    double valueOf(size_t index) const {
+        const Parameters& parameters = simulation_->use().parameters;
+        if (of_ == Of::forces) return parameters.forces[index].factor;
+        return index < parameters.fields.size() ? parameters.fields[index] : 1;
+    }
+    void setValue(size_t index, double value) {
+        Parameters& parameters = simulation_->use().parameters;
+        if (of_ == Of::forces) {
+            parameters.forces[index].factor = value;
+            return;
+        }
+        if (parameters.fields.size() < size()) parameters.fields.resize(size(), 1);
+        parameters.fields[index] = value;
+    }
+
+    PySimulation* simulation_;
+    Of of_;
+};
+
+Parameters& of(const PyParameters& self) {
+    return self.simulation->use().parameters;
+}
+
+}  // namespace
+
+void bindParameters(py::module_& m) {
+    py::class_<PyFactors>(m, "Factors", "Factors by name or number, in the scene's order.")
+        .def("__len__", &PyFactors::size)
+        .def("__getitem__", &PyFactors::get)
+        .def("__setitem__", &PyFactors::set)
+        .def("__iter__", [](const PyFactors& self) { return py::iter(py::cast(self.names())); })
+        .def("keys", &PyFactors::names, "Their names.")
+        .def("values", &PyFactors::values)
+        .def("items", &PyFactors::items)
+        .def("__repr__", &PyFactors::text);
+
+    py::class_<PyParameters> out(m, "Parameters", "What may change between frames.");
+    const auto factor = [&](const char* name, double Parameters::*member, const char* doc) {
+        out.def_property(
+            name, [member](const PyParameters& self) { return of(self).*member; },
+            [name, member](PyParameters& self, double value) { of(self).*member = finite(name, value); },
+            doc);
+    };
+    factor("wind", &Parameters::wind, "Factor on every field.");
+    factor("drag", &Parameters::drag, "Factor on every drag rate.");
+    factor("stiffness", &Parameters::stiffness, "Factor on every spring.");
+    factor("damping", &Parameters::damping, "Factor on every spring's damping.");
+    out.def_property(
+        "substeps", [](const PyParameters& self) { return of(self).substeps; },
+        [](PyParameters& self, int value) {
+            if (value < 1 || value > maxSubsteps)
+                throw Error("a frame has 1 to ", maxSubsteps, " substeps, not ", value);
+            of(self).substeps = value;
+        },
+        "Of a frame.");
+    out.def_property(
+        "frame_time", [](const PyParameters& self) { return of(self).frameTime; },
+        [](PyParameters& self, double value) {
+            if (!(finite("frame_time", value) > 0)) throw Error("frame_time is above 0, not ", value);
+            of(self).frameTime = value;
+        },
+        "s, of a frame.");
+    out.def_property(
+        "gravity",
+        [](const PyParameters& self) {
+            const glm::dvec3& g = of(self).gravity;
+            return Vector3{g.x, g.y, g.z};
+        },
+        [](PyParameters& self, const Vector3& value) { of(self).gravity = finite("gravity", value); },
+        "m/s^2.");
+    const auto factors = [&](const char* name, PyFactors::Of kind, const char* doc) {
+        out.def_property(
+            name, [kind](const PyParameters& self) { return PyFactors(*self.simulation, kind); },
+            [kind](PyParameters& self, const py::object& value) {
+                PyFactors(*self.simulation, kind).setAll(value);
+            },
+            doc);
+    };
+    factors("fields", PyFactors::Of::fields, "Factors on the fields' weights; set by a list or a dict.");
+    factors("forces", PyFactors::Of::forces, "Factors on the forces' strengths; set by a list or a dict.");
+}
+
+}  // namespace shoal::python

@@ -1,0 +1,15 @@
+// What may change of a simulation between frames.
+#pragma once
+
+#include "python/simulation.h"
+
+namespace shoal::python {
+
+struct PyParameters {
+    PySimulation* simulation;
+};
+
+// Makes the classes Parameters and Factors, whose objects keep the simulation.
+void bindParameters(py::module_& m);
+
+}  // namespace shoal::python

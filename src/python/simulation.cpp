@@ -1,0 +1,256 @@
+#include "python/simulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+#include "run/data_paths.h"
+#include "scene/json/scene_file.h"
+#include "simulate/checkpoint.h"
+
+namespace shoal::python {
+
+// Never destroyed: drivers do not outlive the interpreter's end.
+Device& deviceOf(std::optional<int> number) {
+    static auto& devices = *new std::map<std::optional<int>, Device*>;
+    Device*& device = devices[number];
+    if (!device) {
+        gpu::ContextOptions options;
+        options.visible = false;
+        options.device = number;
+        if (number) options.kind = gpu::ContextKind::egl;
+        device = new Device(options);
+    }
+    return *device;
+}
+
+void enter(Device& device) {
+    if (device.thread != std::this_thread::get_id())
+        throw Error("a simulation is used in another thread than the one that made the first on its device");
+    device.context.makeCurrent();
+}
+
+double finite(const char* what, double value) {
+    if (!std::isfinite(value)) throw Error(what, " is not finite");
+    return value;
+}
+
+glm::dvec3 finite(const char* what, const Vector3& value) {
+    return {finite(what, value[0]), finite(what, value[1]), finite(what, value[2])};
+}
+
+static std::vector<glm::dvec3> given(const char* what, const Array& array, const GroupPlan& plan) {
+    const py::ssize_t shape[] = {plan.count, plan.vertexCount, 3};
+    std::string found;
+    for (py::ssize_t i = 0; i < array.ndim(); ++i)
+        found += concat(i ? ", " : "", array.shape(i));
+    if (array.ndim() != 3 || !std::equal(shape, shape + 3, array.shape()))
+        throw Error(what, ": expected an array of shape (", shape[0], ", ", shape[1], ", 3), found (", found,
+                    ")");
+    std::vector<glm::dvec3> out(size_t(plan.count) * size_t(plan.vertexCount));
+    std::copy_n(array.data(), 3 * out.size(), &out.data()->x);
+    for (const glm::dvec3& value : out)
+        if (!std::isfinite(value.x + value.y + value.z)) throw Error(what, ": a number is not finite");
+    return out;
+}
+
+PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string>& solver,
+                           std::optional<int> substeps, std::optional<int> device, const std::string& path)
+    : scene_(scene.scene) {
+    if (solver) scene_.solver.kind = solverOf(*solver);
+    if (substeps) scene_.solver.substeps = *substeps;
+    checkScene(scene_);
+    const Path wanted = shoal::path(path);
+    const py::gil_scoped_release release;
+    device_ = &deviceOf(device);
+    enter(*device_);
+    SimulationOptions options;
+    options.path = wanted;
+    options.cache = &device_->cache;
+    simulation_ = std::make_unique<Simulation>(device_->context, shaderRoot(), compile(scene_), options);
+}
+
+void PySimulation::step(int frames) {
+    if (frames < 0) throw Error("step() takes 0 frames or more, not ", frames);
+    Simulation& simulation = use();
+    for (int i = 0; i < frames; ++i)
+        simulation.frame();
+    simulation.check();
+}
+
+void PySimulation::close() {
+    if (simulation_) enter(*device_);
+    renderer_.reset();
+    simulation_.reset();
+}
+
+std::vector<std::string> PySimulation::groups() {
+    std::vector<std::string> out;
+    for (const GroupPlan& group : use().plan().groups)
+        out.push_back(group.name);
+    return out;
+}
+
+py::array PySimulation::alive(const py::object& group) {
+    const Snapshot state = use().snapshot(groupOf(group));
+    py::array_t<bool> out(py::ssize_t(state.count));
+    for (py::ssize_t m = 0; m < state.count; ++m)
+        out.mutable_at(m) = state.alive.empty() || state.alive[size_t(m)];
+    return out;
+}
+
+void PySimulation::setState(const py::object& group, const std::optional<Array>& positions,
+                            const std::optional<Array>& velocities) {
+    const size_t index = groupOf(group);
+    Simulation& simulation = use();
+    SavedState saved = simulation.save();
+    GroupState& state = saved.groups[index];
+    const GroupPlan& plan = simulation.plan().groups[index];
+    if (positions) {
+        const std::vector<glm::dvec3> places = given("positions", *positions, plan);
+        for (size_t i = 0; i < places.size(); ++i)
+            state.positions[i] =
+                glm::vec3(places[i] - glm::dvec3(state.anchors[i / size_t(plan.vertexCount)]));
+    }
+    if (velocities) {
+        const std::vector<glm::dvec3> speeds = given("velocities", *velocities, plan);
+        for (size_t i = 0; i < speeds.size(); ++i)
+            state.velocities[i] = glm::vec3(speeds[i]);
+    }
+    saved.step = 0;  // solvers with history start anew
+    simulation.load(saved);
+}
+
+py::dict PySimulation::energy(const py::object& group) {
+    const size_t index = groupOf(group);
+    Simulation& simulation = use();
+    const Snapshot state = simulation.snapshot(index);
+    const GroupPlan& plan = simulation.plan().groups[index];
+    const Molecule& molecule = scene_.groups[plan.index].molecule;
+    const auto each = size_t(plan.vertexCount);
+    double kinetic = 0, elastic = 0, gravity = 0;
+    for (size_t m = 0; m < size_t(state.count); ++m) {
+        if (!state.alive.empty() && !state.alive[m]) continue;
+        for (size_t v = 0; v < each; ++v) {
+            const size_t i = m * each + v;
+            const double mass = molecule.vertices[v].mass;
+            kinetic += 0.5 * mass * glm::dot(state.velocities[i], state.velocities[i]);
+            gravity -= mass * glm::dot(simulation.parameters.gravity, state.positions[i]);
+        }
+        const double scale = plan.constants.scales.empty() ? 1 : double(plan.constants.scales[m]);
+        for (const Spring& spring : molecule.springs) {
+            const double length = glm::distance(state.positions[m * each + size_t(spring.a)],
+                                                state.positions[m * each + size_t(spring.b)]);
+            const double off = length - scale * molecule.restLength(spring);
+            elastic += 0.5 * plan.stiffness * spring.stiffness * off * off;
+        }
+    }
+    py::dict out;
+    out["kinetic"] = kinetic;
+    out["elastic"] = elastic;
+    out["gravity"] = gravity;
+    return out;
+}
+
+py::array PySimulation::picture(int width, int height, const std::optional<std::array<double, 3>>& eye,
+                                const std::optional<std::array<double, 3>>& target,
+                                std::optional<double> fieldOfView) {
+    constexpr int largest = 16384;
+    if (width < 1 || height < 1 || width > largest || height > largest)
+        throw Error("a picture has 1 to ", largest, " pixels a side, not ", width, " x ", height);
+    if (fieldOfView && !(*fieldOfView > 0 && *fieldOfView < std::numbers::pi))
+        throw Error("field_of_view is between 0 and pi, not ", *fieldOfView);
+    Image image;
+    {
+        const py::gil_scoped_release release;
+        Simulation& simulation = use();
+        RenderOptions options;
+        options.width = width;
+        options.height = height;
+        if (!renderer_)
+            renderer_ = std::make_unique<Renderer>(device_->context, shaderRoot(), scene_, simulation.plan(),
+                                                   options);
+        renderer_->resize(width, height);
+        View view = View::of(scene_.camera, simulation.time());
+        if (eye) view.eye = finite("eye", *eye);
+        if (target) view.target = finite("target", *target);
+        if (fieldOfView) view.fieldOfView = *fieldOfView;
+        renderer_->draw(simulation.state(), view);
+        image = renderer_->capture();
+    }
+    py::array_t<uint8_t> out({py::ssize_t(height), py::ssize_t(width), py::ssize_t(4)});
+    std::copy(image.pixels.begin(), image.pixels.end(), out.mutable_data());
+    return out;
+}
+
+void PySimulation::save(const std::filesystem::path& file) {
+    Simulation& simulation = use();
+    writeCheckpoint(file, simulation.plan(), {simulation.save(), simulation.parameters});
+}
+
+void PySimulation::load(const std::filesystem::path& file) {
+    Simulation& simulation = use();
+    const Checkpoint read = readCheckpoint(file, simulation.plan());
+    simulation.load(read.state);
+    simulation.parameters = read.parameters;
+}
+
+Simulation& PySimulation::use() {
+    if (!simulation_) throw Error("the simulation was closed");
+    enter(*device_);
+    return *simulation_;
+}
+
+size_t PySimulation::groupOf(const py::object& group) {
+    const std::vector<GroupPlan>& groups = use().plan().groups;
+    if (group.is_none()) {
+        if (groups.size() == 1) return 0;
+        throw Error("the scene has ", groups.size(), " groups: say which, by name or number");
+    }
+    if (py::isinstance<py::int_>(group)) {
+        const auto number = group.cast<py::ssize_t>();
+        if (number >= 0 && size_t(number) < groups.size()) return size_t(number);
+        throw Error("there is no group ", number, ": the scene has ", groups.size());
+    }
+    const auto word = group.cast<std::string>();
+    std::vector<std::string> names;
+    for (size_t i = 0; i < groups.size(); ++i) {
+        if (groups[i].name == word) return i;
+        names.push_back(groups[i].name);
+    }
+    throw Error("the scene has no group \"", word, "\"", suggestion(word, names));
+}
+
+// The array takes the vector's memory.
+template <typename Vector>
+py::array PySimulation::vectors(const py::object& group, std::vector<Vector> Snapshot::*values) {
+    using Number = typename Vector::value_type;
+    static_assert(sizeof(Vector) == 3 * sizeof(Number));
+    const size_t index = groupOf(group);
+    auto state = std::make_unique<Snapshot>();
+    {
+        const py::gil_scoped_release release;
+        *state = use().snapshot(index);
+    }
+    auto* kept = new std::vector<Vector>(std::move((*state).*values));
+    const py::capsule owner(kept, [](void* memory) { delete static_cast<std::vector<Vector>*>(memory); });
+    return py::array_t<Number>({py::ssize_t(state->count), py::ssize_t(state->vertexCount), py::ssize_t(3)},
+                               &kept->data()->x, owner);
+}
+
+py::array PySimulation::positions(const py::object& group) {
+    return vectors(group, &Snapshot::positions);
+}
+py::array PySimulation::velocities(const py::object& group) {
+    return vectors(group, &Snapshot::velocities);
+}
+py::array PySimulation::normals(const py::object& group) {
+    return vectors(group, &Snapshot::normals);
+}
+
+std::string PySimulation::hash() {
+    return formatted("%016llx", static_cast<unsigned long long>(use().hash()));
+}
+
+}  // namespace shoal::python

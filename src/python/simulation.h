@@ -1,0 +1,83 @@
+// Simulations with state as NumPy arrays.
+//
+// All simulations on one device share a context of OpenGL, which lives as long as the process and belongs to
+// the thread that made it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <thread>
+
+#include "core/cache_folder.h"
+#include "gpu/program_cache.h"
+#include "python/scene.h"
+#include "render/renderer.h"
+#include "simulate/simulation.h"
+
+namespace shoal::python {
+
+using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Vector3 = std::array<double, 3>;
+
+struct Device {
+    gpu::Context context;
+    gpu::ProgramCache cache;
+    std::thread::id thread = std::this_thread::get_id();
+
+    explicit Device(const gpu::ContextOptions& options) : context(options), cache(context, cacheFolder()) {}
+};
+// By its number among those of EGL; nothing: the best. Made at the first call.
+Device& deviceOf(std::optional<int> number);
+// Makes its context current. Error: another thread made it.
+void enter(Device& device);
+
+// Error: a number is not finite; tells `what` it is.
+double finite(const char* what, double value);
+glm::dvec3 finite(const char* what, const Vector3& value);
+
+class PySimulation {
+  public:
+    PySimulation(const PyScene& scene, const std::optional<std::string>& solver, std::optional<int> substeps,
+                 std::optional<int> device, const std::string& path);
+
+    void step(int frames);
+    void restart() { use().restart(); }
+    void close();
+
+    double time() { return use().time(); }
+    int frames() { return use().frames(); }
+    std::string hash();
+    std::string solver(const py::object& group) { return name(use().plan().groups[groupOf(group)].solver); }
+    std::vector<std::string> groups();
+
+    py::array positions(const py::object& group);
+    py::array velocities(const py::object& group);
+    py::array normals(const py::object& group);
+    py::array alive(const py::object& group);
+    void setState(const py::object& group, const std::optional<Array>& positions,
+                  const std::optional<Array>& velocities);
+    py::dict energy(const py::object& group);
+
+    py::array picture(int width, int height, const std::optional<Vector3>& eye,
+                      const std::optional<Vector3>& target, std::optional<double> fieldOfView);
+
+    void save(const std::filesystem::path& file);
+    void load(const std::filesystem::path& file);
+
+    // Its device's context is current then. Error: it was closed.
+    Simulation& use();
+    const Scene& scene() const { return scene_; }
+
+  private:
+    // By name, number, or None where there is one.
+    size_t groupOf(const py::object& group);
+    template <typename Vector>
+    py::array vectors(const py::object& group, std::vector<Vector> Snapshot::*values);
+
+    Scene scene_;
+    Device* device_ = nullptr;
+    std::unique_ptr<Simulation> simulation_;
+    std::unique_ptr<Renderer> renderer_;
+};
+
+}  // namespace shoal::python
