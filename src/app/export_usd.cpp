@@ -17,17 +17,56 @@ using exchange::DrawnMesh, exchange::GroupMesh, exchange::UsdMoving, exchange::U
 
 namespace {
 
+// A group's molecules as one shape at rest that turns and moves.
+class RigidFit {
+  public:
+    RigidFit(const GroupMesh& mesh, const GroupPlan& plan) : scales_(plan.constants.scales) {
+        scales_.resize(size_t(plan.count), 1);
+        mesh.place(mesh.restPlaces(), rest_, normals_);
+        glm::dvec3 middle(0);
+        for (const glm::dvec3& x : rest_)
+            middle += x / double(rest_.size());
+        for (glm::dvec3& x : rest_)
+            x -= middle;
+    }
+
+    // What takes it nearest to where molecule m is drawn.
+    exchange::RigidMotion motion(size_t m, const std::vector<glm::dvec3>& places) {
+        std::vector<glm::dvec3> scaled;
+        for (const glm::dvec3& x : rest_)
+            scaled.push_back(double(scales_[m]) * x);
+        const exchange::RigidMotion out = exchange::rigidMotion(scaled, places);
+        worst_ = std::max(worst_, out.worst);
+        return out;
+    }
+    void look(const GroupMesh& mesh, const Snapshot& state) {
+        for (const size_t m : livingIn(state)) {
+            std::vector<glm::dvec3> places;
+            std::vector<glm::vec3> normals;
+            mesh.place(ofMolecule(state.positions, state, m), places, normals);
+            motion(m, places);
+        }
+    }
+
+    const std::vector<glm::dvec3>& rest() const { return rest_; }  // m, about its middle
+    const std::vector<glm::vec3>& normals() const { return normals_; }
+    const std::vector<float>& scales() const { return scales_; }
+    double worst() const { return worst_; }  // m
+
+  private:
+    std::vector<glm::dvec3> rest_;
+    std::vector<glm::vec3> normals_;
+    std::vector<float> scales_;
+    double worst_ = 0;
+};
+
 class UsdGroup {
   public:
     UsdGroup(UsdStage& stage, const Scene& scene, const Simulation& simulation, size_t index, bool rigid)
         : plan_(&simulation.plan().groups[index]),
           index_(index),
           mesh_(scene.groups[plan_->index], plan_->constants.seeds),
-          changes_(plan_->needs.life),
-          rigid_(rigid && !mesh_.points()) {
-        if (rigid_ && changes_)
-            throw Error("group \"", mesh_.name(),
-                        "\" has births or deaths: --rigid needs molecules that live throughout");
+          changes_(plan_->needs.life) {
         UsdMoving how;
         how.changes = changes_;
         how.origin = exchange::originOf(simulation.snapshot(index).positions);
@@ -36,23 +75,18 @@ class UsdGroup {
             how.width = (group.particle->size.x + group.particle->size.y) / 2;
         else if (!group.particle)
             how.width = group.molecule.material.pointSize;
-        std::vector<size_t> molecules(rigid_ ? 1 : size_t(plan_->count));
+        std::vector<size_t> molecules(rigid ? 1 : size_t(plan_->count));
         for (size_t i = 0; i < molecules.size(); ++i)
             molecules[i] = i;
         DrawnMesh mesh = mesh_.mesh(molecules);
-        if (rigid_) {
-            const std::vector<glm::dvec3> rest = mesh_.restPlaces();
-            mesh_.place(rest, rest_, mesh.normals);
-            glm::dvec3 middle(0);
-            for (const glm::dvec3& x : rest_)
-                middle += x / double(rest_.size());
-            for (glm::dvec3& x : rest_)
-                x -= middle;
-            for (const glm::dvec3& x : rest_)
+        if (rigid) {
+            fit_.emplace(mesh_, *plan_);
+            for (const glm::dvec3& x : fit_->rest())
                 mesh.positions.emplace_back(x);
-            how.instances = plan_->constants.scales;
-            how.instances.resize(size_t(plan_->count), 1);
-            scales_ = how.instances;
+            mesh.normals = fit_->normals();
+            how.instances = fit_->scales();
+            for (size_t m = 0; m < how.instances.size(); ++m)
+                how.colors.push_back(mesh_.colorOf(m));
         }
         number_ = stage.addMoving(mesh, how);
     }
@@ -64,14 +98,17 @@ class UsdGroup {
         std::vector<glm::dvec3> places;
         std::vector<glm::vec3> normals;
         for (const size_t m : molecules) {
-            if (rigid_) places.clear();
+            if (fit_) places.clear();
             mesh_.place(ofMolecule(state.positions, state, m), places, normals);
-            if (rigid_)
-                turn(m, places, out);
-            else
+            if (fit_) {
+                const exchange::RigidMotion motion = fit_->motion(m, places);
+                out.points.push_back(motion.middle);
+                out.turns.emplace_back(motion.turn);
+            } else {
                 mesh_.addVelocities(ofMolecule(state.velocities, state, m), out.velocities);
+            }
         }
-        if (!rigid_) {
+        if (!fit_) {
             out.points = std::move(places);
             if (!mesh_.points()) out.normals = std::move(normals);
         }
@@ -84,29 +121,51 @@ class UsdGroup {
         stage.sample(number_, frame, out);
     }
 
-    double worst() const { return worst_; }
     const std::string& name() const { return mesh_.name(); }
-    bool rigid() const { return rigid_; }
+    const std::optional<RigidFit>& fit() const { return fit_; }
 
   private:
-    void turn(size_t m, const std::vector<glm::dvec3>& places, UsdSample& out) {
-        std::vector<glm::dvec3> scaled;
-        for (const glm::dvec3& x : rest_)
-            scaled.push_back(double(scales_[m]) * x);
-        const exchange::RigidMotion motion = exchange::rigidMotion(scaled, places);
-        worst_ = std::max(worst_, motion.worst);
-        out.points.push_back(motion.middle);
-        out.turns.emplace_back(motion.turn);
-    }
-
     const GroupPlan* plan_;
     size_t index_, number_ = 0;
     GroupMesh mesh_;
-    bool changes_, rigid_;
-    std::vector<glm::dvec3> rest_;  // m, about its middle
-    std::vector<float> scales_;
-    double worst_ = 0;  // m
+    bool changes_;
+    std::optional<RigidFit> fit_;
 };
+
+void eachFrame(Simulation& simulation, int frames, const auto& look) {
+    for (int frame = 0; frame < frames && !signalThatAsked(); ++frame) {
+        if (frame > 0) simulation.frame();
+        simulation.check();
+        look(frame);
+    }
+}
+
+// Which groups are instances. Where a bound is given all frames are run once before they are written.
+std::vector<bool> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
+    const std::vector<GroupPlan>& plans = simulation.plan().groups;
+    std::vector<bool> out(plans.size(), asked.rigid || asked.rigidWithin);
+    std::vector<std::optional<GroupMesh>> meshes(plans.size());
+    std::vector<std::optional<RigidFit>> fits(plans.size());
+    for (size_t g = 0; g < plans.size(); ++g) {
+        if (!out[g] || plans[g].count == 0) continue;
+        meshes[g].emplace(scene.groups[plans[g].index], plans[g].constants.seeds);
+        out[g] = !meshes[g]->points() && !(asked.rigidWithin && plans[g].needs.life);
+        if (out[g] && plans[g].needs.life)
+            throw Error("group \"", plans[g].name,
+                        "\" has births or deaths: --rigid needs molecules that live throughout");
+        if (out[g]) fits[g].emplace(*meshes[g], plans[g]);
+    }
+    if (!asked.rigidWithin) return out;
+    const SavedState start = simulation.save();
+    eachFrame(simulation, asked.frames, [&](int) {
+        for (size_t g = 0; g < fits.size(); ++g)
+            if (fits[g]) fits[g]->look(*meshes[g], simulation.snapshot(g));
+    });
+    simulation.load(start);
+    for (size_t g = 0; g < fits.size(); ++g)
+        out[g] = fits[g] && fits[g]->worst() <= *asked.rigidWithin;
+    return out;
+}
 
 }  // namespace
 
@@ -116,31 +175,29 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
     for (const Model& model : scene.models)
         if (model.draw) stage.add(exchange::modelMesh(model));
     stage.add(scene.camera);
+    const std::vector<bool> rigid = rigidGroups(asked, scene, simulation);
     std::vector<UsdGroup> groups;
-    for (size_t g = 0; g < simulation.plan().groups.size(); ++g)
-        if (simulation.plan().groups[g].count > 0)
-            groups.emplace_back(stage, scene, simulation, g, asked.rigid);
-    for (int frame = 0; frame < asked.frames && !signalThatAsked(); ++frame) {
-        if (frame > 0) simulation.frame();
-        simulation.check();
+    for (size_t g = 0; g < rigid.size(); ++g)
+        if (simulation.plan().groups[g].count > 0) groups.emplace_back(stage, scene, simulation, g, rigid[g]);
+    eachFrame(simulation, asked.frames, [&](int frame) {
         for (UsdGroup& group : groups)
             group.sample(stage, simulation, frame);
         stage.endFrame(frame);
-    }
+    });
     stage.finish();
     const std::vector<std::string>& written = stage.written();
     if (options.json) {
         JsonValue residuals = JsonValue::makeObject();
         for (const UsdGroup& group : groups)
-            if (group.rigid()) residuals.members.push_back(key(group.name().c_str(), group.worst()));
+            if (group.fit()) residuals.members.push_back(key(group.name().c_str(), group.fit()->worst()));
         std::cout << writeJson(
             object(key("frames", asked.frames), key("rigidResidual", residuals), key("written", written)));
         return;
     }
     for (const UsdGroup& group : groups)
-        if (group.rigid())
+        if (group.fit())
             std::cout << "group \"" << printable(group.name()) << "\": rigid, vertices lie up to "
-                      << group.worst() * 1e3 << " mm off\n";
+                      << group.fit()->worst() * 1e3 << " mm off\n";
     std::cout << "wrote " << printable(written.back()) << ", "
               << many(int64_t(asked.frames), "frame", "frames");
     if (written.size() > 1)

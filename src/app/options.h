@@ -54,6 +54,7 @@ struct ExportOptions {
     std::string texels = "png";
     exchange::TexelFormat format = exchange::TexelFormat::png16;
     bool rigid = false;
+    std::optional<double> rigidWithin;  // m: of --usd, groups that are further off are meshes
 };
 
 struct Options : RunRequest {

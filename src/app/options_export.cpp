@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "app/cli.h"
 #include "app/commands.h"
@@ -34,8 +35,14 @@ void addExport(CLI::App& command, Options& options, Texts& texts) {
         ->capture_default_str();
     command.add_flag("--rigid", animation.rigid,
                      "A rotation and a place for each molecule instead of its vertices");
+    command
+        .add_option("--rigid-within", animation.rigidWithin,
+                    "--rigid for groups whose vertices then lie at most so far off, m; others are meshes")
+        ->type_name("FLOAT");
     excludes(command, "--vat", {"--glb", "--usd"});
     excludes(command, "--glb", {"--usd", "--frames", "--rigid"});
+    needs(command, "--rigid-within", "--usd");
+    excludes(command, "--rigid-within", {"--rigid"});
     for (const char* option : {"--group", "--molecules", "--loop", "--texels"})
         needs(command, option, "--vat");
     addOverrides(command, options, texts);
@@ -67,6 +74,8 @@ void finishExport(Options& options) {
     within("--first", animation.first, 0, 1000000);
     within("--frames", animation.frames, 1, mostFrames);
     within("--loop", animation.loop, 0, animation.frames - 1);
+    if (const auto& bound = animation.rigidWithin; bound && !(*bound >= 0 && std::isfinite(*bound)))
+        throw Error(concat("--rigid-within: expected metres, 0 or more, found ", *bound));
     if (animation.molecules) within("--molecules", *animation.molecules, 1, maxGroupCount);
 }
 

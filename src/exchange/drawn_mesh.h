@@ -52,10 +52,10 @@ class GroupMesh {
     DrawnMesh mesh(std::span<const size_t> molecules) const;
     // As it is at rest, about the molecule's origin.
     std::vector<glm::dvec3> restPlaces() const;
-
-  private:
+    // Linear RGB.
     glm::vec3 colorOf(size_t molecule) const;
 
+  private:
     const Group* group_;
     std::vector<uint32_t> seeds_, corners_;
     std::vector<glm::vec2> uvs_;

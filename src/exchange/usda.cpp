@@ -247,7 +247,7 @@ struct UsdStage::Parts {
     }
 
     // All of a mesh that is not where it is.
-    std::string topology(const DrawnMesh& mesh, bool changes) {
+    std::string topology(const DrawnMesh& mesh, bool changes, bool colors = true) {
         std::string out;
         if (mesh.corners.empty()) return out;
         if (!changes) {
@@ -258,7 +258,7 @@ struct UsdStage::Parts {
         out += line("uniform bool doubleSided = 1");
         if (!mesh.uvs.empty() && !changes)
             out += line("texCoord2f[] primvars:st = " + list(mesh.uvs) + interpolated("vertex"));
-        if (!mesh.colors.empty() && !changes)
+        if (!mesh.colors.empty() && !changes && colors)
             out += line("color3f[] primvars:displayColor = " + list(mesh.colors) + interpolated("vertex"));
         if (mesh.pieces.size() == 1) {
             out += line("rel material:binding = <" + material(mesh, mesh.pieces[0].material) + ">");
@@ -395,13 +395,14 @@ size_t UsdStage::addMoving(const DrawnMesh& mesh, const UsdMoving& how) {
         std::vector<glm::vec3> scales;
         for (const float scale : how.instances)
             scales.emplace_back(scale);
-        it.head = Parts::line("int[] protoIndices = " + list(zeros)) +
-                  Parts::line("float3[] scales = " + list(scales)) +
-                  Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
-                  Parts::prim("Mesh", "molecule") + p.topology(mesh, false) +
-                  Parts::line("point3f[] points = " + list(mesh.positions)) +
-                  Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) +
-                  "    }\n";
+        it.head =
+            Parts::line("int[] protoIndices = " + list(zeros)) +
+            Parts::line("float3[] scales = " + list(scales)) +
+            Parts::line("rel prototypes = </scene/" + it.name + "/molecule>") +
+            Parts::line("color3f[] primvars:displayColor = " + list(how.colors) + interpolated("vertex")) +
+            Parts::prim("Mesh", "molecule") + p.topology(mesh, false, false) +
+            Parts::line("point3f[] points = " + list(mesh.positions)) +
+            Parts::line("normal3f[] normals = " + list(mesh.normals) + interpolated("vertex")) + "    }\n";
     } else if (mesh.corners.empty()) {
         const std::vector<float> widths = {float(how.width)};
         it.head = Parts::line("float[] widths = " + list(widths) + interpolated("constant"));

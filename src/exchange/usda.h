@@ -34,7 +34,9 @@ struct UsdMoving {
     glm::dvec3 origin{0};  // m: samples are written relative to it, where places are far from 0
     double width = 0.01;   // m, of points
     bool changes = false;  // the number of molecules does: samples say corners, colours and coordinates
-    std::vector<float> instances;  // their scales: each is the mesh, turned and moved; empty: there are none
+    // Scales of instances: each is the mesh, turned and moved; empty: there are none.
+    std::vector<float> instances;
+    std::vector<glm::vec3> colors;  // of instances, linear RGB, in place of the mesh's
 };
 
 class UsdStage {

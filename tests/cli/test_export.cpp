@@ -363,9 +363,25 @@ TEST_CASE("USD holds the run, in one file or a file a frame", "[cli][export]") {
     compare(clips, states, &Row::place, 1e-6);
 
     const JsonValue rigid = exported({"--usd", file, "--frames", "40", "--rigid", "--json"}).json();
-    CHECK(member(member(rigid, "rigidResidual"), "quad").number > 1e-4);
-    CHECK_THAT(readFile(file), Catch::Contains("def PointInstancer \"quad\""));
-    CHECK(samplesIn(readFile(file), "point3f[] positions").at(39).size() == 20);
+    const double residual = member(member(rigid, "rigidResidual"), "quad").number;
+    CHECK(residual > 1e-4);
+    const std::string instances = readFile(file);
+    CHECK_THAT(instances, Catch::Contains("def PointInstancer \"quad\""));
+    CHECK(samplesIn(instances, "point3f[] positions").at(39).size() == 20);
+    // a colour a molecule, and none of the shape's own
+    const size_t colors = instances.find("color3f[] primvars:displayColor");
+    CHECK(instances.find("color3f[] primvars:displayColor", colors + 1) == std::string::npos);
+    const size_t list = instances.find(" = [", colors);
+    const std::string values = instances.substr(list, instances.find(']', list) - list);
+    CHECK(std::count(values.begin(), values.end(), '(') == 20);
+
+    // Within a bound: what all frames, run ahead, are within.
+    exported({"--usd", file, "--frames", "40", "--rigid-within", std::to_string(1.01 * residual)});
+    CHECK((readFile(file) == instances));
+    exported({"--usd", file, "--frames", "40"});
+    const std::string meshes = readFile(file);
+    exported({"--usd", file, "--frames", "40", "--rigid-within", std::to_string(0.99 * residual)});
+    CHECK((readFile(file) == meshes));
 }
 
 TEST_CASE("three.js and tinyusdz read what is exported", "[cli][export]") {
@@ -411,6 +427,9 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
     refuses({"--vat", folder, "--texels", "jpg"}, "--texels: unknown word \"jpg\"");
     refuses({"--vat", "/proc/nothing"}, "/proc/nothing");
     refusal({"export", helloScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
+    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "-1"}, "expected metres, 0 or more");
+    refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "nan"}, "expected metres, 0 or more");
+    refuses({"--vat", scratch.path("a"), "--rigid-within", "1"}, "--usd");
     refuses({"--usd", scratch.path("a.usdc")}, "expected a folder, or a name ending in .usda");
     refuses({"--usd", scratch.path("a.usda"), "--glb", scratch.path("a.glb")}, "excludes");
     refusal({"export", "fountain", "--vat", folder, "--frames", "2"}, "choose one");
