@@ -88,6 +88,9 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
                     ivec3(way.skip.xy, found.which));
         if (ends) break;
         way.caught = way.caught || (first && n == 0 && at.inmost < -caughtDepth);
+#ifdef TABLED
+        if (way.caught) nearKnown = false;  // it may come out far away
+#endif
         Touch near = at.swept;
         bool last = n == mostMarches - 1;
         float approach = dot(path - near.velocity * span, near.normal);
@@ -154,6 +157,10 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     Way way = Way(position - drifted * drift.step, time - drift.step, ivec3(-1), false);
 #ifdef SWEPT
     setWay(drifted, drift.step);
+#endif
+#ifdef TABLED
+    // Bounces stay within a way's length of where it touches.
+    gatherNear(anchor, way.from, 3.0 * length(drifted) * drift.step + 1e-3);
 #endif
     Survey at;
     Touch before = noTouch();

@@ -1,10 +1,52 @@
 #include "compile/collider_table.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "compile/call_writer.h"
 #include "compile/pack.h"
 #include "scene/collider_kinds.h"
 
 namespace shoal {
+
+namespace {
+
+// Halves the members at the middle of their longest extent, and so on, so that those of a cluster lie
+// together.
+void arrange(std::span<ColliderTable::Member> members, size_t most) {
+    if (members.size() <= most) return;
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const ColliderTable::Member& member : members)
+        low = glm::min(low, member.place), high = glm::max(high, member.place);
+    const glm::dvec3 extent = high - low;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    // the first part in whole clusters
+    const size_t half = ((members.size() + most - 1) / most + 1) / 2 * most;
+    std::nth_element(members.begin(), members.begin() + ptrdiff_t(half), members.end(),
+                     [axis](const auto& a, const auto& b) {
+                         return std::pair(a.place[axis], a.number) < std::pair(b.place[axis], b.number);
+                     });
+    arrange(members.first(half), most);
+    arrange(members.subspan(half), most);
+}
+
+// xyz the middle of a ball around all, m; w its radius, m, somewhat more than it is, for rounding.
+glm::vec4 around(std::span<const ColliderTable::Member> members) {
+    glm::dvec3 low(1e300), high(-1e300);
+    for (const ColliderTable::Member& member : members)
+        low = glm::min(low, member.place - member.reach), high = glm::max(high, member.place + member.reach);
+    const glm::dvec3 middle(glm::vec3(0.5 * (low + high)));
+    double radius = 0;
+    for (const ColliderTable::Member& member : members)
+        radius = std::max(radius, glm::distance(middle, member.place) + member.reach);
+    return {glm::vec3(middle), float(radius * (1 + 1e-6) + 1e-6 * glm::length(middle) + 1e-5)};
+}
+
+size_t clusters(size_t members) {
+    return (members + ColliderTable::clusterSize - 1) / ColliderTable::clusterSize;
+}
+
+}  // namespace
 
 ColliderTable::ColliderTable(const std::vector<Collider>& colliders) {
     glm::dvec3 low(1e300), high(-1e300);
@@ -36,36 +78,85 @@ void ColliderTable::add(const Collider& collider, size_t number, size_t material
     if (!kind.thickness.ends_with(".x")) writer.slot({});
     writer.parameters.back().z = float(number);
     writer.parameters.back().w = float(material);
-    kind.texels.insert(kind.texels.end(), writer.parameters.begin(), writer.parameters.end());
-    ++kind.count;
+    const glm::dvec3 place = callOf(*collider.shape).origin();
+    const double reach = collider.thickness + *reachOf(*collider.shape, place);
+    kind.members.push_back({place - middle_, reach, number, std::move(writer.parameters)});
 }
 
-std::string ColliderTable::loopOver(const Kind& kind, size_t base, size_t read, const std::string& body) {
-    std::string out =
-        concat("    // ", kind.count, " ", kind.name, "\n    for (int n = 0; n < ", kind.count, "; ++n) {\n");
+std::string ColliderTable::memberText(const Kind& kind, size_t first, size_t read, const std::string& use) {
+    std::string out = "{\n";
     for (size_t i = 0; i < read; ++i)
-        out += concat("        vec4 t", i, " = sampleAt(", base + i, " + n * ", kind.texelsOfOne(), ");\n");
-    return concat(out, "        surface = ", kind.surface, ";\n        ", body, "\n    }\n");
+        out +=
+            concat("            vec4 t", i, " = sampleAt(", first + i, " + n * ", kind.texelsOfOne(), ");\n");
+    return concat(out, "            surface = ", kind.surface, ";\n            ", use, "\n        }\n");
+}
+
+std::string ColliderTable::loopOver(const Kind& kind, size_t base, size_t read, const std::string& limit,
+                                    const std::string& use) const {
+    const size_t count = kind.members.size();
+    return concat(
+        "    // ", count, " ", kind.name, ", ", clusterSize, " a cluster\n    for (int m = 0; m < ",
+        clusters(count), "; ++m) {\n        vec4 around = sampleAt(", base, " + m);\n        if (length(",
+        isFar() ? "(anchor - middle)" : "anchor", " + position - around.xyz) * 0.999999 - around.w < ", limit,
+        ")\n        for (int n = ", clusterSize, " * m; n < min(", clusterSize, " * m + ", clusterSize, ", ",
+        count, "); ++n) ", memberText(kind, base + clusters(count), read, use), "    }\n");
 }
 
 ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const {
     Loops out;
-    if (isFar() && !empty()) {
+    if (empty()) return out;
+    std::string middle, full, listed, gather;
+    if (isFar()) {
         // Not a constant of the text, which NVIDIA's compiler would add to what is near, where it loses that.
-        const std::string middle = concat("    vec3 middle = sampleAt(", samples.size(), ").xyz;\n");
+        middle = concat("    vec3 middle = sampleAt(", samples.size(), ").xyz;\n");
         samples.emplace_back(glm::vec3(middle_), 0);
-        out = {middle, middle, middle};
     }
+    out.clearances = out.nearest = middle;
+    size_t number = 0;
     for (const auto& [index, kind] : kinds_) {
         const size_t base = samples.size(), all = kind.texelsOfOne();
-        samples.insert(samples.end(), kind.texels.begin(), kind.texels.end());
-        out.clearances += loopOver(kind, base, kind.read,
-                                   concat("least.y = min(least.y, surface.w - ", kind.thickness, ");"));
-        const std::string last = concat("t", all - 1);
-        const std::string touch = concat("Touch(surface.xyz, surface.w - ", kind.thickness, ", vec2(-1.0 - ",
-                                         last, ".w, 0.0), vec3(0.0), int(", last, ".z))");
-        out.survey += loopOver(kind, base, all, concat("meetSwept(s, ", touch, ", skip);"));
-        out.nearest += loopOver(kind, base, all, concat("meetNearest(s, ", touch, ", false, false);"));
+        std::vector<Member> members = kind.members;
+        arrange(members, clusterSize);
+        for (size_t c = 0; c < clusters(members.size()); ++c)
+            samples.push_back(around(std::span(members).subspan(
+                c * clusterSize, std::min(clusterSize, members.size() - c * clusterSize))));
+        for (const Member& member : members)
+            samples.insert(samples.end(), member.texels.begin(), member.texels.end());
+        const std::string distance = concat("surface.w - ", kind.thickness), last = concat("t", all - 1),
+                          touch = concat("Touch(surface.xyz, ", distance, ", vec2(-1.0 - ", last,
+                                         ".w, 0.0), vec3(0.0), int(", last, ".z))"),
+                          meet = concat("meetSwept(s, ", touch, ", skip);");
+        out.clearances +=
+            loopOver(kind, base, kind.read, "least.y", concat("least.y = min(least.y, ", distance, ");"));
+        out.nearest +=
+            loopOver(kind, base, all, "s.others", concat("meetNearest(s, ", touch, ", false, false);"));
+        full += loopOver(kind, base, all, "max(s.swept.distance, 0.0)", meet);
+        listed += concat("    for (int k = ", number == 0 ? "0" : concat("nearEnds[", number - 1, "]"),
+                         "; k < nearEnds[", number, "]; ++k) {\n        int n = nearOnes[k];\n        ",
+                         memberText(kind, base + clusters(members.size()), all, meet), "    }\n");
+        gather += loopOver(kind, base, kind.read, "reach",
+                           concat("if (", distance, " < reach) {\n                if (count < ", mostNear,
+                                  ") nearOnes[count] = n;\n                ++count;\n            }")) +
+                  concat("    nearEnds[", number, "] = count;\n");
+        ++number;
+    }
+    out.survey = concat(middle, "    if (nearKnown) {\n", listed, "    } else {\n", full, "    }\n");
+    out.gather = concat(
+        "#define TABLED\n\n// Which colliders of the table are near: of each kind up to its end, where they "
+        "are known.\n",
+        "int nearOnes[", mostNear, "];\nint nearEnds[", number, "];\nbool nearKnown = false;\n\n",
+        "// Looks for those that are less than `reach`, m, from a place.\n",
+        "void gatherNear(vec3 anchor, vec3 position, float reach)\n{\n    vec4 surface;\n    int count = "
+        "0;\n",
+        middle, gather, "    nearKnown = count <= ", mostNear, ";\n}\n\n");
+    return out;
+}
+
+size_t ColliderTable::turns() const {
+    size_t out = 0;
+    for (const auto& [index, kind] : kinds_) {
+        const size_t count = kind.members.size(), near = 8 * clusterSize;
+        out += 2 * clusters(count) + std::min(count, near);
     }
     return out;
 }

@@ -3,6 +3,9 @@
 // collider: the numbers of its call (scene/collider_kinds.h) and its thickness, each in the first room that
 // is left for it (NumberLayout), and in z and w of the last its number and its material.
 //
+// What lies together is one cluster, behind a ball around it (a texel before all colliders of its kind: xyz
+// the middle, w the radius, m): a cluster that is too far away to matter is passed over.
+//
 // material: index of the uniform whose x is the restitution and y the friction. Where one float is not enough
 // for some of their places, all are relative to a point of the anchors' lattice amid them, in a texel before
 // theirs.
@@ -26,23 +29,38 @@ class ColliderTable {
     bool empty() const { return kinds_.empty(); }
 
     struct Loops {
-        std::string clearances, survey,
-            nearest;  // statements of the functions of that name (compile/generate.h)
+        // Statements of the functions of that name (compile/generate.h).
+        std::string clearances, survey, nearest;
+        std::string gather;  // gatherNear(), by which survey() knows what is near
     };
     // Appends the texels.
     Loops write(std::vector<glm::vec4>& samples) const;
+    // About how often the loops of a look at all turn.
+    size_t turns() const;
+
+    static constexpr size_t clusterSize = 16;
+    static constexpr size_t mostNear = 16;  // that a vertex has a list of; with more it looks at all
+    struct Member {
+        glm::dvec3 place;  // m, from the table's origin
+        double reach = 0;  // m, of a ball around it, with its thickness
+        size_t number = 0;
+        std::vector<glm::vec4> texels;
+    };
 
   private:
     struct Kind {
         std::string name;                // in the plural
         std::string surface, thickness;  // text: from t0 ...
         size_t read = 0;                 // texels of one that these need
-        size_t count = 0;
-        std::vector<glm::vec4> texels;
-        size_t texelsOfOne() const { return texels.size() / count; }
+        std::vector<Member> members;
+        size_t texelsOfOne() const { return members.front().texels.size(); }
     };
     bool isFar() const { return middle_ != glm::dvec3(0); }
-    static std::string loopOver(const Kind& kind, size_t base, size_t read, const std::string& body);
+    // Reads member n, whose kind's texels begin at `first`, and uses its `surface`.
+    static std::string memberText(const Kind& kind, size_t first, size_t read, const std::string& use);
+    // `limit`: text of a distance, m, from which on nothing matters.
+    std::string loopOver(const Kind& kind, size_t base, size_t read, const std::string& limit,
+                         const std::string& use) const;
 
     glm::dvec3 middle_{0};          // m
     std::map<size_t, Kind> kinds_;  // by the index of the alternative

@@ -116,8 +116,12 @@ ReadingCost stepCost(const Scene& scene, const Plan& plan, const GroupPlan& grou
     if (group.factored()) out.operations += substeps * 2 * 2 * 9 * vertices * vertices;
     if (needs.collide) {
         const ReadingCost found = costOfAll(scene.colliders);
-        out.operations += substeps * vertices * found.operations;
-        out.fetches += substeps * vertices * found.fetches;
+        // clusters of a table that are too far away are passed over
+        const double looked = plan.colliderTurns > 0
+                                  ? std::min(1.0, double(plan.colliderTurns) / double(plan.colliderCount))
+                                  : 1;
+        out.operations += substeps * vertices * looked * found.operations;
+        out.fetches += substeps * vertices * looked * found.fetches;
     }
     if (needs.fields) {
         const ReadingCost read = costOfAll(scene.fields);

@@ -42,7 +42,7 @@ struct GeneratedColliders : Generated {
     std::vector<size_t> materials;
     std::vector<MovingCollider> moving;
     std::optional<size_t> fastestSlot;  // setPoses
-    size_t tabled = 0;                  // colliders among the samples
+    size_t turns = 0;                   // of loops, about, for a look at all (compile/collider_table.h)
 };
 
 // Whether a vertex has contact with all of them at once, with JOINT_CONTACT: not where there is only one

@@ -137,15 +137,16 @@ class Joint {
             if (slots > maxParameters && ColliderTable::holds(collider)) {
                 writer_.result.materials[i] = tabledMaterial(collider);
                 table_.add(collider, i, writer_.result.materials[i]);
-                ++writer_.result.tabled;
             } else {
                 write(writer_.text(collider, i), i);
             }
         }
         const ColliderTable::Loops loops = table_.write(*samples_);
+        writer_.result.turns = table_.turns();
         clearances_ += loops.clearances;
         survey_ += loops.survey;
         nearest_ += loops.nearest;
+        gather_ = loops.gather;
         std::string fastest = "0.0";
         if (swept_ && !writer_.result.moving.empty()) {
             writer_.result.fastestSlot = writer_.result.parameters.size();
@@ -219,7 +220,7 @@ class Joint {
             clearances_, "    return vec2(min(least.x, least.y), least.y);\n}\n\n",
             "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return clearances(anchor, "
             "position, time).x;\n}\n\n",
-            "// Nearest and first: of all but those whose numbers are skip.xy.\n",
+            gather_, "// Nearest and first: of all but those whose numbers are skip.xy.\n",
             "Survey survey(vec3 anchor, vec3 position, vec3 velocity, float time, ivec3 skip)\n{\n",
             "    Contact c = Contact(position, velocity);\n    vec4 surface;\n    Survey s = noSurvey();\n",
             survey_, "    return s;\n}\n\n",
@@ -258,6 +259,7 @@ class Joint {
     ColliderTable table_;
     std::map<std::tuple<std::string, double, double>, size_t> materials_;
     std::string clearances_, survey_, nearest_;  // statements
+    std::string gather_;                         // a function
     bool swept_ = false;
 };
 

@@ -153,9 +153,11 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
 }
 
 int piecesOf(const Plan& plan, int vertices, int substeps) {
-    constexpr double looks = 8;        // at all colliders, of a vertex and substep that touches some
+    if (plan.colliderTurns == 0) return 1;
+    constexpr double looks = 3;        // at all colliders, of a vertex and substep
+    constexpr double marches = 300;    // turns of the way among those that are near, seldom more
     constexpr double mostTurns = 6e4;  // somewhat fewer than gpu::mostSoftwareTurns
-    const double turns = looks * double(plan.tabledColliders) * vertices * substeps;
+    const double turns = (looks * double(plan.colliderTurns) + marches) * vertices * substeps;
     return int(std::clamp(std::ceil(turns / mostTurns), 1.0, double(substeps)));
 }
 

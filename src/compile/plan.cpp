@@ -404,7 +404,7 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
     plan.fieldClocks = std::move(fields.clocks);
     plan.noiseTiles = std::move(fields.noiseTiles);
     plan.collideSource = std::move(colliders.source);
-    plan.tabledColliders = colliders.tabled;
+    plan.colliderTurns = colliders.turns;
     plan.colliderParameterCount = colliders.parameters.size();
     for (GroupPlan& group : plan.groups)
         if (group.needs.collide || group.needs.avoids)

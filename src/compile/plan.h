@@ -127,9 +127,9 @@ struct Plan {
     std::vector<MovingCollider> movingColliders;  // their parameters are renewed every frame
     std::optional<size_t> fastestSlot;            // setPoses
     size_t fieldCount = 0, colliderCount = 0;
-    size_t tabledColliders = 0;  // that loops go over (compile/collider_table.h)
-    bool jointContact = false;   // colliders answer together (compile/generate.h)
-    bool longFields = false;     // computed noise, grids or many waves: too much text to repeat
+    size_t colliderTurns = 0;   // of loops, about, for a look at all (compile/collider_table.h)
+    bool jointContact = false;  // colliders answer together (compile/generate.h)
+    bool longFields = false;    // computed noise, grids or many waves: too much text to repeat
     std::vector<glm::vec4> samples;
     int sampleRows = 0;
     std::vector<NoiseTile> noiseTiles;  // that fields read

@@ -141,8 +141,8 @@ GlslCall DistanceFieldCollider::call() const {
         .samples([this](std::vector<glm::vec4>& table) { appendDistances(field, table); });
 }
 
-std::optional<double> reachOf(const ColliderShape& shape) {
-    return std::visit([](const auto& kind) { return kind.reach(); }, shape);
+std::optional<double> reachOf(const ColliderShape& shape, const glm::dvec3& point) {
+    return std::visit([&](const auto& kind) { return kind.reach(point); }, shape);
 }
 
 GlslCall callOf(const ColliderShape& shape) {

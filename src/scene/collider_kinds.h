@@ -2,7 +2,7 @@
 // function in shaders/physics/solid.glsl, or in shaders/step/surfaces.glsl where it reads samples, and its
 // double-precision twin in reference/colliders.cpp. docs/adding-a-force.md says how to add one. SI units.
 //
-// `reach`: no point of it is further (m) from the origin of the frame in which it is given. Nothing of what
+// `reach`: no point of it is further (m) from a point of the frame in which it is given. Nothing of what
 // is solid all the way down: a vertex could cross the others within a substep, and they are looked for along
 // its way.
 #pragma once
@@ -27,14 +27,16 @@ struct HeightImage;
 struct PlaneCollider {
     glm::dvec3 point{0};
     glm::dvec3 normal{0, 1, 0};  // free side
-    std::optional<double> reach() const { return {}; }
+    std::optional<double> reach(const glm::dvec3&) const { return {}; }
     GlslCall call() const;
 };
 
 struct SphereCollider {
     glm::dvec3 center{0};
     double radius = 1;  // m
-    std::optional<double> reach() const { return glm::length(center) + radius; }
+    std::optional<double> reach(const glm::dvec3& point) const {
+        return glm::distance(center, point) + radius;
+    }
     GlslCall call() const;
 };
 
@@ -54,7 +56,7 @@ struct HeightFieldCollider {
     std::vector<float> heights;   // m, x fastest
     bool sampledNormals = false;  // normal from three height samples (Latta 3.4.2) instead of stored ones
     HeightSource source = {};
-    std::optional<double> reach() const { return {}; }
+    std::optional<double> reach(const glm::dvec3&) const { return {}; }
     GlslCall call() const;
 };
 
@@ -62,7 +64,9 @@ struct BoxCollider {
     glm::dvec3 center{0};
     glm::dvec3 size{1};  // m, whole edges
     glm::dquat rotation{1, 0, 0, 0};
-    std::optional<double> reach() const { return glm::length(center) + glm::length(size) / 2; }
+    std::optional<double> reach(const glm::dvec3& point) const {
+        return glm::distance(center, point) + glm::length(size) / 2;
+    }
     GlslCall call() const;
 };
 
@@ -70,7 +74,9 @@ struct BoxCollider {
 struct CapsuleCollider {
     glm::dvec3 from{0}, to{0};
     double radius = 1;  // m
-    std::optional<double> reach() const { return std::max(glm::length(from), glm::length(to)) + radius; }
+    std::optional<double> reach(const glm::dvec3& point) const {
+        return std::max(glm::distance(from, point), glm::distance(to, point)) + radius;
+    }
     GlslCall call() const;
 };
 
@@ -79,8 +85,8 @@ struct DistanceFieldCollider {
     std::string model;  // its name
     FieldRequest request;
     DistanceField field;
-    std::optional<double> reach() const {
-        return glm::length(glm::max(glm::abs(field.grid.low), glm::abs(field.grid.high())));
+    std::optional<double> reach(const glm::dvec3& point) const {
+        return glm::length(glm::max(glm::abs(field.grid.low - point), glm::abs(field.grid.high() - point)));
     }
     GlslCall call() const;
 };
@@ -99,7 +105,7 @@ HeightFieldCollider heightFieldFromMesh(const Mesh& mesh, int columns, int rows,
 HeightFieldCollider heightFieldFromImage(const HeightImage& image, glm::dvec2 low, glm::dvec2 high,
                                          glm::dvec2 heights);
 
-std::optional<double> reachOf(const ColliderShape& shape);
+std::optional<double> reachOf(const ColliderShape& shape, const glm::dvec3& point = glm::dvec3(0));
 GlslCall callOf(const ColliderShape& shape);  // its samples are the shape's
 
 const Description& describe(const PlaneCollider*);

@@ -124,7 +124,7 @@ void addContact(std::vector<FeatureScene>& out) {
     for (const SolverKind solver : {SolverKind::leapfrog, SolverKind::rk4}) {
         Scene table = swarm(shippedMolecule("quad"), 130, solver);
         table.gravity = down;
-        table.colliders = pebbles(70);
+        table.colliders = pebbles(90);
         groupOf(table).drag = {2, 2};
         setStableSubsteps(table);
         out.push_back({concat("many colliders, ", name(solver)), std::move(table)});

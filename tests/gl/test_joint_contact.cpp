@@ -32,8 +32,8 @@ ColliderPath ride(const glm::dvec3& velocity) {
     return out;
 }
 
-// A quad that drops onto a ball and rests there, with so many balls far away.
-Simulation amongMany(int far) {
+// A quad that drops onto a ball, or several in one place, and rests there, with so many balls far away.
+Simulation amongMany(int far, int near = 1) {
     Scene scene = test::swarm(test::shippedMolecule("quad"), 1, SolverKind::euler);
     scene.gravity = {0, -9.81, 0};
     scene.solver.substeps = 64;
@@ -42,7 +42,8 @@ Simulation amongMany(int far) {
     for (int i = 0; i < far; ++i)
         scene.colliders.push_back(
             {.name = concat("far ", i), .shape = SphereCollider{{50 + 3 * i, 0, 0}, 1}});
-    scene.colliders.push_back({.name = "near", .shape = SphereCollider{{0, -1, 0}, 1}});
+    for (int i = 0; i < near; ++i)
+        scene.colliders.push_back({.name = concat("near ", i), .shape = SphereCollider{{0, -1, 0}, 1}});
     return Simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene), {.path = testPath()});
 }
 
@@ -272,9 +273,35 @@ TEST_CASE("however many colliders there are, all substeps of a frame are done", 
     CHECK(few.hash() == many.hash());
     CHECK(few.snapshot(0).positions[0].y < 0);
     if (!testContext().info().software) return;
-    Simulation most = amongMany(5000);
+    Simulation most = amongMany(0, 5000);
     CHECK_THAT(messageOf([&] { test::run(most, 90), most.check(); }),
                Catch::Contains("was cut short") && Catch::Contains("fewer colliders"));
+}
+
+TEST_CASE("a molecule among many colliders moves as among those that are near it", "[contact]") {
+    for (const glm::dvec3& start : {glm::dvec3(0.1, 0.6, 0.05), {-1.3, 0.5, 0.8}, {1.12, 0.7, -1.2}}) {
+        glm::dvec3 end[2];
+        for (const bool all : {false, true}) {
+            Scene scene = test::swarm(test::shippedMolecule("quad"), 1, SolverKind::leapfrog);
+            scene.gravity = {0, -9.81, 0};
+            scene.solver.substeps = 4;
+            scene.groups[0].drag = {1, 1};
+            scene.groups[0].place.box = {start, start};
+            for (int i = 0; i < 144; ++i) {
+                const glm::dvec3 middle(0.37 * (i % 12 - 5.5), 0.05 * (i % 3), 0.37 * (i / 12 - 5.5));
+                if (all || glm::distance(middle, start) < 1.1)
+                    scene.colliders.push_back({.name = concat(i), .shape = SphereCollider{middle, 0.25}});
+            }
+            REQUIRE((compile(scene).colliderTurns > 0) == all);
+            Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                                  {.path = testPath()});
+            test::run(simulation, 40);
+            end[all] = simulation.snapshot(0).positions[0];
+        }
+        CHECK(end[0].y > 0.1);
+        CHECK(end[0].y < start.y - 0.1);
+        CHECK(glm::distance(end[0], end[1]) < 1e-4);  // a collider that is missed makes centimetres
+    }
 }
 
 }  // namespace shoal

@@ -125,7 +125,7 @@ TEST_CASE("colliders: any number of solids, in text that does not grow with them
     std::vector<glm::vec4> samples;
     const GeneratedColliders thousand = generateColliders(many(1000), samples);
     CHECK(thousand.parameters.size() < maxParameters);
-    CHECK(samples.size() == 334 * 2 + 333 * 4 + 333 * 4);
+    CHECK(samples.size() == 334 * 2 + 333 * 4 + 333 * 4 + 3 * 21);  // a ball for each 16
     CHECK(thousand.materials.size() == 1001);
     samples.clear();
     const GeneratedColliders more = generateColliders(many(3000), samples);
