@@ -228,12 +228,7 @@ int moleculeNewCommand(const Options& options) {
     const Shape& shape = shapeNamed(options.molecule.shape);
     const Mesh mesh = shapeMesh(shape, options.molecule.divisions.value_or(shape.divisions));
     Options made = options;
-    FromMesh& make = made.molecule.fromMesh;
-    constexpr double usualSize = 0.2;  // m
-    make.size = make.size.value_or(usualSize);
-    make.vertices = std::max(int(mesh.weldedPositions.size()), leastMadeVertices);
-    make.skin = false;
-    if (make.material.empty()) make.material = shape.material;
+    made.molecule.fromMesh = ofShape(shape, mesh, options.molecule.fromMesh);
     return makeOf(shape.name, mesh, made, start);
 }
 

@@ -8,6 +8,7 @@
 
 #include "app/cli.h"
 #include "app/commands.h"
+#include "author/shapes.h"
 #include "core/file.h"
 #include "scene/json/scene_file.h"
 #include "window/interface.h"
@@ -58,7 +59,11 @@ void addError(CLI::App& command, Options& options) {
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    addFile(command, "molecule", options.files, "Molecule file")->required()->expected(1);
+    addFile(command, "molecule", options.files, "Molecule file; one that is not there is made by saving")
+        ->required()
+        ->expected(1);
+    command.add_option("--shape", options.editShape, "What a new one begins as (default sheet)")
+        ->type_name(joined(shapeNames(), "|"));
     command.add_option("--size", texts.size, "Size of the window in pixels")
         ->type_name("WxH")
         ->capture_default_str();

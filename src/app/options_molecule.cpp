@@ -25,7 +25,7 @@ void addMaking(CLI::App& command, Options& options) {
     for (const ScaledMaterial& one : materialScale())
         names.emplace_back(one.name);
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
-        ->type_name(joined(names, "|"));
+        ->type_name(joined(shapeNames(), "|"));
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");
     number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");
@@ -70,12 +70,9 @@ void addFromMesh(CLI::App& command, Options& options) {
 
 void addNew(CLI::App& command, Options& options) {
     MoleculeOptions& molecule = options.molecule;
-    std::vector<std::string> names;
-    for (const Shape& shape : shapes())
-        names.emplace_back(shape.name);
     addFile(command, "molecule", options.files, "Molecule file to write (.json)")->required()->expected(1);
     command.add_option("--shape", molecule.shape, "What it begins as")
-        ->type_name(joined(names, "|"))
+        ->type_name(joined(shapeNames(), "|"))
         ->capture_default_str();
     addWhole(command, "--divisions", molecule.divisions, "Of its longest side (default: the shape's)");
     addNumber(command, "--size", molecule.fromMesh.size, "m, of the longest side (default 0.2)", "a number");

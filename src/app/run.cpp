@@ -364,7 +364,8 @@ int runCommand(const Options& options) {
 }
 
 int editCommand(const Options& options) {
-    window::runEditor(options.files.front(), windowOptions(options), options.width, options.height);
+    window::runEditor(options.files.front(), options.editShape, windowOptions(options), options.width,
+                      options.height);
     return 0;
 }
 

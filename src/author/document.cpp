@@ -77,6 +77,21 @@ Document::Document(const std::string& file) : file_(file) {
     saved_ = toJson(now_.molecule, true);
     written_ = timeOf(file);
     changed();
+    findKept();
+}
+
+Document::Document(const std::string& file, Molecule begin)
+    : file_(file), isNew_(true), now_(std::move(begin)) {
+    std::error_code code;
+    if (std::filesystem::exists(file, code)) throw Error(Location{file}, "is there already");
+    checkWritable(file);
+    now_.molecule.file = file;
+    changed();
+    findKept();
+}
+
+// Looks for what an earlier editor of the file has kept.
+void Document::findKept() {
     std::error_code code;
     if (keptFile().empty() || !std::filesystem::is_regular_file(keptFile(), code)) return;
     recovered_ = readKept(readFile(keptFile()), file_, text_);
@@ -125,10 +140,20 @@ void Document::restart(Molecule molecule) {
 }
 
 void Document::save() {
-    std::string there = readFile(file_);
-    if (there != text_) throw Error(Location{file_}, "was changed by another program since it was opened");
-    const std::string edited = withEdits(text_, now_);
+    std::string edited;
+    if (isNew_) {
+        std::error_code code;
+        if (std::filesystem::exists(file_, code))
+            throw Error(Location{file_}, "was made by another program since it was opened");
+        edited = writeMolecule(now_.molecule);
+        parseMolecule(edited, file_);  // what is wrong is told before it is written
+    } else {
+        if (readFile(file_) != text_)
+            throw Error(Location{file_}, "was changed by another program since it was opened");
+        edited = withEdits(text_, now_);
+    }
     if (edited != text_) writeFile(file_, edited);
+    isNew_ = false;
     // one state of the draft is the file's now; those before and after it keep their origins where the
     // elements are the same ones
     text_ = edited;
@@ -151,6 +176,7 @@ void Document::reload() {
     past_.push_back({now_, "reload"});
     future_.clear();
     text_ = text;
+    isNew_ = false;
     restart(std::move(molecule));
     written_ = timeOf(file_);
     changed();

@@ -18,6 +18,8 @@ class Document {
   public:
     // Error: readMolecule's.
     explicit Document(const std::string& file);
+    // Of a file that saving makes. Error: it cannot be written, or is there.
+    Document(const std::string& file, Molecule begin);
 
     const Draft& draft() const { return now_; }
     const Molecule& molecule() const { return now_.molecule; }
@@ -60,12 +62,14 @@ class Document {
     };
     bool step(std::vector<Step>& from, std::vector<Step>& to);  // false: there is none
     void changed();
+    void findKept();
     void restart(Molecule molecule);
     std::string kept() const;
     std::filesystem::path keptFile() const;
 
     std::string file_;
-    std::string text_;  // of the file, as read or saved last
+    std::string text_;    // of the file, as read or saved last
+    bool isNew_ = false;  // there is no file yet
     Draft now_;
     JsonValue saved_;  // what the file says
     std::vector<Step> past_, future_;

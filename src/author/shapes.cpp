@@ -139,13 +139,17 @@ const std::vector<Shape>& shapes() {
     return all;
 }
 
+std::vector<std::string> shapeNames() {
+    std::vector<std::string> out;
+    for (const Shape& shape : shapes())
+        out.emplace_back(shape.name);
+    return out;
+}
+
 const Shape& shapeNamed(const std::string& name) {
-    std::vector<std::string> names;
-    for (const Shape& shape : shapes()) {
+    for (const Shape& shape : shapes())
         if (name == shape.name) return shape;
-        names.emplace_back(shape.name);
-    }
-    throw Error(concat("unknown shape \"", name, "\"", suggestion(name, names)));
+    throw Error(concat("unknown shape \"", name, "\"", suggestion(name, shapeNames())));
 }
 
 Mesh shapeMesh(const Shape& shape, int divisions) {
@@ -162,6 +166,15 @@ Mesh shapeMesh(const Shape& shape, int divisions) {
     mesh.low /= size;
     mesh.high /= size;
     return mesh;
+}
+
+FromMesh ofShape(const Shape& shape, const Mesh& mesh, FromMesh asked) {
+    constexpr double usualSize = 0.2;  // m
+    asked.size = asked.size.value_or(usualSize);
+    asked.vertices = std::max(int(mesh.weldedPositions.size()), leastMadeVertices);
+    asked.skin = false;
+    if (asked.material.empty()) asked.material = shape.material;
+    return asked;
 }
 
 }  // namespace shoal

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "author/from_mesh.h"
 #include "geometry/mesh.h"
 
 namespace shoal {
@@ -16,11 +17,15 @@ struct Shape {
 };
 
 const std::vector<Shape>& shapes();
+std::vector<std::string> shapeNames();
 // Error: unknown, with the nearest.
 const Shape& shapeNamed(const std::string& name);
 
 // Of a longest side of 1 m, about the origin, with texture coordinates. `divisions`: of its longest side, 1
 // to the shape's most. Error: others.
 Mesh shapeMesh(const Shape& shape, int divisions);
+// What else to ask of makeMolecule() for the shape's mesh: all of its vertices, no skin, and where nothing is
+// said a size of 0.2 m and its material.
+FromMesh ofShape(const Shape& shape, const Mesh& mesh, FromMesh asked);
 
 }  // namespace shoal

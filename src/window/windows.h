@@ -26,7 +26,9 @@ struct ViewerOptions {
 void runViewer(const ViewerOptions& options, gpu::Context& context, std::optional<Loaded> loaded);
 
 // Makes a window, so many pixels wide and high, in which the molecule of a file is edited while it moves,
-// until the user closes it. Error: the file's, or there is no window to be had.
-void runEditor(const std::string& file, const WindowOptions& options, int width, int height);
+// until the user closes it. Where there is no file it begins as the shape of that name (author/shapes.h;
+// empty: the first), and saving makes the file. Error: the file's, or there is no window to be had.
+void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
+               int height);
 
 }  // namespace shoal::window

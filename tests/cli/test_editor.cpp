@@ -138,6 +138,25 @@ TEST_CASE("what is not saved outlives the editor, and is offered again", "[.wind
     CHECK(filesIn(session.scratch.path("state")).empty());
 }
 
+TEST_CASE("a molecule is made from nothing in the editor", "[.window]") {
+    if (!hasXdotool()) return;
+    Session session("new");
+    const std::string file = session.scratch.path("kite.json");
+    const auto edit = [&](const std::string& steps, std::vector<std::string> more) {
+        more.insert(more.begin(), {"edit", file, "--size", "900x640"});
+        return inWindow(more, "file=" + file + "\n" + steps, session.surroundings);
+    };
+    // closed without saving there is no file
+    edit("key Escape; key Escape; press 460 329\n", {"--shape", "rod"});
+    CHECK_FALSE(std::filesystem::exists(file));
+    CHECK(filesIn(session.scratch.path("state")).empty());
+    edit("key ctrl+s; key Escape\n", {});
+    const Molecule made = readMolecule(file);
+    CHECK(made.name == "kite");
+    CHECK(made.vertices.size() == 9);
+    CHECK(made.size() == Approx(0.2 * std::sqrt(2)));
+}
+
 TEST_CASE("closing the editor asks, and saves nothing without being told to", "[.window]") {
     if (!hasXdotool()) return;
     Session session("closed");
@@ -149,7 +168,11 @@ TEST_CASE("closing the editor asks, and saves nothing without being told to", "[
 
 TEST_CASE("the editor refuses what it cannot open", "[bad]") {
     const Scratch scratch;
-    refusal({"edit", scratch.path("none.json")}, "no such file");
+    refusal({"edit", scratch.path("none.obj")}, "no such file");
+    refusal({"edit", scratch.write("plain", "") + "/new.json"}, "plain");
+    refusal({"edit", scratch.path("new.json"), "--shape", "rid"}, "did you mean \"rod\"");
+    refusal({"edit", scratch.write("there.json", square), "--shape", "rod"},
+            "--shape is for a file that is not");
     refusal({"edit", scratch.write("newer.json", replaced(square, "molecule-1", "molecule-2"))}, "newer");
     refusal({"edit", scratch.write("broken.json", "{")}, "broken.json:1:");
 }

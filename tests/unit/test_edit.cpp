@@ -208,6 +208,38 @@ TEST_CASE("what cannot be saved loses nothing", "[edit]") {
     CHECK(document.unsaved());
 }
 
+TEST_CASE("a new document makes its file when it is saved", "[edit]") {
+    const State state;
+    const std::string file = state.scratch.path("new.json");
+    const Molecule begin = parseMolecule(kite, "kite.json");
+    {
+        Document document(file, begin);
+        CHECK(document.unsaved());
+        move(document, 2);
+        document.keep();
+        CHECK_FALSE(std::filesystem::exists(file));
+    }
+    Document document(file, begin);
+    REQUIRE(document.recovered());
+    document.takeRecovered();
+    document.save();
+    CHECK_FALSE(document.unsaved());
+    CHECK(state.kept() == 0);
+    CHECK(placeOf(Document(file)) == 2);
+    move(document, 3);
+    document.save();
+    CHECK(placeOf(Document(file)) == 3);
+    CHECK_THROWS_AS(Document(file, begin), Error);
+    CHECK_THROWS_AS(Document(state.scratch.write("plain", "") + "/new.json", begin), Error);
+
+    // nor is what another program made meanwhile lost
+    const std::string other = state.scratch.path("other.json");
+    Document late(other, begin);
+    writeFile(other, std::string_view("{}"));
+    CHECK_THROWS_AS(late.save(), Error);
+    CHECK(readFile(other) == "{}");
+}
+
 TEST_CASE("what is not saved is kept until it is", "[edit]") {
     const State state;
     const std::string file = state.scratch.write("kite.json", kite);

@@ -41,7 +41,7 @@ struct Editor {
     int costVersion = -1;
     int gesture = 0;  // of a widget that is held
 
-    explicit Editor(const std::string& file) : document(file) {}
+    explicit Editor(Document opened) : document(std::move(opened)) {}
 
     const Molecule& molecule() const { return document.molecule(); }
 };

@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include "author/shapes.h"
+#include "core/file.h"
 #include "core/file_watch.h"
 #include "core/printable.h"
 #include "molecule/molecule_file.h"
@@ -31,12 +33,12 @@ View viewOf(const Molecule& molecule, const glm::dvec3& from) {
 
 class EditorWindow : public WindowLoop {
   public:
-    EditorWindow(const std::string& file, const WindowOptions& options, gpu::Context& context)
+    EditorWindow(Document document, const WindowOptions& options, gpu::Context& context)
         : WindowLoop(options, context),
           stage_(context, cache()),
-          editor_(file),
+          editor_(std::move(document)),
           camera_(viewOf(editor_.molecule(), {0.8, 0.45, 1})) {
-        file_.watch({file});
+        file_.watch({editor_.document.file()});
         if (editor_.molecule().size() > 0) editor_.grid = niceStep(editor_.molecule().size());
         if (!editor_.molecule().hasPins()) editor_.stage.around = StageSettings::Around::drop;
     }
@@ -409,8 +411,25 @@ class EditorWindow : public WindowLoop {
 
 }  // namespace
 
-void runEditor(const std::string& file, const WindowOptions& options, int width, int height) {
-    readMolecule(file);  // mistakes in the file are told before there is a window
+// Begins where there is no file with a shape that saving makes one of. Error: the file's, or the shape's.
+static Document documentOf(const std::string& file, const std::string& shapeName) {
+    std::error_code code;
+    if (std::filesystem::exists(file, code)) {
+        if (!shapeName.empty()) throw Error(Location{file}, "is there: --shape is for a file that is not");
+        return Document(file);
+    }
+    if (lowerExtension(file) != ".json")
+        throw Error(Location{file}, "no such file, and a new one ends in .json");
+    const Shape& shape = shapeNamed(shapeName.empty() ? shapes().front().name : shapeName);
+    const Mesh mesh = shapeMesh(shape, shape.divisions);
+    Molecule begin = makeMolecule(mesh, ofShape(shape, mesh, {})).molecule;
+    begin.name = std::filesystem::path(file).stem().string();
+    return Document(file, std::move(begin));
+}
+
+void runEditor(const std::string& file, const std::string& shape, const WindowOptions& options, int width,
+               int height) {
+    Document document = documentOf(file, shape);  // mistakes are told before there is a window
     gpu::ContextOptions wanted;
     wanted.kind = gpu::ContextKind::window;
     wanted.preferWindow = true;
@@ -418,7 +437,7 @@ void runEditor(const std::string& file, const WindowOptions& options, int width,
     wanted.height = height;
     wanted.title = "Shoal - " + printable(std::filesystem::path(file).filename().string());
     gpu::Context context(wanted);
-    EditorWindow(file, options, context).run();
+    EditorWindow(std::move(document), options, context).run();
 }
 
 }  // namespace shoal::window
