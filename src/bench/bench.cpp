@@ -1,6 +1,7 @@
 #include "bench/bench.h"
 
 #include <memory>
+#include <utility>
 
 namespace shoal::bench {
 
@@ -46,8 +47,8 @@ class FrameEntrant {
         result_.framesPerSample = framesTimed;
         visit();
         seconds = secondsSince(start) * double(framesTimed + 1) / (framesTimed + 2);
-        samples_.clear();
-        device_.clear();
+        first_ = std::exchange(samples_, {});
+        firstDevice_ = std::exchange(device_, {});
     }
 
     void visit() {
@@ -59,6 +60,7 @@ class FrameEntrant {
     }
 
     void finish() {
+        if (samples_.empty()) samples_ = first_, device_ = firstDevice_;  // there was no patience for more
         result_.frame = measure::spreadOf(samples_);
         result_.device = measure::spreadOf(device_);
         if (timedFrames_ > 0) result_.busStateBytes = double(busBytes_) / double(timedFrames_);
@@ -94,7 +96,8 @@ class FrameEntrant {
     uint64_t busBytes_ = 0;
     bool ownTimes_;
     gpu::DeviceTimer timer_;
-    std::vector<double> samples_, device_;  // s a frame
+    std::vector<double> samples_, device_;     // s a frame
+    std::vector<double> first_, firstDevice_;  // of the warm-up's visit
 };
 
 }  // namespace
