@@ -26,11 +26,17 @@ vec3 cutShort()
     return vec3(uintBitsToFloat(0x7f800000u));
 }
 
+#ifdef MOLECULE_VERTICES
+const int turnsLeft = 64;  // that storing takes
+#else
+const int turnsLeft = 0;
+#endif
+
 bool loopsEndEarly()
 {
     int turns = 0;
-    for (int i = 0; i <= substeps; ++i) ++turns;  // a loop that Mesa does not write out
-    return turns <= substeps;
+    for (int i = 0; i <= substeps + turnsLeft; ++i) ++turns;  // a loop that Mesa does not write out
+    return turns <= substeps + turnsLeft;
 }
 #endif
 
@@ -68,8 +74,10 @@ void main()
 #endif
 #endif
 #ifdef SOFTWARE
-    bool wasCutShort = x[0] == cutShort();
-    if (wasCutShort) substeps = 0;
+    bool isCutShort = x[0] == cutShort();
+#ifndef MOLECULE_VERTICES
+    if (isCutShort) substeps = 0;
+#endif
 #endif
     bool wasReleased = released;
     bool moved = false;
@@ -81,7 +89,7 @@ void main()
     run();
     finishSolver();
 #ifdef SOFTWARE
-    if (wasCutShort || loopsEndEarly()) x[0] = cutShort();
+    isCutShort = isCutShort || loopsEndEarly();
 #endif
 #ifdef RESTING
     // What rests stays; that it would move otherwise than when it came to rest wakes it (contact/rest.comp).
@@ -95,6 +103,9 @@ void main()
         }
         moved = false;
     }
+#endif
+#ifdef SOFTWARE
+    if (isCutShort) x[0] = cutShort();
 #endif
 #ifdef LIFE
     bool wasTaken = taken();

@@ -76,6 +76,10 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
 {
     Touch found = noTouch();
     float ago = -1.0;  // s
+#ifdef TABLED
+    // Within the ball that was looked at nothing touches but what is listed; a moving collider may throw out of it.
+    if (max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
+#endif
 #ifdef SWEPT
     vec3 path = c.position - way.from;
     float span = end - way.begin;
@@ -159,7 +163,6 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
     setWay(drifted, drift.step);
 #endif
 #ifdef TABLED
-    // Bounces stay within a way's length of where it touches.
     gatherNear(anchor, way.from, 3.0 * length(drifted) * drift.step + 1e-3);
 #endif
     Survey at;

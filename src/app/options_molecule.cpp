@@ -25,7 +25,7 @@ void addMaking(CLI::App& command, Options& options) {
     for (const ScaledMaterial& one : materialScale())
         names.emplace_back(one.name);
     command.add_option("--material", make.material, "What it is of (default flesh; of a sheet leaf)")
-        ->type_name(joined(shapeNames(), "|"));
+        ->type_name(joined(names, "|"));
     number("--mass", make.mass, "kg, in all (default: from the material)");
     number("--density", make.density, "kg/m^3, instead of the material's");
     number("--frequency", make.frequency, "Hz, the lowest, instead of the material's");

@@ -1,4 +1,4 @@
-// The molecule that is being edited (document.cpp), and edits of its draft (edit.cpp).
+// The molecule that is being edited (document.cpp), and edits of its draft (edit.cpp, reshape.cpp).
 #pragma once
 
 #include <filesystem>
@@ -106,6 +106,18 @@ void flipTriangles(Draft& draft, const std::set<int>& triangles);
 // Adds springs until nothing but motion of the whole is without stiffness (author/springs.h), as stiff as
 // most. Says how many; 0: none helps, as in what is flat.
 int braceSoftModes(Draft& draft);
+
+// Edits of the whole shape (reshape.cpp). Each tells why it does nothing; else nothing.
+
+// What lies where the axis' coordinate is above 0 becomes the image of what lies below.
+std::string mirrorSide(Draft& draft, int axis);
+// Each of the triangles, or all if there are none, becomes four; springs along their edges become two of
+// twice the stiffness, and the mass in all stays. Those beside them are cut so that no gap opens.
+std::string subdivide(Draft& draft, const std::set<int>& triangles);
+// Masses from a density, kg/m^2, of the triangles' areas; a vertex without any keeps its own.
+std::string weigh(Draft& draft, double density);
+// kg/m^2, of all mass over all area; 0: there is no area.
+double densityOf(const Molecule& molecule);
 
 // Springs whose two ends are selected, or that are selected themselves.
 std::set<int> selectedSprings(const Molecule& molecule, const ElementSet& selected);

@@ -16,7 +16,8 @@ constexpr int sampled = 8;         // vertices of a group
 constexpr float shift = 3e-7f;     // of a place and a velocity
 constexpr int framesBetween = 10;  // of two shifts
 constexpr int shiftedRuns = 3;
-// Added to 1 for another run, where there are tiles of noise: a GPU's filter weighs texels by 8 bits.
+// The wind of one more run, as a factor less 1, where there are tiles of noise: a GPU's filter weighs texels
+// by 8 bits.
 constexpr double windShift = 5e-4;
 constexpr double margin = 8;     // of a tolerance, over what shifts make of a figure
 constexpr double least = 2e-4;   // tolerance, over the figure's scale

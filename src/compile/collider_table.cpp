@@ -144,11 +144,14 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
     out.gather = concat(
         "#define TABLED\n\n// Which colliders of the table are near: of each kind up to its end, where they "
         "are known.\n",
-        "int nearOnes[", mostNear, "];\nint nearEnds[", number, "];\nbool nearKnown = false;\n\n",
+        "int nearOnes[", mostNear, "];\nint nearEnds[", number,
+        "];\nbool nearKnown = false;\nvec3 nearPlace;  // m, where they were looked for, within "
+        "nearReach\nfloat nearReach;\n\n",
         "// Looks for those that are less than `reach`, m, from a place.\n",
         "void gatherNear(vec3 anchor, vec3 position, float reach)\n{\n    vec4 surface;\n    int count = "
         "0;\n",
-        middle, gather, "    nearKnown = count <= ", mostNear, ";\n}\n\n");
+        middle, gather, "    nearKnown = count <= ", mostNear,
+        ";\n    nearPlace = position;\n    nearReach = reach;\n}\n\n");
     return out;
 }
 

@@ -30,8 +30,9 @@ namespace {
 // 16,384 and 131,072 fry without a collider 2.3 and 3.1 times.
 constexpr int gpuLane = 12, gpuLaneFree = 20;  // vertices of a lane, with colliders and without
 
-// A workgroup of the form with a lane a vertex has as many lanes as let it take one vertex each, or two. The
-// same machine, 131,072 molecules over a plane, ms: vertices of a lane x molecules of a workgroup:
+// A lane takes one vertex where the workgroup has few enough lanes for that, else two, or more where there
+// are too many even so. The same machine, 131,072 molecules over a plane, ms: vertices of a lane x molecules
+// of a workgroup:
 //
 //              1 x 32   2 x 32   3 x 32   4 x 32   1 x 16   2 x 16
 //   fry, 20    0.66     0.76     0.91              0.68     0.78
@@ -152,13 +153,12 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
     return secondsToCompile(plan, group) > longestSeconds;
 }
 
-int piecesOf(const Plan& plan, int vertices, int substeps) {
+int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns) {
     if (plan.colliderTurns == 0) return 1;
-    constexpr double looks = 3;        // at all colliders, of a vertex and substep
-    constexpr double marches = 300;    // turns of the way among those that are near, seldom more
-    constexpr double mostTurns = 6e4;  // somewhat fewer than gpu::mostSoftwareTurns
+    constexpr double looks = 3;      // at all colliders, of a vertex and substep
+    constexpr double marches = 300;  // turns of the way among those that are near, seldom more
     const double turns = (looks * double(plan.colliderTurns) + marches) * vertices * substeps;
-    return int(std::clamp(std::ceil(turns / mostTurns), 1.0, double(substeps)));
+    return int(std::clamp(std::ceil(turns / (0.9 * mostTurns)), 1.0, double(substeps)));
 }
 
 Lanes chooseLanes(const Plan& plan, const GroupPlan& group, Lanes wanted, const PathLimits& limits) {

@@ -87,7 +87,7 @@ struct ContextOptions {
 };
 
 // How often all loops of a shader together turn on Mesa's CPU rasterisers, which then leave every loop after
-// one more turn and say nothing.
+// one more turn and say nothing. A loop counts once more than it turns.
 constexpr int mostSoftwareTurns = 65535;
 
 struct ContextInfo {

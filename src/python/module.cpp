@@ -167,7 +167,8 @@ PYBIND11_MODULE(shoal, m) {
         .def_property_readonly("frames", &PySimulation::frames)
         .def_property_readonly("groups", &PySimulation::groups, "Their names.")
         .def_property_readonly(
-            "parameters", [](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>())
+            "parameters",
+            py::cpp_function([](PySimulation& self) { return PyParameters{&self}; }, py::keep_alive<0, 1>()))
         .def("solver", &PySimulation::solver, group, "The method of a group.")
         .def("positions", &PySimulation::positions, group,
              "m, float64 of shape (molecules, vertices, 3): a copy.")

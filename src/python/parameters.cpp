@@ -39,14 +39,14 @@ class PyFactors {
         return out;
     }
     void set(const py::object& key, double factor) { setValue(indexOf(key), finite(what(), factor)); }
-    // A dict changes those that it names, a list all.
+    // A mapping changes those that it names, a list all.
     void setAll(const py::object& factors) {
-        if (py::isinstance<PyFactors>(factors)) return setAll(py::cast(factors.cast<PyFactors&>().values()));
-        if (py::isinstance<py::dict>(factors)) {
+        if (py::hasattr(factors, "keys")) {
             std::vector<std::pair<size_t, double>> all;  // nothing changes where one of them is wrong
-            for (const auto& [key, value] : factors.cast<py::dict>())
-                all.emplace_back(indexOf(py::reinterpret_borrow<py::object>(key)),
-                                 finite(what(), value.cast<double>()));
+            for (const py::handle key : factors.attr("keys")()) {
+                const auto value = factors.attr("__getitem__")(key).cast<double>();
+                all.emplace_back(indexOf(py::reinterpret_borrow<py::object>(key)), finite(what(), value));
+            }
             for (const auto& [index, value] : all)
                 setValue(index, value);
             return;
@@ -65,11 +65,13 @@ class PyFactors {
     const char* what() const { return of_ == Of::fields ? "fields" : "forces"; }
     size_t indexOf(const py::object& key) const {
         const std::vector<std::string> all = names();
-        if (py::isinstance<py::int_>(key)) {
-            const auto number = key.cast<py::ssize_t>();
+        if (PyIndex_Check(key.ptr())) {
+            const auto number = py::int_(key).cast<py::ssize_t>();
             if (number >= 0 && size_t(number) < all.size()) return size_t(number);
             throw Error(what(), ": there is no number ", number, ": the scene has ", all.size());
         }
+        if (!py::isinstance<py::str>(key))
+            throw Error(what(), ": expected a name or a number, found ", std::string(py::repr(key)));
         const auto word = key.cast<std::string>();
         const auto found = std::find(all.begin(), all.end(), word);
         if (found == all.end()) throw Error(what(), ": there is no \"", word, "\"", suggestion(word, all));
@@ -81,6 +83,7 @@ class PyFactors {
         return index < parameters.fields.size() ? parameters.fields[index] : 1;
     }
     void setValue(size_t index, double value) {
+        if (valueOf(index) == value) return;
         Parameters& parameters = simulation_->use().parameters;
         if (of_ == Of::forces) {
             parameters.forces[index].factor = value;
@@ -147,10 +150,12 @@ void bindParameters(py::module_& m) {
         "m/s^2.");
     const auto factors = [&](const char* name, PyFactors::Of kind, const char* doc) {
         out.def_property(
-            name, [kind](const PyParameters& self) { return PyFactors(*self.simulation, kind); },
-            [kind](PyParameters& self, const py::object& value) {
+            name,
+            py::cpp_function([kind](PyParameters& self) { return PyFactors(*self.simulation, kind); },
+                             py::keep_alive<0, 1>()),
+            py::cpp_function([kind](PyParameters& self, const py::object& value) {
                 PyFactors(*self.simulation, kind).setAll(value);
-            },
+            }),
             doc);
     };
     factors("fields", PyFactors::Of::fields, "Factors on the fields' weights; set by a list or a dict.");

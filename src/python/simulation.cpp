@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <mutex>
 #include <numbers>
 
 #include "run/data_paths.h"
@@ -13,6 +14,8 @@ namespace shoal::python {
 
 // Never destroyed: drivers do not outlive the interpreter's end.
 Device& deviceOf(std::optional<int> number) {
+    static std::mutex guard;
+    const std::lock_guard lock(guard);
     static auto& devices = *new std::map<std::optional<int>, Device*>;
     Device*& device = devices[number];
     if (!device) {
@@ -69,6 +72,16 @@ PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string
     options.path = wanted;
     options.cache = &device_->cache;
     simulation_ = std::make_unique<Simulation>(device_->context, shaderRoot(), compile(scene_), options);
+}
+
+PySimulation::~PySimulation() {
+    try {
+        close();
+    } catch (const Error&) {
+        // Collected in another thread, where its context cannot be current: what it holds there stays.
+        (void)renderer_.release();
+        (void)simulation_.release();
+    }
 }
 
 void PySimulation::step(int frames) {
@@ -208,8 +221,8 @@ size_t PySimulation::groupOf(const py::object& group) {
         if (groups.size() == 1) return 0;
         throw Error("the scene has ", groups.size(), " groups: say which, by name or number");
     }
-    if (py::isinstance<py::int_>(group)) {
-        const auto number = group.cast<py::ssize_t>();
+    if (PyIndex_Check(group.ptr())) {
+        const auto number = py::int_(group).cast<py::ssize_t>();
         if (number >= 0 && size_t(number) < groups.size()) return size_t(number);
         throw Error("there is no group ", number, ": the scene has ", groups.size());
     }

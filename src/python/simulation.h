@@ -40,6 +40,10 @@ class PySimulation {
     PySimulation(const PyScene& scene, const std::optional<std::string>& solver, std::optional<int> substeps,
                  std::optional<int> device, const std::string& path);
 
+    PySimulation(const PySimulation&) = delete;
+    PySimulation& operator=(const PySimulation&) = delete;
+    ~PySimulation();
+
     void step(int frames);
     void restart() { use().restart(); }
     void close();

@@ -105,14 +105,16 @@ Alarm findAlarm(const SavedState& saved) {
             if (!state.lives.empty() && state.lives[i / vertices].y <= 0) continue;  // a free place
             const bool finite = finiteSquare(state.positions[i]) && finiteSquare(state.velocities[i]);
             const double speed = glm::length(glm::dvec3(state.velocities[i]));
-            if (finite && !(speed > worst.speed)) continue;
+            const bool cutShort = state.positions[i] == glm::vec3(std::numeric_limits<float>::infinity());
+            // what was cut short is the cause of what is not finite beside it
+            if (!cutShort && (!worst.finite || (finite && !(speed > worst.speed)))) continue;
             worst.group = g;
             worst.molecule = int(i / vertices);
             worst.vertex = int(i % vertices);
             worst.speed = speed;
             worst.finite = finite;
-            worst.cutShort = state.positions[i] == glm::vec3(std::numeric_limits<float>::infinity());
-            if (!finite) return worst;
+            worst.cutShort = cutShort;
+            if (cutShort) return worst;
         }
     }
     return worst;

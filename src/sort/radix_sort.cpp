@@ -21,8 +21,8 @@ constexpr size_t pairBytes = 2 * sizeof(uint32_t);
 constexpr int simdLanes = 8;  // of a workgroup of pieces: what a CPU rasteriser runs in step
 constexpr int tileLanes = 256, tilePairs = 2048;
 constexpr int tileDigitBits = 8, pieceDigitBits = 11;
-// A piece is a loop, beside two over the digits.
-constexpr size_t longestPiece = size_t(gpu::mostSoftwareTurns) - 2 * (size_t(1) << pieceDigitBits) - 1;
+// A piece is a loop, after two over the digits; each is counted once more than it turns.
+constexpr size_t longestPiece = size_t(gpu::mostSoftwareTurns) - 2 * ((size_t(1) << pieceDigitBits) + 1) - 1;
 // Fewer pairs than these are not worth the work on 2,048 counters a lane.
 constexpr size_t manyPairs = size_t(1) << 16;
 

@@ -100,6 +100,7 @@ TEST_CASE("drawing arrives in the current context", "[context]") {
 }
 
 TEST_CASE("contexts of several kinds take turns in one process", "[context]") {
+    int there = 0;
     for (int round = 0; round < 2; ++round) {
         for (const ContextKind kind : {ContextKind::egl, ContextKind::osmesa}) {
             ContextOptions options;
@@ -113,6 +114,7 @@ TEST_CASE("contexts of several kinds take turns in one process", "[context]") {
                 continue;
             }
             Context& other = *made;
+            ++there;
             INFO(name(kind));
             CHECK(other.isCurrent());
             CHECK_FALSE(testContext().isCurrent());
@@ -125,6 +127,7 @@ TEST_CASE("contexts of several kinds take turns in one process", "[context]") {
         testContext().makeCurrent();
         CHECK(clearsAndReadsBack(testContext()));
     }
+    CHECK(there >= 2);  // one kind, twice
 }
 
 TEST_CASE("a context can be moved while textures borrow it", "[context]") {

@@ -278,6 +278,33 @@ TEST_CASE("however many colliders there are, all substeps of a frame are done", 
                Catch::Contains("was cut short") && Catch::Contains("fewer colliders"));
 }
 
+TEST_CASE("what a paddle throws further than its own way meets the wall, among many colliders, too",
+          "[contact]") {
+    for (const int far : {0, 60}) {
+        INFO(far);
+        Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog,
+                                    {at({0.25, 0, 0}), at({0.263, 0.1, 0}), at({0.221, -0.1, 0.1})});
+        scene.gravity = glm::dvec3(0);
+        setSteps(scene, 1 / 60.0, 1);
+        Collider paddle;
+        paddle.name = "paddle";
+        paddle.shape = box({-0.8, -1, -1}, {0.2, 1, 1});
+        paddle.path = ride({10, 0, 0});
+        paddle.restitution = 0;
+        scene.colliders = {paddle};
+        scene.colliders.push_back({.name = "wall", .shape = box({0.3, -5, -5}, {0.35, 5, 5})});
+        for (int i = 0; i < far; ++i)
+            scene.colliders.push_back(
+                {.name = concat("far ", i), .shape = SphereCollider{{50 + 3 * i, 0, 0}, 1}});
+        REQUIRE((compile(scene).colliderTurns > 0) == (far > 0));
+        Simulation simulation = test::simulationOf(scene);
+        run(simulation,
+            1);  // at rest until the paddle takes them along by up to 0.15 m, through where the wall is
+        for (const glm::dvec3& x : simulation.snapshot(0).positions)
+            CHECK(x.x < 0.3 + 1e-3);
+    }
+}
+
 TEST_CASE("a molecule among many colliders moves as among those that are near it", "[contact]") {
     for (const glm::dvec3& start : {glm::dvec3(0.1, 0.6, 0.05), {-1.3, 0.5, 0.8}, {1.12, 0.7, -1.2}}) {
         glm::dvec3 end[2];

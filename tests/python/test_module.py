@@ -4,6 +4,7 @@ import os
 import pathlib
 import subprocess
 import sys
+import gc
 import threading
 
 import numpy as np
@@ -122,6 +123,16 @@ def test_fields_and_forces_have_factors():
                 wrong()
         assert fields.values() == [0.5, 3]
         simulation.step()
+
+
+def test_parameters_keep_the_simulation():
+    parameters = shoal.Simulation(shoal.Scene("hello"), substeps=7).parameters
+    fields = shoal.Simulation(shoal.Scene("hello")).parameters.fields
+    gc.collect()
+    assert parameters.substeps == 7 and parameters.wind == 1
+    assert len(fields) == 1 and fields[np.int64(0)] == 1
+    with pytest.raises(shoal.Error, match="expected a name or a number"):
+        fields[1.5]
 
 
 def test_fields_act_by_name():

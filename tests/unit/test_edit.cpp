@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 
 #include "core/file.h"
 #include "molecule/analysis.h"
@@ -206,6 +207,103 @@ TEST_CASE("what cannot be saved loses nothing", "[edit]") {
     CHECK_THROWS_AS(document.save(), Error);
     CHECK(readFile(file) == std::string(kite) + "\n");
     CHECK(document.unsaved());
+}
+
+TEST_CASE("one side becomes the image of the other", "[edit]") {
+    // two vertices on the plane x = 0, two on its left, and on its right one that is to go
+    Molecule half;
+    for (const glm::dvec3& x : {glm::dvec3(0, 0, 0), {0, 1, 0}, {-1, 0, 0}, {-1, 1, 0.2}, {0.7, 0.3, 0}})
+        half.vertices.push_back({x, {}, 0.5, x.x < -0.5});
+    half.springs = {
+        {0, 1, 10, 1, {}, {}}, {0, 2, 20, 1, 1.5, {}}, {1, 3, 30, 1, {}, {}}, {0, 4, 40, 1, {}, {}}};
+    half.triangles = {{0, 1, 3}, {0, 3, 2}};
+    Draft draft(half);
+    CHECK(mirrorSide(draft, -1) == "choose the axis of symmetry first");
+    REQUIRE(mirrorSide(draft, 0).empty());
+    const Molecule& m = draft.molecule;
+    CHECK(m.vertices.size() == 6);
+    CHECK(m.springs.size() == 5);
+    CHECK(m.triangles.size() == 4);
+    CHECK(problemOf(m).empty());
+    const std::vector<int> image = mirrored(m, 0);
+    for (size_t v = 0; v < m.vertices.size(); ++v) {
+        REQUIRE(image[v] >= 0);
+        CHECK(m.vertices[v].pinned == m.vertices[size_t(image[v])].pinned);
+    }
+    const int there = springBetween(m, image[0], image[2]);
+    REQUIRE(there >= 0);
+    CHECK(m.springs[size_t(there)].stiffness == 20);
+    CHECK(m.springs[size_t(there)].restLength == 1.5);
+    // all faces look the same way
+    double up = 0;
+    for (const Triangle& t : m.triangles) {
+        const auto at = [&](int v) { return m.vertices[size_t(v)].position; };
+        const double z = glm::cross(at(t.b) - at(t.a), at(t.c) - at(t.a)).z;
+        CHECK(z * (up == 0 ? z : up) > 0);
+        up = z;
+    }
+    // what is symmetric stays as it is
+    Draft again(m);
+    REQUIRE(mirrorSide(again, 0).empty());
+    CHECK(again.molecule.vertices.size() == 6);
+    CHECK(again.molecule.springs.size() == 5);
+    CHECK_FALSE(mirrorSide(again, 2).empty());  // nothing is below z = 0
+}
+
+TEST_CASE("triangles are subdivided without a gap, and the mass stays", "[edit]") {
+    Draft whole(parseMolecule(kite, "kite.json"));
+    const auto massOf = [](const Draft& draft) {
+        double out = 0;
+        for (const Vertex& vertex : draft.molecule.vertices)
+            out += vertex.mass;
+        return out;
+    };
+    const auto areaOf = [&](const Draft& draft) { return massOf(draft) / densityOf(draft.molecule); };
+    const double mass = massOf(whole), area = areaOf(whole);
+    const size_t triangles = whole.molecule.triangles.size();
+    Draft one = whole;
+    REQUIRE(subdivide(whole, {}).empty());
+    CHECK(whole.molecule.triangles.size() == 4 * triangles);
+    REQUIRE(subdivide(one, {0}).empty());
+    CHECK(one.molecule.triangles.size() > triangles + 2);
+    CHECK(one.molecule.triangles.size() < 4 * triangles);
+    for (const Draft* draft : {&whole, &one}) {
+        CHECK(problemOf(draft->molecule).empty());
+        CHECK(massOf(*draft) == Approx(mass));
+        CHECK(areaOf(*draft) == Approx(area));
+        // every edge has one triangle at either side, or is on the border, where no vertex lies within it
+        std::map<std::pair<int, int>, int> edges;
+        for (const Triangle& t : draft->molecule.triangles)
+            for (const auto& [a, b] : {std::pair(t.a, t.b), {t.b, t.c}, {t.c, t.a}})
+                ++edges[{a, b}];
+        for (const auto& [edge, count] : edges) {
+            CHECK(count == 1);
+            CHECK(springBetween(draft->molecule, edge.first, edge.second) >= 0);
+            for (const Vertex& vertex : draft->molecule.vertices) {
+                const auto at = [&](int v) { return draft->molecule.vertices[size_t(v)].position; };
+                const double off = glm::distance(vertex.position, 0.5 * (at(edge.first) + at(edge.second)));
+                CHECK(off > 1e-9);
+            }
+        }
+    }
+    Draft none{Molecule()};
+    CHECK_FALSE(subdivide(none, {}).empty());
+    CHECK_FALSE(weigh(none, 1).empty());
+}
+
+TEST_CASE("vertices are weighed by the area around them", "[edit]") {
+    Draft draft(parseMolecule(kite, "kite.json"));
+    REQUIRE(weigh(draft, 0.3).empty());
+    std::set<int> with;
+    for (const Triangle& t : draft.molecule.triangles)
+        with.insert({t.a, t.b, t.c});
+    const Molecule before = parseMolecule(kite, "kite.json");
+    for (size_t v = 0; v < before.vertices.size(); ++v)
+        if (!with.contains(int(v))) CHECK(draft.molecule.vertices[v].mass == before.vertices[v].mass);
+    Molecule all = draft.molecule;
+    for (size_t v = 0; v < all.vertices.size(); ++v)
+        if (!with.contains(int(v))) all.vertices[v].mass = 0;
+    CHECK(densityOf(all) == Approx(0.3));
 }
 
 TEST_CASE("a new document makes its file when it is saved", "[edit]") {

@@ -29,6 +29,7 @@ struct Editor {
     bool snaps = false;   // new and moved vertices to a grid
     double grid = 0.01;   // m
     std::string message;  // what was done
+    double density = 0;   // kg/m^2, to weigh by
     bool help = false, asksToClose = false;
 
     // Results for the molecule as it is, computed anew when it changes; the cost only on request.

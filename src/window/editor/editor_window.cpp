@@ -40,6 +40,7 @@ class EditorWindow : public WindowLoop {
           camera_(viewOf(editor_.molecule(), {0.8, 0.45, 1})) {
         file_.watch({editor_.document.file()});
         if (editor_.molecule().size() > 0) editor_.grid = niceStep(editor_.molecule().size());
+        editor_.density = densityOf(editor_.molecule());
         if (!editor_.molecule().hasPins()) editor_.stage.around = StageSettings::Around::drop;
     }
 

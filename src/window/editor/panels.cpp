@@ -39,6 +39,35 @@ EditorAction drawHead(Editor& editor) {
     return action;
 }
 
+// What changes the shape as a whole, and says why it does not.
+void drawReshaping(Editor& editor) {
+    const auto button = [&](const char* label, const char* words, const auto& change) {
+        const bool pressed = ImGui::Button(label);
+        tip(words);
+        if (!pressed) return;
+        Draft tried = editor.document.draft();
+        const std::string why = change(tried);
+        editor.message = why;
+        if (!why.empty()) return;
+        editor.overlay.selection = {};
+        editor.document.edit(label, [&](Draft& draft) { draft = tried; });
+    };
+    button("Mirror", "The side above 0 along the axis of symmetry becomes the image of that below",
+           [&](Draft& draft) { return mirrorSide(draft, editor.mirrorAxis); });
+    ImGui::SameLine();
+    button("Subdivide", "Each selected triangle, or all, becomes four",
+           [&](Draft& draft) { return subdivide(draft, editor.overlay.selection.triangles); });
+    ImGui::SameLine();
+    button("Weigh", "Masses by area, at so many kg a square metre",
+           [&](Draft& draft) { return weigh(draft, editor.density); });
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(-1);
+    const double least = 1e-6, most = 1e6;
+    ImGui::DragScalar("##density", ImGuiDataType_Double, &editor.density, 0.01f, &least, &most, "%.3g",
+                      ImGuiSliderFlags_Logarithmic);
+    tip("kg/m^2");
+}
+
 void drawToolButtons(Editor& editor) {
     heading("Tools");
     struct Entry {
@@ -65,6 +94,7 @@ void drawToolButtons(Editor& editor) {
         ImGui::SameLine();
         if (ImGui::RadioButton(axes[i], editor.mirrorAxis == i - 1)) editor.mirrorAxis = i - 1;
     }
+    drawReshaping(editor);
     ImGui::Checkbox("Snap to", &editor.snaps);
     tip("G: added and moved vertices to a grid");
     ImGui::SameLine();
