@@ -40,6 +40,7 @@ class JsonValue {
 
     // Builders for what we write.
     static JsonValue makeNumber(double value);
+    static JsonValue makeWhole(int64_t value);  // never with an exponent, which some readers do not take
     static JsonValue makeString(std::string value);
     static JsonValue makeBoolean(bool value);
     static JsonValue makeArray();

@@ -19,6 +19,8 @@ JsonValue toJson(const T& value) {
         return value;
     } else if constexpr (std::is_same_v<T, bool>) {
         return JsonValue::makeBoolean(value);
+    } else if constexpr (std::is_integral_v<T>) {
+        return JsonValue::makeWhole(static_cast<int64_t>(value));
     } else if constexpr (std::is_arithmetic_v<T>) {
         return JsonValue::makeNumber(double(value));
     } else if constexpr (std::is_convertible_v<const T&, std::string>) {

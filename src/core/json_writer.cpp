@@ -42,7 +42,7 @@ std::string scalar(const JsonValue& value) {
     case JsonValue::Kind::boolean:
         return value.boolean ? "true" : "false";
     case JsonValue::Kind::number:
-        return number(value.number);
+        return value.end == 0 && !value.text.empty() ? value.text : number(value.number);
     case JsonValue::Kind::string:
         return inQuotes(value.text);
     default:
@@ -106,6 +106,12 @@ const JsonValue* JsonValue::find(std::string_view key) const {
 JsonValue JsonValue::makeNumber(double value) {
     JsonValue out = ofKind(Kind::number);
     out.number = value;
+    return out;
+}
+
+JsonValue JsonValue::makeWhole(int64_t value) {
+    JsonValue out = makeNumber(double(value));
+    out.text = std::to_string(value);
     return out;
 }
 

@@ -1,5 +1,8 @@
 #include "python/parameters.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/error.h"
 
 namespace shoal::python {
@@ -115,16 +118,20 @@ void bindParameters(py::module_& m) {
         .def("__repr__", &PyFactors::text);
 
     py::class_<PyParameters> out(m, "Parameters", "What may change between frames.");
-    const auto factor = [&](const char* name, double Parameters::*member, const char* doc) {
+    const auto factor = [&](const char* name, double Parameters::*member, double least, const char* doc) {
         out.def_property(
             name, [member](const PyParameters& self) { return of(self).*member; },
-            [name, member](PyParameters& self, double value) { of(self).*member = finite(name, value); },
+            [name, member, least](PyParameters& self, double value) {
+                if (finite(name, value) < least) throw Error(name, " is at least ", least, ", not ", value);
+                of(self).*member = value;
+            },
             doc);
     };
-    factor("wind", &Parameters::wind, "Factor on every field.");
-    factor("drag", &Parameters::drag, "Factor on every drag rate.");
-    factor("stiffness", &Parameters::stiffness, "Factor on every spring.");
-    factor("damping", &Parameters::damping, "Factor on every spring's damping.");
+    constexpr double any = -std::numeric_limits<double>::infinity();
+    factor("wind", &Parameters::wind, any, "Factor on every field.");
+    factor("drag", &Parameters::drag, 0, "Factor on every drag rate.");
+    factor("stiffness", &Parameters::stiffness, 0, "Factor on every spring.");
+    factor("damping", &Parameters::damping, 0, "Factor on every spring's damping.");
     out.def_property(
         "substeps", [](const PyParameters& self) { return of(self).substeps; },
         [](PyParameters& self, int value) {
@@ -136,7 +143,8 @@ void bindParameters(py::module_& m) {
     out.def_property(
         "frame_time", [](const PyParameters& self) { return of(self).frameTime; },
         [](PyParameters& self, double value) {
-            if (!(finite("frame_time", value) > 0)) throw Error("frame_time is above 0, not ", value);
+            if (!(finite("frame_time", value) >= 1e-5 && value <= 1))
+                throw Error("frame_time is from 1e-5 to 1 s, not ", value);
             of(self).frameTime = value;
         },
         "s, of a frame.");

@@ -9,6 +9,12 @@ namespace shoal::python {
 
 namespace {
 
+std::filesystem::path pathOf(const py::object& source, const char* expected) {
+    if (!py::isinstance<py::str>(source) && !py::hasattr(source, "__fspath__"))
+        throw Error(expected, ", found ", std::string(py::repr(source)));
+    return py::cast<std::filesystem::path>(source);
+}
+
 // JSON's text of a dict or list.
 std::string jsonOf(const py::object& value) {
     return py::str(py::module_::import("json").attr("dumps")(value));
@@ -49,7 +55,7 @@ PyMolecule moleculeFrom(const py::object& source) {
         if (!whole.contains("format")) whole["format"] = "shoal-molecule-1";
         return {parseMolecule(jsonOf(whole), "<molecule>")};
     }
-    return {readMolecule(py::cast<std::filesystem::path>(source).string())};
+    return {readMolecule(pathOf(source, "a molecule is a file or a dict").string())};
 }
 
 py::array_t<double> restPositions(const PyMolecule& self) {
@@ -63,7 +69,7 @@ py::array_t<double> restPositions(const PyMolecule& self) {
 
 PyScene sceneFrom(const py::object& source, const std::filesystem::path& folder) {
     if (!py::isinstance<py::dict>(source)) {
-        const std::string word = py::cast<std::filesystem::path>(source).string();
+        const std::string word = pathOf(source, "a scene is a file, a name or a dict").string();
         const py::gil_scoped_release release;
         return {readScene(needScene(word))};
     }

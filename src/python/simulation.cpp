@@ -36,6 +36,7 @@ void enter(Device& device) {
 
 double finite(const char* what, double value) {
     if (!std::isfinite(value)) throw Error(what, " is not finite");
+    if (!std::isfinite(float(value))) throw Error(what, " is beyond what a float holds: ", value);
     return value;
 }
 
@@ -54,7 +55,7 @@ static std::vector<glm::dvec3> given(const char* what, const Array& array, const
     std::vector<glm::dvec3> out(size_t(plan.count) * size_t(plan.vertexCount));
     std::copy_n(array.data(), 3 * out.size(), &out.data()->x);
     for (const glm::dvec3& value : out)
-        if (!std::isfinite(value.x + value.y + value.z)) throw Error(what, ": a number is not finite");
+        finite(what, {value.x, value.y, value.z});
     return out;
 }
 
@@ -226,6 +227,8 @@ size_t PySimulation::groupOf(const py::object& group) {
         if (number >= 0 && size_t(number) < groups.size()) return size_t(number);
         throw Error("there is no group ", number, ": the scene has ", groups.size());
     }
+    if (!py::isinstance<py::str>(group))
+        throw Error("a group is a name, a number or None, found ", std::string(py::repr(group)));
     const auto word = group.cast<std::string>();
     std::vector<std::string> names;
     for (size_t i = 0; i < groups.size(); ++i) {

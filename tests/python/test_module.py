@@ -197,7 +197,12 @@ def test_errors_say_where(tmp_path, hello):
         (lambda: setattr(hello.parameters, "wind", np.nan), "wind is not finite"),
         (lambda: setattr(hello.parameters, "gravity", [0, np.nan, 0]), "gravity is not finite"),
         (lambda: setattr(hello.parameters, "substeps", 0), "1 to 1000 substeps"),
-        (lambda: setattr(hello.parameters, "frame_time", 0), "frame_time is above 0"),
+        (lambda: setattr(hello.parameters, "drag", -1), "drag is at least 0"),
+        (lambda: hello.set_state(positions=np.full((20, 4, 3), 1e300)), "beyond what a float holds"),
+        (lambda: hello.positions(1.0), "a name, a number or None"),
+        (lambda: shoal.Scene(3), "a scene is a file, a name or a dict, found 3"),
+        (lambda: shoal.Molecule(None), "a molecule is a file or a dict, found None"),
+        (lambda: setattr(hello.parameters, "frame_time", 0), "frame_time is from 1e-5 to 1 s"),
     ):
         with pytest.raises(shoal.Error, match=words):
             wrong()

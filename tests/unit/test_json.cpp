@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/json.h"
+#include "core/json_build.h"
 #include "support/message_of.h"
 
 using namespace shoal;
@@ -179,6 +180,13 @@ TEST_CASE("an unknown key is refused though every known one was taken", "[json]"
     const JsonValue comment = parseJson("{\"comment\": 3}", "f");
     CHECK(messageOf([&] { JsonReader(comment, "f").finish(); }) ==
           "f:1:13: expected a string, found a number (at $.comment)");
+}
+
+TEST_CASE("whole numbers are written without an exponent", "[json]") {
+    CHECK(writeJsonLine(toJson(std::vector<size_t>{0, 7, 100000, 5000000000})) ==
+          "[0, 7, 100000, 5000000000]");
+    CHECK(writeJsonLine(toJson(-200000)) == "-200000");
+    CHECK(writeJsonLine(toJson(1e12)) == "1e+12");
 }
 
 TEST_CASE("what is written reads well and reads back", "[json]") {
