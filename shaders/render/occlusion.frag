@@ -49,7 +49,8 @@ vec3 flatter(vec3 a, vec3 b)
 void main()
 {
     ivec2 size = textureSize(sceneDepth, 0);
-    ivec2 texel = clamp(2 * ivec2(gl_FragCoord.xy), min(ivec2(1), size - 1), max(size - 2, ivec2(0)));  // with a neighbour at either side
+    // with a neighbour at either side
+    ivec2 texel = clamp(2 * ivec2(gl_FragCoord.xy), min(ivec2(1), size - 1), max(size - 2, ivec2(0)));
     vec3 place = placeAt(texel);
     float depth = -place.z;
     fragment = vec4(1.0, min(depth, 6e4), 0.0, 1.0);

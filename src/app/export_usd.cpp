@@ -62,11 +62,16 @@ class RigidFit {
 
 class UsdGroup {
   public:
-    UsdGroup(UsdStage& stage, const Scene& scene, const Simulation& simulation, size_t index, bool rigid)
+    UsdGroup(UsdStage& stage, const Scene& scene, const Simulation& simulation, size_t index,
+             bool asInstances)
         : plan_(&simulation.plan().groups[index]),
           index_(index),
           mesh_(scene.groups[plan_->index], plan_->constants.seeds),
           changes_(plan_->needs.life) {
+        const bool rigid = asInstances && !mesh_.points();
+        if (rigid && changes_)
+            throw Error("group \"", mesh_.name(),
+                        "\" has births or deaths: --rigid needs molecules that live throughout");
         UsdMoving how;
         how.changes = changes_;
         how.origin = exchange::originOf(simulation.snapshot(index).positions);
@@ -140,22 +145,18 @@ void eachFrame(Simulation& simulation, int frames, const auto& look) {
     }
 }
 
-// Which groups are instances. Where a bound is given all frames are run once before they are written.
+// Which groups are to be instances. Where a bound is given all frames are run once before they are written.
 std::vector<bool> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
     const std::vector<GroupPlan>& plans = simulation.plan().groups;
-    std::vector<bool> out(plans.size(), asked.rigid || asked.rigidWithin);
+    std::vector<bool> out(plans.size(), asked.rigid);
+    if (!asked.rigidWithin) return out;
     std::vector<std::optional<GroupMesh>> meshes(plans.size());
     std::vector<std::optional<RigidFit>> fits(plans.size());
     for (size_t g = 0; g < plans.size(); ++g) {
-        if (!out[g] || plans[g].count == 0) continue;
+        if (plans[g].count == 0 || plans[g].needs.life) continue;
         meshes[g].emplace(scene.groups[plans[g].index], plans[g].constants.seeds);
-        out[g] = !meshes[g]->points() && !(asked.rigidWithin && plans[g].needs.life);
-        if (out[g] && plans[g].needs.life)
-            throw Error("group \"", plans[g].name,
-                        "\" has births or deaths: --rigid needs molecules that live throughout");
-        if (out[g]) fits[g].emplace(*meshes[g], plans[g]);
+        if (!meshes[g]->points()) fits[g].emplace(*meshes[g], plans[g]);
     }
-    if (!asked.rigidWithin) return out;
     const SavedState start = simulation.save();
     eachFrame(simulation, asked.frames, [&](int) {
         for (size_t g = 0; g < fits.size(); ++g)

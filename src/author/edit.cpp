@@ -21,11 +21,11 @@ int triangleBetween(const Molecule& molecule, const std::set<int>& corners) {
     return -1;
 }
 
-bool onPlane(const Molecule& molecule, const glm::dvec3& position, int axis) {
-    return std::abs(position[axis]) <= 5e-4 * molecule.size();
-}
-
 }  // namespace
+
+double nearPlane(const Molecule& molecule) {
+    return 5e-4 * molecule.size();
+}
 
 ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int axis) {
     ElementSet out = selected;
@@ -64,7 +64,7 @@ void moveVertices(Draft& draft, const Draft& before, const std::set<int>& vertic
 
 int addVertexAt(Draft& draft, const glm::dvec3& position, int axis) {
     glm::dvec3 place = position;
-    const bool flat = axis >= 0 && onPlane(draft.molecule, place, axis);
+    const bool flat = axis >= 0 && std::abs(place[axis]) <= nearPlane(draft.molecule);
     if (flat) place[axis] = 0;
     const int out = addVertex(draft, place);
     if (axis < 0 || flat) return out;

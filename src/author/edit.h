@@ -89,6 +89,8 @@ struct ElementSet {
     bool operator==(const ElementSet&) const = default;
 };
 
+// m: what is no further from the plane of symmetry lies on it.
+double nearPlane(const Molecule& molecule);
 // With the images of what is selected.
 ElementSet withMirror(const Molecule& molecule, const ElementSet& selected, int axis);
 

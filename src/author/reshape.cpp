@@ -96,18 +96,11 @@ std::vector<Triangle> partsOf(const Splitter& splitter, Triangle t) {
     return {{m[0], t.b, m[1]}, {t.a, m[0], m[1]}, {t.a, m[1], t.c}};
 }
 
-double massOf(const Molecule& molecule) {
-    double out = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        out += vertex.mass;
-    return out;
-}
-
 }  // namespace
 
 std::string mirrorSide(Draft& draft, int axis) {
     if (axis < 0) return "choose the axis of symmetry first";
-    const double flat = 5e-4 * draft.molecule.size();
+    const double flat = nearPlane(draft.molecule);
     std::set<int> gone;
     bool any = false;
     for (size_t v = 0; v < draft.molecule.vertices.size(); ++v) {
@@ -153,7 +146,7 @@ std::string mirrorSide(Draft& draft, int axis) {
 
 std::string subdivide(Draft& draft, const std::set<int>& triangles) {
     if (draft.molecule.triangles.empty()) return "there are no triangles to be subdivided";
-    const double mass = massOf(draft.molecule);
+    const double mass = draft.molecule.mass();
     Splitter splitter(draft);
     const std::vector<Triangle> before = draft.molecule.triangles;
     for (size_t i = 0; i < before.size(); ++i) {
@@ -177,7 +170,7 @@ std::string subdivide(Draft& draft, const std::set<int>& triangles) {
         }
     }
     removeTriangles(draft, replaced);
-    const double factor = mass / massOf(draft.molecule);
+    const double factor = mass / draft.molecule.mass();
     for (Vertex& vertex : draft.molecule.vertices)
         vertex.mass *= factor;
     return {};
@@ -201,7 +194,7 @@ double densityOf(const Molecule& molecule) {
     double area = 0;
     for (const Triangle& t : molecule.triangles)
         area += areaOf(molecule, t);
-    return area > 0 ? massOf(molecule) / area : 0;
+    return area > 0 ? molecule.mass() / area : 0;
 }
 
 }  // namespace shoal

@@ -45,9 +45,7 @@ std::string moleculeText(const Molecule& molecule, const Needs& needs) {
         out += concat("    sum += probe[", v, "];\n");
     out += concat("    return sum * ", glslLiteral(1 / double(count)), ";\n}\n");
     if (!needs.thrust && !needs.steers) return out;
-    double mass = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        mass += vertex.mass;
+    const double mass = molecule.mass();
     // each product in a register, or Mesa would take equal shares out of the sum and round otherwise than a
     // loop does
     const auto mean = [&](const char* comment, const char* name, const char* array) {

@@ -154,6 +154,7 @@ bool takesLong(const Plan& plan, const GroupPlan& group) {
 }
 
 int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns) {
+    if (plan.contact.any()) return std::min(plan.contact.steps, substeps);
     if (plan.colliderTurns == 0) return 1;
     constexpr double looks = 3;      // at all colliders, of a vertex and substep
     constexpr double marches = 300;  // turns of the way among those that are near, seldom more

@@ -49,9 +49,9 @@ double secondsToCompile(const Plan& plan, const GroupPlan& group);
 // Whether that is so long that it is refused where there is no other form.
 bool takesLong(const Plan& plan, const GroupPlan& group);
 
-// The number of dispatches that a frame is cut into, so that a lane with so many vertices stays below the
-// turns of loops that a CPU rasteriser takes. Mostly 1. What needs more is noticed
-// (shaders/fused/frame.glsl).
+// The number of dispatches that a frame is cut into: its steps of contact between molecules or, without
+// contact, so many that a lane with so many vertices stays below the turns of loops that a CPU rasteriser
+// takes, mostly 1. What needs more turns is noticed (shaders/fused/frame.glsl).
 int piecesOf(const Plan& plan, int vertices, int substeps, int mostTurns);
 
 // Returns the form for a group. Error: what is wanted cannot hold it, or would take a CPU rasteriser too long

@@ -146,9 +146,7 @@ static std::vector<std::vector<size_t>> around(size_t vertices, const std::vecto
 
 int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<glm::vec4>& topology) {
     const size_t base = topology.size(), count = molecule.vertices.size();
-    double mass = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        mass += vertex.mass;
+    const double mass = molecule.mass();
     const MuscleWaves waves(molecule, group.needs);
     const auto cornersOf = [](const Triangle& t) { return std::array{t.a, t.b, t.c}; };
     const auto springs = around(count, molecule.springs, [](const Spring& spring) {

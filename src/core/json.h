@@ -31,7 +31,7 @@ class JsonValue {
     size_t keyBegin = 0;             // of its key
     bool boolean = false;
     double number = 0;
-    std::string text;                 // a string's characters, or a number as it was written
+    std::string text;                 // a string's characters, or a number as it is written
     std::vector<JsonValue> items;     // array
     std::vector<JsonMember> members;  // object, in the file's order
 
@@ -40,7 +40,6 @@ class JsonValue {
 
     // Builders for what we write.
     static JsonValue makeNumber(double value);
-    static JsonValue makeWhole(int64_t value);  // never with an exponent, which some readers do not take
     static JsonValue makeString(std::string value);
     static JsonValue makeBoolean(bool value);
     static JsonValue makeArray();

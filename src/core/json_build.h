@@ -20,7 +20,10 @@ JsonValue toJson(const T& value) {
     } else if constexpr (std::is_same_v<T, bool>) {
         return JsonValue::makeBoolean(value);
     } else if constexpr (std::is_integral_v<T>) {
-        return JsonValue::makeWhole(static_cast<int64_t>(value));
+        // never with an exponent, which some readers of whole numbers do not take
+        JsonValue out = JsonValue::makeNumber(double(value));
+        out.text = std::to_string(value);
+        return out;
     } else if constexpr (std::is_arithmetic_v<T>) {
         return JsonValue::makeNumber(double(value));
     } else if constexpr (std::is_convertible_v<const T&, std::string>) {

@@ -109,12 +109,6 @@ JsonValue JsonValue::makeNumber(double value) {
     return out;
 }
 
-JsonValue JsonValue::makeWhole(int64_t value) {
-    JsonValue out = makeNumber(double(value));
-    out.text = std::to_string(value);
-    return out;
-}
-
 JsonValue JsonValue::makeString(std::string value) {
     JsonValue out = ofKind(Kind::string);
     out.text = std::move(value);

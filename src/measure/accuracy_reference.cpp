@@ -47,18 +47,11 @@ double measureStep(const reference::Problem& problem, const reference::State& st
     return secondsOf([&] { reference::integrate(problem, start, h * steps, steps); }) / steps;
 }
 
-double totalMass(const Molecule& molecule) {
-    double out = 0;
-    for (const Vertex& vertex : molecule.vertices)
-        out += vertex.mass;
-    return out;
-}
-
 glm::dvec3 centreOfMass(const Molecule& molecule, const reference::State& state) {
     glm::dvec3 out(0);
     for (size_t i = 0; i < state.position.size(); ++i)
         out += molecule.vertices[i].mass * state.position[i];
-    return out / totalMass(molecule);
+    return out / molecule.mass();
 }
 
 glm::dvec3 ownAngularMomentum(const reference::Problem& problem, const reference::State& state) {
@@ -239,7 +232,7 @@ std::optional<size_t> ExactEnds::placeOf(size_t group, int molecule) const {
 
 Drift ExactEnds::driftOf(const One& one, const reference::State& end) const {
     const reference::Problem& p = one.problem;
-    const double mass = totalMass(*p.molecule);
+    const double mass = p.molecule->mass();
     const auto moving = [&](const reference::State& state) {
         return reference::kineticEnergy(p, state) + reference::springEnergy(p, state);
     };

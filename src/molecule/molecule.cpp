@@ -23,6 +23,13 @@ const char* name(DrawSort sort) {
     return sortWords()[size_t(sort)].c_str();
 }
 
+double Molecule::mass() const {
+    double out = 0;
+    for (const Vertex& vertex : vertices)
+        out += vertex.mass;
+    return out;
+}
+
 double Molecule::size() const {
     // Every pair is compared only while that is cheap; beyond, the diagonal of the bounding box stands in.
     constexpr size_t allPairs = 4096;

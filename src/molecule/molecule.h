@@ -122,6 +122,7 @@ struct Molecule {
     // The largest rest distance between two vertices: the length that relative errors refer to. 1 for a
     // point.
     double size() const;
+    double mass() const;  // kg, of all vertices
     bool hasPins() const;
 };
 

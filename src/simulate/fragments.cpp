@@ -125,8 +125,7 @@ void Fragments::run(const Frame& frame, gpu::PassTimers& timers) {
 void Fragments::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, state, timers);
-    pieces_ = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps)
-                       : piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
+    pieces_ = piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
     for (int i = 0; i < pieces_; ++i) {
         const Frame piece = pieceOf(frame, i, pieces_);
         run(piece, timers);

@@ -96,8 +96,7 @@ void Fused::dispatch(const Program& program, size_t index, const GroupBuffers::P
 void Fused::step(const Frame& frame, gpu::PassTimers& timers) {
     steeringEnd_ = frame.end;
     if (school_) school_->step(frame, state, timers);
-    pieces_ = contact_ ? std::min(plan_->contact.steps, frame.parameters.substeps)
-                       : piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
+    pieces_ = piecesOf(*plan_, mostVertices_, frame.parameters.substeps, gpu::mostSoftwareTurns);
     for (int i = 0; i < pieces_; ++i) {
         const Frame piece = pieceOf(frame, i, pieces_);
         if (contact_) contact_->begin(piece);
