@@ -18,7 +18,7 @@ bool followAnchor()
     return shift != vec3(0.0);
 }
 
-#ifdef SOFTWARE
+#ifdef MAY_BE_CUT
 // Where loops end early, because there were more turns than Mesa's CPU rasterisers take (mostSoftwareTurns in
 // src/gpu/context.h), a vertex gets this, m, for the watchdog (src/simulate/watchdog.cpp).
 vec3 cutShort()
@@ -73,7 +73,7 @@ void main()
     if (resting > 0.0 && !probed) substeps = 0;
 #endif
 #endif
-#ifdef SOFTWARE
+#ifdef MAY_BE_CUT
     bool isCutShort = x[0] == cutShort();
 #ifndef MOLECULE_VERTICES
     if (isCutShort) substeps = 0;
@@ -88,7 +88,7 @@ void main()
     sampleFrame();
     run();
     finishSolver();
-#ifdef SOFTWARE
+#ifdef MAY_BE_CUT
     isCutShort = isCutShort || loopsEndEarly();
 #endif
 #ifdef RESTING
@@ -104,7 +104,7 @@ void main()
         moved = false;
     }
 #endif
-#ifdef SOFTWARE
+#ifdef MAY_BE_CUT
     if (isCutShort) x[0] = cutShort();
 #endif
 #ifdef LIFE

@@ -59,6 +59,9 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     };
     define(true, "FUSED");
     define(options.software, "SOFTWARE");
+    // only with such loops can a frame turn more often than a CPU rasteriser takes (gpu/context.h)
+    define(options.software && (plan.longFields || !perLane || (needs.collide && plan.jointContact)),
+           "MAY_BE_CUT");
     define(options.groupVote && perLane && needs.collide, "GROUP_VOTE");
     define(writesNormals(group, options), "NORMALS");
     if (options.work == Work::watch || (options.watch && options.work == Work::frame && !options.fragments)) {
