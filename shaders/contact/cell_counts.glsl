@@ -3,3 +3,9 @@
 layout(std430, binding = 5) buffer CellCounts { uint cellCounts[]; };
 
 uniform int keys;
+
+// Where the count of a tile is: each in a line of a GPU's cache, since atomics on the same line wait for one another.
+int placeOfTile(int tile)
+{
+    return keys + tile * LINE_WORDS;
+}

@@ -12,7 +12,7 @@ layout(std430, binding = 1) writeonly buffer Members { uint members[]; };
 void main()
 {
     int sphere = int(gl_GlobalInvocationID.x);
-    if (sphere <= (keys - 1) / CELL_TILE) cellCounts[keys + sphere] = 0u;
+    if (sphere <= (keys - 1) / CELL_TILE) cellCounts[placeOfTile(sphere)] = 0u;
     if (sphere < count) {
         uvec2 arrival = texelFetch(arrivals, sphere).xy;
         members[texelFetch(starts, int(arrival.x)).x + arrival.y] = uint(sphere);

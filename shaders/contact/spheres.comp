@@ -40,7 +40,7 @@ void main()
 #ifdef COUNTED
     if (int(gl_GlobalInvocationID.x) < partSpheres) {
         pairs[sphere] = uvec2(key, atomicAdd(cellCounts[key], 1u));
-        atomicAdd(cellCounts[keys + int(key) / CELL_TILE], 1u);
+        atomicAdd(cellCounts[placeOfTile(int(key) / CELL_TILE)], 1u);
     }
 #else
     pairs[sphere] = uvec2(key, uint(sphere));

@@ -14,7 +14,7 @@ void main()
     int lane = int(gl_LocalInvocationID.x);
     int tile = int(gl_WorkGroupID.x);
     uint own = 0u;
-    for (int t = lane; t < tile; t += LANES) own += cellCounts[keys + t];
+    for (int t = lane; t < tile; t += LANES) own += cellCounts[placeOfTile(t)];
     uint before;
     sumBefore(own, before);
     int first = tile * CELL_TILE + lane * PER_LANE;

@@ -61,14 +61,18 @@ vec3 sharedVector(int array, int vertex)
     return vec3(sharedNumbers[at], sharedNumbers[at + LANES], sharedNumbers[at + 2 * LANES]);
 }
 
-// The lane's own vertex i, if no other lane has it.
-void share(int array, int i, vec3 value)
+void setSharedVector(int array, int vertex, vec3 value)
 {
-    if (!isOwn(i)) return;
-    int at = sharedIndex(array, 3 * vertexOf(i));
+    int at = sharedIndex(array, 3 * vertex);
     sharedNumbers[at] = value.x;
     sharedNumbers[at + LANES] = value.y;
     sharedNumbers[at + 2 * LANES] = value.z;
+}
+
+// The lane's own vertex i, if no other lane has it.
+void share(int array, int i, vec3 value)
+{
+    if (isOwn(i)) setSharedVector(array, vertexOf(i), value);
 }
 
 void shareProbes()
@@ -82,10 +86,9 @@ void shareProbes()
 
 #define springPlace(vertex) sharedVector(PLACES, vertex)
 #define springVelocity(vertex) sharedVector(VELOCITIES, vertex)
-#define surfacePlace(vertex) sharedVector(PLACES, vertex)
 #define springInverseMass(vertex) inertia(vertex).x
 #include "step/gather_springs.glsl"
-#include "step/gather_normal.glsl"
+#include "physics/normal.glsl"
 
 void loadInertia()
 {
@@ -115,12 +118,52 @@ void springForces(float time)
 }
 #endif
 
-// Unit normals of the surface through the probes.
+// The area vectors of the triangles from `first` to `end`, each from its first corner, to where velocities were.
+void shareAreas(int first, int end)
+{
+    waitForGroup();
+    for (int t = first + row(); t < end; t += ROWS) {
+        vec4 corners = table(topologyBase + 2 * MOLECULE_VERTICES + t);
+        vec3 place = sharedVector(PLACES, int(corners.x));
+        vec3 next = sharedVector(PLACES, int(corners.y));
+        vec3 last = sharedVector(PLACES, int(corners.z));
+        setSharedVector(VELOCITIES, t - first, areaVector(next - place, last - place));
+    }
+    waitForGroup();
+}
+
+// Adds those of the areas from triangle `first` to `end` that lie around a vertex. Its triangles are in the table from
+// `fan`.x, which moves past them, to `fan`.y.
+void addAreas(inout vec3 sum, inout ivec2 fan, int first, int end)
+{
+    while (fan.x < fan.y) {
+        int t = int(table(fan.x).w);
+        if (t >= end) break;
+        sum += sharedVector(VELOCITIES, t - first);
+        ++fan.x;
+    }
+}
+
+ivec2 fans[VERTICES];
+
+// Unit normals of the surface through the probes, from as many triangles at a time as there is room for.
 void surfaceNormals()
 {
     shareProbes();
     for (int i = 0; i < VERTICES; ++i) {
-        normal[i] = gatheredNormal(vertexOf(i));
+        vec4 spans = table(topologyBase + vertexOf(i));
+        fans[i] = ivec2(spans.z, spans.z + spans.w);
+        normal[i] = vec3(0.0);
+    }
+    for (int first = 0; first < TRIANGLES; first += MOLECULE_VERTICES) {
+        int end = min(first + MOLECULE_VERTICES, TRIANGLES);
+        shareAreas(first, end);
+        for (int i = 0; i < VERTICES; ++i) {
+            addAreas(normal[i], fans[i], first, end);
+        }
+    }
+    for (int i = 0; i < VERTICES; ++i) {
+        if (table(topologyBase + vertexOf(i)).w > 0.0) normal[i] = unitNormal(normal[i]);
     }
 }
 

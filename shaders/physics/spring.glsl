@@ -1,15 +1,14 @@
 // Hooke's spring with damping along it: the force on end i, N,
 //   -[k (l - L) + c n.(vi - vj)] n,  n = (xi - xj) / l.
-// The length's guard turns 0/0 of coincident ends into no force. Read as C++ through GLM by the tests.
+// The length's guard leaves ends that coincide without a force. Read as C++ through GLM by the tests.
 
 vec3 springForce(vec3 d, vec3 relativeVelocity, float stiffness, float damping, float restLength)
 {
-    float squared = dot(d, d);
-    float inverse = 1.0f / sqrt(max(squared, 1e-24f));
+    float inverse = inversesqrt(max(dot(d, d), 1e-24f));
     // along d instead of n: -[k (1 - L/l) + c d.(vi - vj) / l^2] d
     float stretch = restLength * inverse - 1.0f;
     float approach = dot(d, relativeVelocity) * (inverse * inverse);
-    return d * (squared > 1e-24f ? stiffness * stretch - damping * approach : 0.0f);
+    return d * (stiffness * stretch - damping * approach);
 }
 
 // Returns the share by which a muscle lengthens its spring at a time, s: xyz its amplitude, rate (rad/s) and phase (rad).

@@ -154,6 +154,8 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
     });
     const auto triangles = around(count, molecule.triangles, cornersOf);
     topology.resize(base + 2 * count);
+    for (const Triangle& t : molecule.triangles)
+        topology.emplace_back(t.a, t.b, t.c, 0);
     for (size_t v = 0; v < count; ++v) {
         const Vertex& vertex = molecule.vertices[v];
         const bool pinned = group.needs.pins && vertex.pinned;
@@ -171,7 +173,7 @@ int packTopology(const Molecule& molecule, const GroupPlan& group, std::vector<g
         for (const size_t i : triangles[v]) {
             const std::array<int, 3> corners = cornersOf(molecule.triangles[i]);
             const auto k = size_t(std::find(corners.begin(), corners.end(), int(v)) - corners.begin());
-            topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], k, 0);
+            topology.emplace_back(corners[(k + 1) % 3], corners[(k + 2) % 3], k, i);
         }
         topology[base + v] = glm::vec4(firstSpring, springs[v].size(), firstTriangle, triangles[v].size());
     }

@@ -9,6 +9,7 @@
 // (i mod 1024, i / 1024); per group from `base`:
 //   base + v                       first spring entry, springs, first triangle entry, triangles around v
 //   base + vertexCount + v         1/mass (1/kg), pinned (0 or 1), mass (kg), its share of the molecule's
+//   base + 2 vertexCount + t       the corners of triangle t
 //   spring entries, two texels     other vertex, stiffness, damping, rest length
 //                                  amplitude, 2 pi frequency, phase, the number of its frequency; of what
 //                                  steers the bend in its place (compile/school_plan.h), and where waves are

@@ -66,7 +66,7 @@ void MoleculeContact::prepare(Buffers& state, const Times& times) {
 
 // Where contacts of several spheres act together.
 void MoleculeContact::countEffective(Buffers& state) {
-    forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
+    forBodies(state, [&](size_t g, const GroupBuffers::Part&, const SphereRange& range) {
         const Program& program = groups_[g].effectiveSum;
         Textures textures(program);
         textures.add("slots", slots_.texture)
@@ -75,7 +75,7 @@ void MoleculeContact::countEffective(Buffers& state) {
             .add("shapes", groups_[g].shapes.texture);
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
-        dispatch(program, setSpheres(program, g, part, first));
+        dispatch(program, setSpheres(program, range));
     });
     settled();
 }
@@ -104,7 +104,7 @@ void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) 
 }
 
 void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentum) {
-    forParts(state, [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, int first) {
+    forBodies(state, [&](size_t g, const GroupBuffers::Part& part, const SphereRange& range) {
         const Program& program = groups_[g].spread;
         Textures textures(program);
         textures.add("slots", slots_.texture)
@@ -118,7 +118,7 @@ void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentu
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.set("momentum", momentum);
         program.storage("MotionsNow", 0, motionsNow_.buffer);
-        dispatch(program, setSpheres(program, g, part, first));
+        dispatch(program, setSpheres(program, range));
     });
     settled();
 }
@@ -139,7 +139,8 @@ void MoleculeContact::settle(Buffers&, const Times& times) {
 }
 
 void MoleculeContact::apply(Buffers& state, const Times& times) {
-    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
+    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part,
+                        const SphereRange& range) {
         const Program& program = groups_[g].apply;
         const bool rigid = isRigid(g);
         const bool ofVertices = contact_->groups[g].triangles || rigid;
@@ -155,7 +156,7 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
         setTimes(program, times);
         program.set("substepTime", float(times.substep));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
-        setSpheres(program, g, part, first);
+        setSpheres(program, range);
         store(program, "State", 0, buffers.currentState(part));
         if (ofVertices)
             dispatch(program,
@@ -188,7 +189,8 @@ void MoleculeContact::weigh(const Times& times) {
 void MoleculeContact::rest(Buffers& state, const Times& times) {
     if (!rests()) return;
     weigh(times);
-    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
+    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part,
+                        const SphereRange& range) {
         if (!contact_->mayRest(plan_->groups[contact_->groups[g].group])) return;
         const Program& program = groups_[g].rest;
         Textures(program)
@@ -207,7 +209,7 @@ void MoleculeContact::rest(Buffers& state, const Times& times) {
         program.set("wakes", int(wakes_));
         program.storage("Loads", 1, loads_.buffer);
         program.storage("Calm", 2, calm_.buffer);
-        setSpheres(program, g, part, first);
+        setSpheres(program, range);
         store(program, "State", 0, buffers.currentState(part));
         dispatch(program, size_t(part.count));
     });

@@ -52,7 +52,8 @@ std::vector<std::string> defines(const Plan& plan, const GroupPlan& group, const
     } else {
         const WorkgroupShape shape = workgroupShape(group.vertexCount, options.sharedBytes);
         out.insert(out.end(), {concat("ROWS ", shape.rows), concat("VERTICES ", shape.vertices),
-                               concat("MOLECULE_VERTICES ", group.vertexCount)});
+                               concat("MOLECULE_VERTICES ", group.vertexCount),
+                               concat("TRIANGLES ", group.triangleCount)});
     }
     const auto define = [&](bool need, const char* name) {
         if (need) out.emplace_back(name);

@@ -18,11 +18,17 @@ using gpu::Texel;
 namespace {
 
 constexpr size_t contactLanes = 64;  // of a workgroup, as the shaders say
-constexpr size_t cellTile = 4096;    // cells that one workgroup adds up (shaders/contact/starts.comp)
+constexpr size_t cellTile = 1024;    // cells that one workgroup adds up (shaders/contact/starts.comp)
+constexpr size_t lineWords = 32;     // of a GPU's cache
 
-// Words of the counts of so many cells and of their tiles.
+// Words of the counts of so many cells and of their tiles (shaders/contact/cell_counts.glsl).
 size_t countWords(size_t cells) {
-    return cells + (cells + cellTile - 1) / cellTile;
+    return cells + (cells + cellTile - 1) / cellTile * lineWords;
+}
+
+// What the shaders that count cells are told.
+std::vector<std::string> countingDefines() {
+    return {"COUNTED", concat("CELL_TILE ", cellTile), concat("LINE_WORDS ", lineWords)};
 }
 
 size_t wordsOf(Texel texel) {
@@ -168,7 +174,9 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         return Program(*context_, shaderRoot, options);
     };
     if (counted_) {
-        common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile), "LANES 256"});
+        for (const std::string& define : countingDefines())
+            common.push_back(define);
+        common.insert(common.end(), {"LANES 256", "AHEAD 4"});
         starts_ = make("starts");
         collect_ = make("members");
     } else {
@@ -205,7 +213,9 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     const bool rigid = rigid_ && plan.rigid;
     if (rigid) common.push_back("RIGID");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
-    if (counted_) common.insert(common.end(), {"COUNTED", concat("CELL_TILE ", cellTile)});
+    if (counted_)
+        for (const std::string& define : countingDefines())
+            common.push_back(define);
     const auto make = [&](const char* file, const char* define = nullptr) {
         gpu::ProgramOptions options;
         options.compute = concat("contact/", file, ".comp");
@@ -253,13 +263,11 @@ void MoleculeContact::dispatch(const Program& program, size_t count) const {
     program.dispatch(int((count + contactLanes - 1) / contactLanes));
 }
 
-// Sets which spheres a program handles, those of one part, and returns their number.
-size_t MoleculeContact::setSpheres(const Program& program, size_t group, const GroupBuffers::Part& part,
-                                   int first) const {
-    const int spheres = part.count * contact_->groups[group].spheresOf;
-    program.set("firstSphere", first);
-    program.set("partSpheres", spheres);
-    return size_t(spheres);
+// Sets which spheres a program handles and returns their number.
+size_t MoleculeContact::setSpheres(const Program& program, const SphereRange& range) const {
+    program.set("firstSphere", range.first);
+    program.set("partSpheres", range.count);
+    return size_t(range.count);
 }
 
 void MoleculeContact::setWalls(const Program& program, const ContactGroup& group, const Frame& frame) const {
@@ -299,7 +307,8 @@ void MoleculeContact::begin(const Frame& frame) {
 }
 
 void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& state) {
-    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part, int first) {
+    forParts(state, [&](size_t g, const GroupBuffers& buffers, const GroupBuffers::Part& part,
+                        const SphereRange& range) {
         const ContactGroup& group = contact_->groups[g];
         const Program& program = groups_[g].spheres;
         Textures textures(program);
@@ -326,7 +335,7 @@ void MoleculeContact::makeKeys(bool staggered, const Frame& frame, Buffers& stat
         if (contact_->remembers()) program.storage("Loads", 6, loads_.buffer);
         if (isRigid(g)) program.storage("Bodies", 7, bodies_.buffer);
         if (rests()) program.set("wakes", int(wakes_));
-        dispatch(program, setSpheres(program, g, part, first));
+        dispatch(program, setSpheres(program, range));
     });
     settled();
 }

@@ -108,8 +108,10 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void find(const gpu::Program& program, const Times& times);
     void sift();
     void wake();
-    size_t setSpheres(const gpu::Program& program, size_t group, const GroupBuffers::Part& part,
-                      int first) const;
+    struct SphereRange {
+        int first = 0, count = 0;
+    };
+    size_t setSpheres(const gpu::Program& program, const SphereRange& range) const;
     Textures bindResponse(const gpu::Program& program, const Times& times) const;
     void bindWalls(const gpu::Program& program, Textures& textures) const;
     void runNearest(Buffers& state, const Times& times) override;
@@ -122,14 +124,36 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void rest(Buffers& state, const Times& times) override;
     void weigh(const Times& times);
     bool rests() const { return contact_->settings.rest.has_value(); }
-    // run(number of the group with contact, its buffers, part, the part's first sphere)
+    // run(number of the group with contact, its buffers, part, the part's spheres)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {
         for (size_t g = 0; g < groups_.size(); ++g) {
             const ContactGroup& group = contact_->groups[g];
             for (const GroupBuffers::Part& part : state[group.group].parts())
-                run(g, state[group.group], part, group.firstSphere + part.first * group.spheresOf);
+                run(g, state[group.group], part,
+                    SphereRange{group.firstSphere + part.first * group.spheresOf,
+                                part.count * group.spheresOf});
         }
+    }
+    // The same for stages that know of a rigid body no more than its spheres: groups of bodies with as many
+    // go together, as a dispatch takes a GPU longer than what it does for a few. run(the first group, part,
+    // spheres)
+    template <typename Run>
+    void forBodies(Buffers& state, const Run& run) {
+        size_t group = 0;
+        const GroupBuffers::Part* of = nullptr;
+        SphereRange range;
+        forParts(state,
+                 [&](size_t g, const GroupBuffers&, const GroupBuffers::Part& part, const SphereRange& more) {
+                     if (of && isRigid(group) && isRigid(g) && range.first + range.count == more.first &&
+                         contact_->groups[group].spheresOf == contact_->groups[g].spheresOf) {
+                         range.count += more.count;
+                         return;
+                     }
+                     if (of) run(group, *of, range);
+                     group = g, of = &part, range = more;
+                 });
+        if (of) run(group, *of, range);
     }
     // Where the workgroups of markGroups_ begin, in bytes.
     static constexpr size_t ofAwake = 0, ofMarked = 3 * sizeof(uint32_t), ofStruck = 6 * sizeof(uint32_t);

@@ -152,7 +152,7 @@ TEST_CASE("shader springs agree with the reference", "[physics]") {
         REQUIRE(glm::length(dvec3(force) - expected[0]) < 1e-6 * (300 + glm::length(expected[0])));
     }
     CHECK(shader::springForce(vec3(0), vec3(1), 300, 2, 1) == vec3(0));
-    CHECK(shader::springForce(vec3(1e-13f, 0, 0), vec3(1), 300, 2, 1) == vec3(0));
+    CHECK(shader::springForce(vec3(1e-13f, 0, 0), vec3(0), 300, 2, 1).x == Approx(30));  // of 300
     CHECK(shader::springForce(vec3(1, 0, 0), vec3(0), 300, 2, 1) == vec3(0));
     const float pull =
         shader::musclePull({0.25f, 3, 0.5f}, 0.25f, 0.5f, std::numbers::pi_v<float> / 2 - 2.25f);
