@@ -17,7 +17,8 @@ namespace {
 // of 16 frames after 11; `leapfrog`, 5 substeps, uniform wind, drag by direction; without a collider, over a
 // plane, and on it (shoal-gl "[.lanes-cost]"). "By hand" is a kernel written in CUDA that does less
 // (shaders/fused/gather.glsl has its idea), over a plane, on an NVIDIA H100. A lane a vertex had the
-// workgroups of 3 x 32 (fry, fish) and 4 x 32 below.
+// workgroups of 3 x 32 (fry, fish) and 4 x 32 below; with those that are taken now, and the step as it is
+// now, fry and fish take 4.4 over a plane.
 //
 //   molecule, vertices   number       a lane a molecule      a lane a vertex        by hand
 //   quad, 4              1,048,576    0.13   0.14   0.25     0.43   0.41   0.49     0.23
@@ -41,6 +42,19 @@ constexpr int gpuLane = 12, gpuLaneFree = 20;  // vertices of a lane, with colli
 //
 // The table of springs in a uniform block took as long as in a storage block, or up to three times; in shared
 // memory, and probes with a place of their own there, which saves every second barrier, within 3 % or longer.
+//
+// The same machine, 262,144 molecules in the air over a plane, ms: what was tried on the step itself.
+//
+//                                                                   fish   fry
+//   a triangle worked out at each of its corners                    1.25   1.18
+//   once a molecule (fused/gather.glsl)                             1.18   1.15
+//   and springs two at a time, without a choice for ends that meet  1.10   1.09   taken
+//   and barriers without memoryBarrierShared, which GLSL wants      1.07   1.06
+//   of these, from the second row:
+//   numbers of vertices as bits instead of floats                   1.18   1.17
+//   the next spring fetched while one is worked out                 1.15   1.23
+//   vertex, component and lane as three indices                     1.23   1.20
+//   the last row with the whole table in shared memory              1.47   1.01
 constexpr int mostMolecules = 32, fewLanes = 640, mostLanes = 1024;
 
 // A CPU rasteriser, nanoseconds of a processor a molecule and frame, minimum: 4,096 molecules, `leapfrog`, 5
