@@ -60,15 +60,21 @@ class RigidFit {
     double worst_ = 0;
 };
 
+struct Rigidity {
+    bool asInstances = false;
+    std::optional<double> residual = {};  // m, that --rigid would leave, where a bound asks for it
+};
+
 class UsdGroup {
   public:
     UsdGroup(UsdStage& stage, const Scene& scene, const Simulation& simulation, size_t index,
-             bool asInstances)
+             const Rigidity& rigidity)
         : plan_(&simulation.plan().groups[index]),
           index_(index),
           mesh_(scene.groups[plan_->index], plan_->constants.seeds),
-          changes_(plan_->needs.life) {
-        const bool rigid = asInstances && !mesh_.points();
+          changes_(plan_->needs.life),
+          residual_(rigidity.residual) {
+        const bool rigid = rigidity.asInstances && !mesh_.points();
         if (rigid && changes_)
             throw Error("group \"", mesh_.name(),
                         "\" has births or deaths: --rigid needs molecules that live throughout");
@@ -128,12 +134,21 @@ class UsdGroup {
 
     const std::string& name() const { return mesh_.name(); }
     const std::optional<RigidFit>& fit() const { return fit_; }
+    // What the group is written as where instances were asked for, and why.
+    std::string rigiditySentence() const {
+        const std::string what = concat("group \"", printable(name()), "\": ");
+        const auto off = [](double residual) { return concat(residual * 1e3, " mm off"); };
+        if (fit_) return what + "rigid, vertices lie up to " + off(fit_->worst());
+        if (residual_) return what + "meshes, as rigid vertices would lie up to " + off(*residual_);
+        return what + (mesh_.points() ? "points, which do not turn" : "meshes, for births or deaths");
+    }
 
   private:
     const GroupPlan* plan_;
     size_t index_, number_ = 0;
     GroupMesh mesh_;
     bool changes_;
+    std::optional<double> residual_;
     std::optional<RigidFit> fit_;
 };
 
@@ -146,9 +161,9 @@ void eachFrame(Simulation& simulation, int frames, const auto& look) {
 }
 
 // Which groups are to be instances. Where a bound is given all frames are run once before they are written.
-std::vector<bool> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
+std::vector<Rigidity> rigidGroups(const ExportOptions& asked, const Scene& scene, Simulation& simulation) {
     const std::vector<GroupPlan>& plans = simulation.plan().groups;
-    std::vector<bool> out(plans.size(), asked.rigid);
+    std::vector<Rigidity> out(plans.size(), {.asInstances = asked.rigid});
     if (!asked.rigidWithin) return out;
     std::vector<std::optional<GroupMesh>> meshes(plans.size());
     std::vector<std::optional<RigidFit>> fits(plans.size());
@@ -164,7 +179,7 @@ std::vector<bool> rigidGroups(const ExportOptions& asked, const Scene& scene, Si
     });
     simulation.load(start);
     for (size_t g = 0; g < fits.size(); ++g)
-        out[g] = fits[g] && fits[g]->worst() <= *asked.rigidWithin;
+        if (fits[g]) out[g] = {fits[g]->worst() <= *asked.rigidWithin, fits[g]->worst()};
     return out;
 }
 
@@ -176,7 +191,7 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
     for (const Model& model : scene.models)
         if (model.draw) stage.add(exchange::modelMesh(model));
     stage.add(scene.camera);
-    const std::vector<bool> rigid = rigidGroups(asked, scene, simulation);
+    const std::vector<Rigidity> rigid = rigidGroups(asked, scene, simulation);
     std::vector<UsdGroup> groups;
     for (size_t g = 0; g < rigid.size(); ++g)
         if (simulation.plan().groups[g].count > 0) groups.emplace_back(stage, scene, simulation, g, rigid[g]);
@@ -196,9 +211,7 @@ void exportUsd(const Options& options, const Scene& scene, Simulation& simulatio
         return;
     }
     for (const UsdGroup& group : groups)
-        if (group.fit())
-            std::cout << "group \"" << printable(group.name()) << "\": rigid, vertices lie up to "
-                      << group.fit()->worst() * 1e3 << " mm off\n";
+        if (asked.rigid || asked.rigidWithin) std::cout << group.rigiditySentence() << "\n";
     std::cout << "wrote " << printable(written.back()) << ", "
               << many(int64_t(asked.frames), "frame", "frames");
     if (written.size() > 1)

@@ -44,8 +44,10 @@ class Sweep {
     }
 
     AccuracyReport run() {
-        for (Curve& curve : curves())
+        for (Curve& curve : curves()) {
             probe(curve);
+            tell(0);
+        }
         if (std::all_of(curves_.begin(), curves_.end(), [](const Curve& c) { return !c.refused.empty(); }))
             throw Error(concat("no method can run this scene: ", curves_.front().refused));
         describe();

@@ -68,8 +68,10 @@ py::list measureScene(const PyScene& scene, double duration, std::optional<doubl
         measure::AccuracyOptions options;
         options.duration = duration;
         options.seconds = seconds;
-        report = measure::measureAccuracy(scene.scene, options,
-                                          {&on.context, shaderRoot(), &on.cache, allThreads()});
+        SignalWatch watch;
+        report = measure::measureAccuracy(
+            scene.scene, options, {&on.context, shaderRoot(), &on.cache, allThreads()},
+            {.stage = [&](const char*) { watch.look(); }, .tell = [&](double) { watch.look(); }});
     }
     py::list out;
     for (const measure::AccuracyPoint& point : report.points) {

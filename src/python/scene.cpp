@@ -15,9 +15,15 @@ std::filesystem::path pathOf(const py::object& source, const char* expected) {
     return py::cast<std::filesystem::path>(source);
 }
 
-// JSON's text of a dict or list.
+// JSON's text of a dict or list, in which NumPy's arrays and numbers may stand for lists and numbers.
 std::string jsonOf(const py::object& value) {
-    return py::str(py::module_::import("json").attr("dumps")(value));
+    const py::cpp_function plain = [](const py::object& other) -> py::object {
+        if (!py::hasattr(other, "tolist"))
+            throw Error("expected a dict, list, text, number or truth value, found ",
+                        std::string(py::repr(other)));
+        return other.attr("tolist")();
+    };
+    return py::str(py::module_::import("json").attr("dumps")(value, py::arg("default") = plain));
 }
 
 // Molecules that a scene names as objects become files for as long as it is read.

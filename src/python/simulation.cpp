@@ -85,11 +85,22 @@ PySimulation::~PySimulation() {
     }
 }
 
+void SignalWatch::look() {
+    const auto now = std::chrono::steady_clock::now();
+    if (now - last_ < std::chrono::milliseconds(100)) return;
+    last_ = now;
+    const py::gil_scoped_acquire locked;
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 void PySimulation::step(int frames) {
     if (frames < 0) throw Error("step() takes 0 frames or more, not ", frames);
     Simulation& simulation = use();
-    for (int i = 0; i < frames; ++i)
+    SignalWatch watch;
+    for (int i = 0; i < frames; ++i) {
         simulation.frame();
+        watch.look();
+    }
     simulation.check();
 }
 
@@ -200,6 +211,7 @@ py::array PySimulation::picture(int width, int height, const std::optional<std::
 
 void PySimulation::save(const std::filesystem::path& file) {
     Simulation& simulation = use();
+    simulation.check();  // what has run away is not saved
     writeCheckpoint(file, simulation.plan(), {simulation.save(), simulation.parameters});
 }
 

@@ -4,6 +4,7 @@
 // the thread that made it.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <optional>
 #include <thread>
@@ -34,6 +35,16 @@ void enter(Device& device);
 // Error: a number is not finite; tells `what` it is.
 double finite(const char* what, double value);
 glm::dvec3 finite(const char* what, const Vector3& value);
+
+// Lets Python answer signals, above all an interrupt, while a call runs without its lock: what a handler
+// raises ends the call.
+class SignalWatch {
+  public:
+    void look();  // asks ten times a second at the most
+
+  private:
+    std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
 
 class PySimulation {
   public:

@@ -382,6 +382,8 @@ TEST_CASE("USD holds the run, in one file or a file a frame", "[cli][export]") {
     const std::string meshes = readFile(file);
     exported({"--usd", file, "--frames", "40", "--rigid-within", std::to_string(0.99 * residual)});
     CHECK((readFile(file) == meshes));
+    const Words within = {"--usd", file, "--frames", "2", "--rigid-within", "1e-9"};
+    CHECK_THAT(exported(within).out, Catch::Contains("\"quad\": meshes, as rigid vertices would lie up to"));
 }
 
 TEST_CASE("three.js and tinyusdz read what is exported", "[cli][export]") {

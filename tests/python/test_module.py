@@ -2,6 +2,7 @@
 import ast
 import os
 import pathlib
+import signal
 import subprocess
 import sys
 import gc
@@ -248,6 +249,35 @@ def test_the_interpreter_goes_on_while_a_simulation_steps(hello):
     done.set()
     thread.join()
     assert during > 1000
+
+
+def test_arrays_and_numbers_of_numpy_stand_for_lists_and_numbers():
+    gravity, mass = np.array([0, -5.0, 0]), np.float32(0.25)
+    light = {**PAIR, "vertices": [{"position": np.zeros(3), "mass": mass}, {"position": [1, 0, 0], "mass": np.int64(1)}]}
+    scene = {"groups": [{"molecule": light, "place": {"on": "list", "items": [{"position": gravity}]}}], "gravity": gravity}
+    with shoal.Simulation(shoal.Scene(scene)) as simulation:
+        assert list(simulation.parameters.gravity) == [0, -5, 0]
+    with pytest.raises(shoal.Error, match=r"found \{1, 2\}"):
+        shoal.Scene({"groups": {1, 2}})
+
+
+def test_an_interrupt_ends_a_long_call(hello):
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        hello.step(10**9)
+    threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        shoal.measure(shoal.Scene("hello"), duration=20)
+
+
+def test_what_has_run_away_is_not_saved(tmp_path):
+    with shoal.Simulation(pairs()) as simulation:
+        simulation.set_state(0, velocities=np.full((1, 2, 3), 1e6))
+        with pytest.raises(shoal.Error, match="stopped at"):
+            simulation.step()
+        with pytest.raises(shoal.Error, match="stopped at"):
+            simulation.save(tmp_path / "a.shoal")
+        assert not (tmp_path / "a.shoal").exists()
 
 
 def test_check_and_measure():
