@@ -60,7 +60,8 @@ struct ExportOptions {
 struct Options : RunRequest {
     int (*command)(const Options& options) = nullptr;  // app/commands.h
     std::vector<std::string> files;
-    std::string editShape;  // what a new molecule begins as in the editor; empty: a sheet
+    std::string editShape;    // what a new molecule begins as in the editor; empty: a sheet
+    bool editsScene = false;  // edit, of a scene
 
     gpu::ContextKind context = gpu::ContextKind::automatic;
     std::optional<int> gpu;  // a device of EGL

@@ -15,6 +15,7 @@
 #include "core/cache_folder.h"
 #include "core/error.h"
 #include "core/file.h"
+#include "core/json.h"
 #include "core/printable.h"
 #include "render/picture.h"
 #include "render/renderer.h"
@@ -352,7 +353,8 @@ int runCommand(const Options& options) {
     if (options.error && loaded) std::cerr << oneLine(calibrated(options, context, *loaded)) << "\n";
     if (context.window()) {
         const std::string folder = chooses ? folderOf(options) : modelFolder();
-        window::runViewer({windowOptions(options), options, folder}, context, std::move(loaded));
+        window::runViewer({windowOptions(options), options, folder, options.editsScene}, context,
+                          std::move(loaded));
         return 0;
     }
     if (!loaded) return listInstead(options);
@@ -363,7 +365,51 @@ int runCommand(const Options& options) {
     return 0;
 }
 
+// A scene to begin with: leaves that drop onto the ground.
+static std::string firstScene(const fs::path& file) {
+    const auto text = [](const std::string& words) { return writeJsonLine(JsonValue::makeString(words)); };
+    const fs::path folder = fs::absolute(file).parent_path();
+    const fs::path leaf = fs::relative(fs::path(moleculeFolder()) / "leaf.json", folder);
+    return concat(R"({
+  "format": "shoal-scene-1",
+  "name": )",
+                  text(file.stem().stem().string()), R"(,
+  "gravity": [0, -9.81, 0],
+  "colliders": [
+    {"type": "plane"}
+  ],
+  "groups": [
+    {
+      "name": "leaves",
+      "molecule": )",
+                  text(leaf.generic_string()), R"(,
+      "count": 100,
+      "place": {"on": "volume", "box": {"low": [-1.5, 0.5, -1], "high": [1.5, 2.5, 1]}, "turn": "any"},
+      "drag": {"normal": 6, "tangent": 0.6}
+    }
+  ],
+  "camera": {"eye": [0.5, 1.6, 5], "target": [0, 0.9, 0]}
+}
+)");
+}
+
+// A scene is edited while it runs, in the viewer's panel.
+static int editScene(const Options& options) {
+    const std::string& file = options.files.front();
+    if (!options.editShape.empty())
+        throw WrongUse(concat(file, ": --shape is for a molecule, and this is a scene"));
+    Options run = options;
+    run.context = gpu::ContextKind::window;
+    run.editsScene = true;
+    if (!fs::exists(file)) {
+        writeFile(file, firstScene(file));
+        std::cout << "wrote " << printable(file) << ", to begin with\n";
+    }
+    return runCommand(run);
+}
+
 int editCommand(const Options& options) {
+    if (options.files.front().ends_with(".scene.json")) return editScene(options);
     window::runEditor(options.files.front(), options.editShape, windowOptions(options), options.width,
                       options.height);
     return 0;

@@ -13,7 +13,6 @@ namespace shoal::window {
 
 namespace {
 
-constexpr double degrees = 57.29577951308232;
 constexpr float labelWidth = 136;  // points
 
 void tipHere(const Row& row) {
@@ -112,6 +111,17 @@ bool tick(const Row& row, bool& value) {
     const bool changed = ImGui::Checkbox(hidden(row).c_str(), &value);
     tipHere(row);
     return changed;
+}
+
+bool type(const Row& row, std::string& text) {
+    std::array<char, 1024> shown{};
+    text.copy(shown.data(), shown.size() - 1);
+    beginRow(row);
+    ImGui::InputText(hidden(row).c_str(), shown.data(), shown.size());
+    tipHere(row);
+    if (!ImGui::IsItemDeactivatedAfterEdit() || text == shown.data()) return false;
+    text = shown.data();
+    return true;
 }
 
 std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words) {

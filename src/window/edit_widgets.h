@@ -15,6 +15,8 @@ struct Key;
 
 namespace shoal::window {
 
+constexpr double degrees = 57.29577951308232;  // of a radian
+
 struct Limit {
     double least = 0, most = 1;
 };
@@ -37,6 +39,7 @@ bool slide(const Row& row, const Limit& limit, int& value);
 bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span);  // least and most; they push each other
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed);
 bool tick(const Row& row, bool& value);
+bool type(const Row& row, std::string& text);  // changes when the user is done with it
 // The index of the word that was chosen in this frame, which is another than `now`.
 std::optional<size_t> choose(const Row& row, const std::string& now, const std::vector<std::string>& words);
 bool pickColor(const Row& row, const Limit& limit, glm::dvec3& color);  // of each channel

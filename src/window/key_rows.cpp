@@ -13,8 +13,6 @@ namespace {
 
 using Kind = Key::Kind;
 
-constexpr double degrees = 57.29577951308232;
-
 // Angles are shown in degrees.
 Row formattedRow(const std::string& label, const Key& key, std::string& format, const Slider& slider) {
     Row row{label.c_str(), key.says.sentence.c_str()};

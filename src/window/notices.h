@@ -22,14 +22,16 @@ class Troubles {
     void warn(const std::string& cause, const std::string& words);          // begin(), and on standard error
     bool end(const std::string& cause) { return words_.erase(cause) > 0; }  // true: it was shown
     void clear() { words_.clear(); }
-    // Each attempt that fails is told anew.
+    // Each attempt that fails is told anew; true: it did not.
     template <typename Work>
-    void attempt(const std::string& cause, const Work& work) {
+    bool attempt(const std::string& cause, const Work& work) {
         end(cause);
         try {
             work();
+            return true;
         } catch (const Error& error) {
             warn(cause, error.what());
+            return false;
         }
     }
     std::string text() const;  // empty: nothing is wrong

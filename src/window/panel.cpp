@@ -13,7 +13,7 @@
 
 namespace shoal::window {
 
-static std::vector<std::string> shippedMolecules() {
+std::vector<std::string> shippedMolecules() {
     std::vector<std::string> files;
     std::error_code code;
     for (const auto& entry : std::filesystem::directory_iterator(moleculeFolder(), code)) {

@@ -8,10 +8,13 @@
 #include "render/renderer.h"
 #include "simulate/simulation.h"
 #include "window/explanations.h"
+#include "window/json_rows.h"
 #include "window/key_rows.h"
 #include "window/running_scene.h"
 
 namespace shoal::window {
+
+std::vector<std::string> shippedMolecules();  // files
 
 // ---- How the scene runs
 
@@ -96,17 +99,21 @@ bool drawParticles(ParticleType& type, bool ages, KeyRows& rows);
 // when the user releases the widget.
 class ScenePanel {
   public:
-    enum class Action { none, save, revert, rebuild };
+    enum class Action { none, save, revert, rebuild, change, undo, redo };
 
     explicit ScenePanel(const Scene& scene) { follow(scene); }
 
-    bool changed() const { return changed_; }  // in the last draw
-    bool pending() const { return pending_; }  // something was edited that does not run yet
-    // Edits running.scene and its choices. `unsaved`: it is not as its file.
-    Action draw(RunningScene& running, bool unsaved);
+    bool changed() const { return changed_; }         // in the last draw
+    void showWhole() { whole_ = true; }               // the scene, instead of its groups
+    bool holds() const { return held_.has_value(); }  // something in the picture, for the pointer
+    bool pending() const { return pending_; }         // something was edited that does not run yet
+    // Edits running.scene and its choices. `unsaved`: it is not as its file. `view`: what is seen.
+    Action draw(RunningScene& running, bool unsaved, const View& view);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
-    void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
+    const JsonValue& draft() const { return *draft_; }        // what Action::change asks for
+    void refused() { drafted_ = false, incomplete_ = true; }  // it stays, to be completed
+    void say(const std::string& word) { said_ = word; }       // beside the buttons, until something changes
 
   private:
     struct Edited {
@@ -116,14 +123,22 @@ class ScenePanel {
         double countedAt = -1;  // s, of the wall clock
     };
     Action drawHead(const Scene& scene, bool unsaved);
+    Action drawWhole(RunningScene& running, const View& view);
+    bool moveHandles(const std::vector<JsonRows::Place>& places, const View& view);
     void drawGroup(Edited& edited, RunningScene& running);
     void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
 
     std::vector<Edited> groups_;
     std::string said_;
     bool changed_ = false;
-    bool lives_ = false;    // some group has particles, a life cycle or a school
-    bool pending_ = false;  // a rebuild, when the user releases the widget
+    bool lives_ = false;          // some group has particles, a life cycle or a school
+    bool pending_ = false;        // a rebuild, when the user releases the widget
+    bool whole_ = false;          // all that the file says is shown, instead of the groups
+    bool drafted_ = false;        // the draft was changed
+    bool incomplete_ = false;     // the draft is no scene yet
+    std::optional<size_t> held_;  // the handle that the pointer moves
+    std::optional<JsonValue> draft_;
+    std::vector<std::string> molecules_;  // that a group may have, as the file names them
 };
 
 }  // namespace shoal::window

@@ -55,6 +55,8 @@ RunningScene::RunningScene(const RunRequest& request, gpu::Context& context, gpu
       context_(&context),
       cache_(&cache),
       original_(loaded.scene),
+      text_(readFile(original_.file)),
+      saved_(text_),
       path_(request.path),
       width_(width),
       height_(height) {
@@ -177,18 +179,80 @@ void RunningScene::switchPath(Path path) {
     path_ = path;
 }
 
-bool RunningScene::unsaved() const {
+bool RunningScene::edited() const {
     return differ(original_, scene);
 }
 
+bool RunningScene::unsaved() const {
+    return text_ != saved_ || edited();
+}
+
 void RunningScene::save() {
-    saveEdits(original_, scene);
+    const std::string there = readFile(original_.file);
+    const bool changed = text_ != saved_;
+    if (changed && there != saved_)
+        throw Error(Location{original_.file}, "has changed since it was read: nothing was saved");
+    const std::string now = withEdits(changed ? text_ : there, original_, scene);
+    if (now != there) writeFile(original_.file, now);
+    text_ = saved_ = now;
     copyEdits(scene.groups, original_.groups);
 }
 
 void RunningScene::revert() {
+    if (text_ != saved_) return go(saved_, undo_);
     copyEdits(original_.groups, scene.groups);
     edit();
+}
+
+std::string RunningScene::text() const {
+    return withEdits(text_, original_, scene);
+}
+
+JsonValue RunningScene::json() const {
+    return parseJson(text(), original_.file);
+}
+
+void RunningScene::take(const std::string& text) {
+    FieldWatch baking;
+    Scene fresh = parseScene(text, original_.file, baking.baking());
+    apply(request_, fresh);
+    Scene next = fresh;
+    applyChoices(next, fresh);
+    build(std::move(next), true);
+    original_ = std::move(fresh);
+    text_ = text;
+}
+
+// What is left behind comes to `passed`.
+void RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
+    std::string now = this->text();
+    take(text);
+    passed.push_back(std::move(now));
+}
+
+void RunningScene::change(const JsonValue& after) {
+    const std::string now = text();
+    const JsonValue root = parseJson(now, original_.file);
+    std::vector<TextChange> changes;
+    addChanges(now, root, root, after, changes);
+    if (changes.empty()) return;
+    go(withChanges(now, std::move(changes)), undo_);
+    redo_.clear();
+}
+
+void RunningScene::undo() {
+    if (edited()) return go(text_, redo_);
+    if (undo_.empty()) return;
+    const std::string before = undo_.back();
+    go(before, redo_);
+    undo_.pop_back();
+}
+
+void RunningScene::redo() {
+    if (redo_.empty()) return;
+    const std::string after = redo_.back();
+    go(after, undo_);
+    redo_.pop_back();
 }
 
 // Returns the choices whose value the file changed, too.
@@ -223,6 +287,12 @@ std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const
 
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     const std::string text = readFile(original_.file);
+    if (text_ != saved_) {
+        if (!prefer) return {{"what was added, removed or changed in the scene"}, {}};
+        if (prefer == Prefer::theirs) go(text, undo_);
+        saved_ = text;
+        return {};
+    }
     FieldWatch baking;
     Scene theirs = parseScene(text, original_.file, baking.baking());
     apply(request_, theirs);
@@ -245,6 +315,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
         throw;
     }
     original_ = std::move(theirs);
+    text_ = saved_ = text;
     return out;
 }
 

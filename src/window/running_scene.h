@@ -54,6 +54,16 @@ class RunningScene {
     void switchPath(Path path);
     void save();    // into the file
     void revert();  // to what the file said when it was read or saved last
+
+    // What a file would say of the scene as it is now, and to make the scene what another one says. Comments,
+    // order and layout of the file stay.
+    JsonValue json() const;
+    void change(const JsonValue& after);
+    // Take back what change() did, and edits of the scene since, and do it again.
+    bool mayUndo() const { return !undo_.empty() || edited(); }
+    bool mayRedo() const { return !redo_.empty(); }
+    void undo();
+    void redo();
     // The path as it is: one that takes another when a program is refused would hide the mistake.
     void remakePrograms() { build(scene, simulation_->plan(), simulation_->path().path); }
 
@@ -74,6 +84,10 @@ class RunningScene {
     std::vector<std::string> files() const;
 
   private:
+    std::string text() const;            // with what was edited in `scene`
+    bool edited() const;                 // `scene` is not as text_ says
+    void take(const std::string& text);  // in place of text_
+    void go(const std::string& text, std::vector<std::string>& passed);
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);
@@ -86,6 +100,8 @@ class RunningScene {
     gpu::Context* context_;
     gpu::ProgramCache* cache_;
     Scene original_;
+    std::string text_, saved_;              // that original_ was read from; of the file
+    std::vector<std::string> undo_, redo_;  // texts
     std::vector<Group> accepted_;
     Choices acceptedChoices_;
     Path path_;

@@ -3,10 +3,15 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
+#include <fstream>
 
+#include "core/json_build.h"
 #include "window/edit_widgets.h"
 #include "window/interface.h"
+#include "window/orbit_camera.h"
 
 namespace shoal::window {
 
@@ -28,6 +33,29 @@ std::optional<size_t> planGroupOf(const Plan& plan, size_t group) {
     for (size_t g = 0; g < plan.groups.size(); ++g)
         if (plan.groups[g].index == group) return g;
     return {};
+}
+
+// To a millimetre.
+glm::dvec3 rounded(const glm::dvec3& place) {
+    return glm::round(place * 1e3) / 1e3;
+}
+
+// The molecules that ship and those beside the scene, as its file names them.
+std::vector<std::string> moleculesFor(const std::string& sceneFile) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::absolute(sceneFile).parent_path();
+    std::vector<std::string> out;
+    std::error_code code;
+    for (const std::string& file : shippedMolecules())
+        out.push_back(fs::relative(file, folder, code).generic_string());
+    for (const auto& entry : fs::directory_iterator(folder, code)) {
+        std::array<char, 512> start{};
+        std::ifstream(entry.path()).read(start.data(), start.size() - 1);
+        if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
+        const std::string name = entry.path().filename().string();
+        if (std::find(out.begin(), out.end(), name) == out.end()) out.push_back(name);
+    }
+    return out;
 }
 
 // Sliders for the looks of a group of molecules; whether the user changed them in this frame. Colours are the
@@ -65,7 +93,8 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 }  // namespace
 
 void ScenePanel::follow(const Scene& scene) {
-    pending_ = lives_ = false;
+    pending_ = lives_ = drafted_ = incomplete_ = false;
+    draft_.reset();
     groups_.clear();
     for (size_t g = 0; g < scene.groups.size(); ++g) {
         const Group& group = scene.groups[g];
@@ -74,15 +103,20 @@ void ScenePanel::follow(const Scene& scene) {
     }
 }
 
-ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved) {
+ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const View& view) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float edge = points(12), width = points(panelWidth);
     ImGui::SetNextWindowPos(ImVec2(std::max(screen.x - width - edge, edge), edge), ImGuiCond_Always);
     ImGui::SetNextWindowSizeConstraints(ImVec2(width, 0), ImVec2(width, screen.y - 2 * edge));
-    ImGui::SetNextWindowCollapsed(!lives_ && screen.x < points(1000), ImGuiCond_Once);
+    ImGui::SetNextWindowCollapsed(!lives_ && !whole_ && screen.x < points(1000), ImGuiCond_Once);
     ImGui::Begin("Groups", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
     changed_ = false;
-    const Action action = drawHead(running.scene, unsaved);
+    Action action = drawHead(running.scene, unsaved);
+    if (whole_) {
+        const Action asked = drawWhole(running, view);
+        ImGui::End();
+        return action != Action::none ? action : asked;
+    }
     for (Edited& group : groups_) {
         ImGui::PushID(int(group.group));
         drawGroup(group, running);
@@ -104,6 +138,12 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     ImGui::EndDisabled();
     tip("Back to what was saved last.");
     ImGui::SameLine();
+    if (toggle("Scene", whole_)) {
+        whole_ = !whole_;
+        draft_.reset();
+    }
+    tip("All that the scene's file says: add, copy, remove and change any of it.");
+    ImGui::SameLine();
     const std::string file = std::filesystem::path(scene.file).filename().string();
     if (unsaved)
         ImGui::TextColored(ImVec4(0.95f, 0.75f, 0.3f, 1), "%s *", file.c_str());
@@ -112,6 +152,84 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("%s\n%s", scene.file.c_str(), unsaved ? "Not saved yet." : "As in the file.");
     return action;
+}
+
+ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view) {
+    if (!draft_) {
+        draft_ = running.json();
+        molecules_ = moleculesFor(running.scene.file);
+    }
+    Action action = Action::none;
+    const auto button = [&](const char* label, bool may, Action asks, const char* says) {
+        ImGui::BeginDisabled(!may);
+        if (ImGui::Button(label)) action = asks;
+        ImGui::EndDisabled();
+        tip(says);
+    };
+    if (incomplete_) {
+        if (ImGui::Button("Drop")) draft_ = running.json(), drafted_ = true;
+        tip("Takes back what cannot run as it is.");
+        ImGui::SameLine();
+    }
+    button("Undo", running.mayUndo(), Action::undo, "Takes the last change back (Ctrl+Z).");
+    ImGui::SameLine();
+    button("Redo", running.mayRedo(), Action::redo, "Does it again (Ctrl+Y).");
+    ImGui::SameLine();
+    if (ImGui::Button("Keep this view")) {
+        JsonValue camera = JsonValue::makeObject();
+        if (const JsonValue* there = draft_->find("camera")) camera = *there;
+        setMember(camera, "eye", toJson(rounded(view.eye)));
+        setMember(camera, "target", toJson(rounded(view.target)));
+        setMember(*draft_, "camera", std::move(camera));
+        drafted_ = true;
+    }
+    tip("Makes what you see now the camera of the scene.");
+    const auto words = [&](const std::string& key) -> std::vector<std::string> {
+        if (key == "molecule") return molecules_;
+        std::vector<std::string> out;
+        if (key == "model")
+            for (const Model& model : running.scene.models)
+                out.push_back(model.name);
+        if (key == "of")
+            for (const Group& group : running.scene.groups)
+                out.push_back(group.name);
+        return out;
+    };
+    ImGui::PushID("whole");
+    JsonRows rows(words);
+    const bool changed = rows.draw(describe(&running.scene), *draft_);
+    ImGui::PopID();
+    drafted_ |= changed || moveHandles(rows.places(), view);
+    if (action != Action::none) return action;
+    return drafted_ && !held_ && !ImGui::IsAnyItemActive() ? Action::change : Action::none;
+}
+
+// Rings in the picture around the places of what is open in the panel, which the pointer moves across the
+// view.
+bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const Projector projector(view, io.DisplaySize);
+    ImDrawList& list = *ImGui::GetBackgroundDrawList();
+    const float radius = points(9);
+    bool moved = false;
+    if (held_ && (!ImGui::IsMouseDown(ImGuiMouseButton_Left) || *held_ >= places.size())) held_.reset();
+    for (size_t i = 0; i < places.size(); ++i) {
+        const std::optional<ImVec2> at = projector.place(places[i].at);
+        if (!at) continue;
+        const bool near = std::hypot(io.MousePos.x - at->x, io.MousePos.y - at->y) < 1.5f * radius;
+        if (near && !held_ && !io.WantCaptureMouse && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) held_ = i;
+        const bool lit = held_ ? *held_ == i : near && !io.WantCaptureMouse;
+        list.AddCircle(*at, radius, IM_COL32(0, 0, 0, 160), 32, points(4));
+        list.AddCircle(*at, radius, lit ? IM_COL32(255, 255, 255, 255) : IM_COL32(255, 190, 70, 255), 32,
+                       points(2));
+        list.AddText(ImVec2(at->x + 1.4f * radius, at->y - radius), IM_COL32(255, 255, 255, 230),
+                     inWords(places[i].key).c_str());
+        if (held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
+        const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].at);
+        setMember(*places[i].object, places[i].key, toJson(rounded(to)));
+        moved = true;
+    }
+    return moved;
 }
 
 void ScenePanel::drawGroup(Edited& edited, RunningScene& running) {

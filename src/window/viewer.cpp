@@ -46,6 +46,7 @@ const HelpRow keysHelp[] = {
     {"H", "hide the panels, show them"},
     {"O", "open another scene"},
     {"Ctrl + S", "save what was edited"},
+    {"Ctrl + Z, Ctrl + Y", "take a change back, do it again"},
     {"P", "picture, numbered, in the working folder"},
     {"V", "record a video, stop"},
     {"F1, ?", "these keys"},
@@ -62,6 +63,7 @@ class Viewer : public WindowLoop {
                                                 height());
         else
             listScenes();
+        if (open_ && options.edits) open_->scenePanel.showWhole();
     }
 
     void run() {
@@ -152,7 +154,7 @@ class Viewer : public WindowLoop {
             open.drawPicked(points(328));
         }
         drawScenePanel();
-        pointer_.move(open, height());
+        if (!open.scenePanel.holds()) pointer_.move(open, height());
         drawNotices();
     }
 
@@ -183,6 +185,16 @@ class Viewer : public WindowLoop {
     void change(const Work& work) {
         troubles.attempt("change", work);
         open_->follow();
+    }
+
+    // What cannot be had stays in the panel, to be completed.
+    void changeWhole() {
+        const bool done =
+            troubles.attempt("change", [&] { open_->running.change(open_->scenePanel.draft()); });
+        if (done)
+            open_->follow();
+        else
+            open_->scenePanel.refused();
     }
 
     // Follows the reloaded scene, and clears earlier failures, which were those of the old files.
@@ -228,6 +240,9 @@ class Viewer : public WindowLoop {
         if (wish_.scene == ScenePanel::Action::save) saveScene();
         if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
         if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
+        if (wish_.scene == ScenePanel::Action::change) changeWhole();
+        if (wish_.scene == ScenePanel::Action::undo) change([&] { running.undo(); });
+        if (wish_.scene == ScenePanel::Action::redo) change([&] { running.redo(); });
     }
 
     // ---- Pictures and videos, without the panels
@@ -304,7 +319,7 @@ class Viewer : public WindowLoop {
         const bool changed = open.running.unsaved();
         if (!changed) troubles.end("saving");
         if (!hidden_) {
-            wish_.scene = open.scenePanel.draw(open.running, changed);
+            wish_.scene = open.scenePanel.draw(open.running, changed, open.view());
             if (open.scenePanel.changed() && !open.scenePanel.pending()) open.running.accept();
         }
         if (std::exchange(shownUnsaved_, changed) != changed) entitle(open.running.scene.file, changed);
@@ -365,6 +380,8 @@ class Viewer : public WindowLoop {
         ExplanationSettings& settings = open_->explanations->settings;
         if (keys().pressed(GLFW_KEY_SPACE)) controls.paused = !controls.paused;
         if (keys().pressed(GLFW_KEY_S) && keys().control()) wish_.scene = ScenePanel::Action::save;
+        if (keys().pressed(GLFW_KEY_Z) && keys().control()) wish_.scene = ScenePanel::Action::undo;
+        if (keys().pressed(GLFW_KEY_Y) && keys().control()) wish_.scene = ScenePanel::Action::redo;
         if (keys().pressed(GLFW_KEY_R)) wish_.panel = Panel::Action::restart;
         if (keys().pressed(GLFW_KEY_C) || keys().pressed(GLFW_KEY_4))
             wish_.panel = Panel::Action::resetCamera;

@@ -19,6 +19,7 @@ struct ViewerOptions {
     WindowOptions window;
     RunRequest run;      // of the first scene; of those that are opened later, only the execution path
     std::string folder;  // of the scenes to choose from
+    bool edits = false;  // the panel shows all that the scene says
 };
 
 // Shows a scene that runs, a camera to move, and the panels, until the user closes the window or after the

@@ -85,6 +85,39 @@ TEST_CASE("what is dragged and added in the window is saved, and no other byte c
     CHECK(member(emittersIn(after).items[1], "rate").number == rate);
 }
 
+TEST_CASE("a scene from nothing: a collider is added, moved in the picture, saved and taken back",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("new.scene.json");
+    const std::string steps =
+        "file=" + file +
+        "\n"
+        "cp $file $file.begun\n"
+        "press 600 360; press 567 397; press 614 432\n"  // colliders, Add, sphere
+        "press 600 397\n"                                // the sphere
+        "at 450 450; xdotool mousedown 1; settle; at 400 400; xdotool mouseup 1; settle\n"
+        "control s; cp $file $file.kept\n"
+        "control z; control z; control s\n"
+        "key Escape\n";
+    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    const std::string begun = readFile(file + ".begun"), kept = readFile(file + ".kept");
+    const size_t added = kept.find(",\n    {\"type\": \"sphere\", \"center\": [");
+    REQUIRE(added != std::string::npos);
+    std::string without = kept;
+    CHECK(without.erase(added, kept.find('}', added) + 1 - added) == begun);
+    const JsonValue root = parseJson(kept, file);
+    const JsonValue& center = member(member(root, "colliders").items[1], "center");
+    // 50 pixels to the left and up of 640 that show 2 tan(0.4) of 5.2 m
+    CHECK(center.items[0].number == Approx(-0.34).margin(0.05));
+    CHECK(center.items[1].number == Approx(0.34).margin(0.05));
+    CHECK(readFile(file) == begun);
+    CHECK(runShoal({"run", file + ".kept", "--headless", "--frames", "2"}).code == 0);
+}
+
 TEST_CASE("a file that changes on disk keeps what was dragged in the window, or the window asks",
           "[.window]") {
     if (!hasXdotool()) return;

@@ -19,6 +19,10 @@ using From = Emitter::From;
 
 namespace {
 
+void saveEdits(const Scene& before, const Scene& after) {
+    writeFile(before.file, withEdits(readFile(before.file), before, after));
+}
+
 constexpr const char* sparks = R"({
   "format": "shoal-scene-1",
   "comment": "kept",

@@ -122,9 +122,4 @@ bool differ(const Scene& before, const Scene& after) {
     return false;
 }
 
-void saveEdits(const Scene& before, const Scene& after) {
-    const std::string text = readFile(before.file), edited = withEdits(text, before, after);
-    if (edited != text) writeFile(before.file, edited);
-}
-
 }  // namespace shoal

@@ -18,9 +18,6 @@ std::string withEdits(const std::string& text, const Scene& before, const Scene&
 // Whether saving would change a file.
 bool differ(const Scene& before, const Scene& after);
 
-// In the file before.file. Error: withEdits'; the file cannot be read or written, and is as it was then.
-void saveEdits(const Scene& before, const Scene& after);
-
 // Holds the outcome of merging unsaved edits into a file that changed since it was read.
 struct MergedEdits {
     std::vector<Group> groups;           // of `theirs`, with the edits

@@ -1,0 +1,26 @@
+// What a file has to say of a struct at the least, by its description (core/description.h): the keys that it
+// needs, each with a value that it may have. Rules between keys may ask for more.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "core/description.h"
+#include "core/json.h"
+
+namespace shoal {
+
+// A text for a key that names something, such as a file.
+using TextOf = std::function<std::string(const Key&)>;
+
+JsonValue smallestValue(const Key& key, const TextOf& text);
+JsonValue smallestObject(const Description& keys, const TextOf& text);
+// Of a description that has a variant, as the kind of this name.
+JsonValue smallestObject(const Description& keys, const Description& kind, const TextOf& text);
+
+const Key* variantOf(const Description& keys);  // null: there is none
+
+// Whether a key means something beside what the object says; what is left out counts as what it then is.
+bool meansSomething(const Description& keys, const Key& key, const JsonValue& object);
+
+}  // namespace shoal

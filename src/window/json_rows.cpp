@@ -1,0 +1,348 @@
+#include "window/json_rows.h"
+
+#include <imgui.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "core/json_build.h"
+#include "core/smallest.h"
+#include "window/edit_widgets.h"
+#include "window/key_rows.h"
+
+namespace shoal::window {
+
+namespace {
+
+using Kind = Key::Kind;
+using Json = JsonValue::Kind;
+
+JsonValue* findIn(JsonValue& object, const std::string& key) {
+    return const_cast<JsonValue*>(object.find(key));
+}
+
+void leaveOut(JsonValue& object, const std::string& key) {
+    std::erase_if(object.members, [&](const JsonMember& member) { return member.first == key; });
+}
+
+// A number, or numbers in a list.
+std::vector<double> numbersOf(const JsonValue& value) {
+    std::vector<double> out;
+    if (value.kind == Json::number) out.push_back(value.number);
+    for (const JsonValue& item : value.items)
+        if (item.kind == Json::number) out.push_back(item.number);
+    return out.size() == std::max<size_t>(1, value.items.size()) ? out : std::vector<double>();
+}
+
+JsonValue asJson(const std::vector<double>& numbers, bool list) {
+    return list ? toJson(numbers) : JsonValue::makeNumber(numbers[0]);
+}
+
+bool isWhole(const Key& key) {
+    return key.kind == Kind::whole || key.kind == Kind::whole3 || key.kind == Kind::seed ||
+           key.kind == Kind::longSeed || key.form.of == Form::Of::whole;
+}
+
+// A kind of a variant that has one, by the word that chooses it.
+const Description* alternativeOf(const Key& key, const JsonValue& object) {
+    const JsonValue* word = object.find(key.name);
+    for (const Description* one : key.objects)
+        if (word && word->text == one->name()) return one;
+    return nullptr;
+}
+
+std::string freeName(const JsonValue& list, const std::string& wanted) {
+    const auto taken = [&](const std::string& name) {
+        return std::any_of(list.items.begin(), list.items.end(), [&](const JsonValue& item) {
+            const JsonValue* own = item.find("name");
+            return own && own->text == name;
+        });
+    };
+    std::string out = wanted;
+    for (int i = 2; taken(out); ++i)
+        out = concat(wanted, " ", i);
+    return out;
+}
+
+}  // namespace
+
+void setMember(JsonValue& object, const std::string& key, JsonValue value) {
+    if (JsonValue* there = findIn(object, key))
+        *there = std::move(value);
+    else
+        object.add(key, std::move(value));
+}
+
+std::string titleOf(const JsonValue& element, size_t index) {
+    for (const char* key : {"name", "type", "from"})
+        if (const JsonValue* value = element.find(key); value && !value->text.empty()) return value->text;
+    return std::to_string(index + 1);
+}
+
+// ---- What is new
+
+TextOf JsonRows::text() const {
+    return [this](const Key& key) {
+        const std::vector<std::string> words = choices_(key.name);
+        return words.empty() ? key.name : words.front();
+    };
+}
+
+// Rules between keys ask for more than a description tells: a kind, and places.
+JsonValue JsonRows::smallestGroup(const JsonValue& groups) const {
+    const JsonValue box = object(key("low", glm::dvec3(-1, 0.5, -1)), key("high", glm::dvec3(1, 2.5, 1)));
+    return object(key("name", freeName(groups, "group")), key("molecule", choices_("molecule").front()),
+                  key("place", object(key("on", "volume"), key("box", box))), key("count", 100));
+}
+
+// ---- Rows
+
+bool JsonRows::draw(const Description& keys, JsonValue& object) {
+    bool changed = false;
+    for (const Key& key : keys.keys()) {
+        if (key.name == "$schema" || key.name == "format" || !meansSomething(keys, key, object)) continue;
+        ImGui::PushID(key.name.c_str());
+        changed |= key.kind == Kind::variant ? drawKind(key, object) : drawKey(keys, key, object);
+        ImGui::PopID();
+    }
+    return changed;
+}
+
+// Where something stands, by the words that scenes have for it.
+static bool isPlace(const Key& key) {
+    constexpr const char* names[] = {"position", "center", "point", "origin", "from", "to"};
+    return key.kind == Kind::vector3 &&
+           std::find(std::begin(names), std::end(names), key.name) != std::end(names);
+}
+
+void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& object) {
+    const auto add = [&](JsonValue& of, const std::string& name, const JsonValue& numbers) {
+        const std::vector<double> at = numbersOf(numbers);
+        if (at.size() == 3) places_.push_back({&of, name, {at[0], at[1], at[2]}});
+    };
+    if (isPlace(key)) add(object, key.name, value);
+    JsonValue* box = key.kind == Kind::box ? findIn(object, key.name) : nullptr;
+    for (const char* corner : {"low", "high"})
+        if (const JsonValue* numbers = box ? box->find(corner) : nullptr) add(*box, corner, *numbers);
+}
+
+// What a key may do without: its row changes what the object says of it.
+bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object) {
+    JsonValue* there = findIn(object, key.name);
+    JsonValue fresh = keys.usualValue(key);
+    std::string label = inWords(key.name);
+    const bool tree = key.kind == Kind::list || (key.kind == Kind::object && !key.member.optional);
+    if (tree && !there) fresh = key.kind == Kind::list ? JsonValue::makeArray() : JsonValue::makeObject();
+    const bool mayBeEmpty = key.kind == Kind::text && !key.needed;
+    if (mayBeEmpty && !there) fresh = JsonValue::makeString("");
+    // what has no value of its own where it is left out gets a box to tick
+    if (!tree && !mayBeEmpty && !key.needed && keys.usualValue(key).kind == Json::null) {
+        bool says = there != nullptr;
+        if (tick({label.c_str(), key.says.sentence.c_str()}, says)) {
+            if (says)
+                setMember(object, key.name, smallestValue(key, text()));
+            else
+                leaveOut(object, key.name);
+            return true;
+        }
+        if (!there) return false;
+        label.clear();
+    }
+    JsonValue& value = there ? *there : fresh;
+    if (inList_) addPlaces(key, value, object);
+    if (!(tree ? drawTree(key, value) : drawPresent(key, value, label))) return false;
+    const bool empty = tree ? value.items.empty() && value.members.empty() : mayBeEmpty && value.text.empty();
+    if (empty && !key.needed)
+        leaveOut(object, key.name);
+    else if (!there)
+        setMember(object, key.name, std::move(fresh));
+    return true;
+}
+
+bool JsonRows::drawTree(const Key& key, JsonValue& value) {
+    const std::string count = key.kind == Kind::list ? concat(" (", value.items.size(), ")") : std::string();
+    const bool open = ImGui::TreeNodeEx(concat(inWords(key.name), count, "###tree").c_str());
+    tip(key.says.sentence.c_str());
+    if (!open) return false;
+    const bool changed = key.kind == Kind::list ? drawList(key, value) : draw(*key.objects[0], value);
+    ImGui::TreePop();
+    return changed;
+}
+
+bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& label) {
+    const Row row{label.c_str(), key.says.sentence.c_str()};
+    switch (key.kind) {
+    case Kind::flag:
+        return tick(row, value.boolean);
+    case Kind::word: {
+        const std::optional<size_t> chosen = choose(row, value.text, key.words);
+        if (chosen) value = JsonValue::makeString(key.words[*chosen]);
+        return chosen.has_value();
+    }
+    case Kind::text:
+        return drawText(key, value, label);
+    case Kind::color: {
+        const std::vector<double> now = numbersOf(value);
+        if (now.size() != 3) return false;
+        glm::dvec3 color(now[0], now[1], now[2]);
+        if (!pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, color)) return false;
+        value = toJson(color);
+        return true;
+    }
+    case Kind::box: {
+        bool changed = false;
+        for (const char* end : {"low", "high"}) {
+            JsonValue* corner = findIn(value, end);
+            changed |= corner && drawNumbers(key, *corner, concat(label, ", ", end));
+        }
+        return changed;
+    }
+    case Kind::rotation: {
+        if (value.kind != Json::object) value = smallestValue(key, text());  // four numbers say it as well
+        bool changed = drawNumbers(key, *findIn(value, "axis"), concat(label, ", axis"));
+        double angle = findIn(value, "angle")->number * degrees;
+        if (drag({"angle", row.tip, "%.5g\xC2\xB0"}, {-360, 360}, &angle, 1, 1)) {
+            setMember(value, "angle", JsonValue::makeNumber(angle / degrees));
+            changed = true;
+        }
+        return changed;
+    }
+    case Kind::object: {
+        if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return false;
+        const bool changed = draw(*key.objects[0], value);
+        ImGui::TreePop();
+        return changed;
+    }
+    case Kind::byHand:
+        if (key.form.of == Form::Of::text && value.kind == Json::string) return drawText(key, value, label);
+        if (value.kind == Json::object && key.objects.size() == 1) {
+            if (!ImGui::TreeNodeEx(inWords(key.name).c_str())) return false;
+            const bool changed = draw(*key.objects[0], value);
+            ImGui::TreePop();
+            return changed;
+        }
+        [[fallthrough]];
+    default:
+        return drawNumbers(key, value, label);
+    }
+}
+
+bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& label) {
+    std::vector<double> numbers = numbersOf(value);
+    if (numbers.empty() || numbers.size() > 4) {  // only in the file
+        beginRow({label.c_str(), key.says.sentence.c_str()});
+        ImGui::TextDisabled("%s", writeJsonLine(value).substr(0, 40).c_str());
+        return false;
+    }
+    const bool angle = key.says.unit == "rad";
+    Limit limit = limitOf(key);
+    if (key.kind == Kind::byHand) limit = {key.form.range.least, key.form.range.most};
+    limit = {std::max(limit.least, -largestNumber), std::min(limit.most, largestNumber)};
+    const std::string unit = key.says.unit.empty() || key.kind == Kind::byHand || numbers.size() > 1
+                                 ? std::string()
+                                 : " " + key.says.unit;
+    const std::string format = isWhole(key) ? "%.0f" : concat("%.5g", angle ? "\xC2\xB0" : unit);
+    double largest = 0;
+    for (double& number : numbers) {
+        if (angle) number *= degrees;
+        largest = std::max(largest, std::abs(number));
+    }
+    if (angle) limit = {limit.least * degrees, limit.most * degrees};
+    const double speed = isWhole(key) ? std::max(0.2, largest / 200) : std::max(0.005, largest / 200);
+    if (!drag({label.c_str(), key.says.sentence.c_str(), format.c_str()}, limit, numbers.data(),
+              int(numbers.size()), speed))
+        return false;
+    for (double& number : numbers) {
+        if (angle) number /= degrees;
+        if (isWhole(key))
+            number = std::round(number);
+        else if (number != 0)  // as many digits as were seen
+            number = std::stod(formatted("%.6g", number));
+    }
+    value = asJson(numbers, value.kind == Json::array);
+    return true;
+}
+
+bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& label) {
+    const Row row{label.c_str(), key.says.sentence.c_str()};
+    if (const std::vector<std::string> words = choices_(key.name); !words.empty()) {
+        const std::optional<size_t> chosen = choose(row, value.text, words);
+        if (chosen) value = JsonValue::makeString(words[*chosen]);
+        return chosen.has_value();
+    }
+    return type(row, value.text);
+}
+
+// The word that says what an object is, and the keys that go with it.
+bool JsonRows::drawKind(const Key& key, JsonValue& object) {
+    const std::string now = object.find(key.name) ? object.find(key.name)->text : std::string();
+    std::vector<std::string> words;
+    for (const Description* one : key.objects)
+        words.push_back(one->name());
+    const std::optional<size_t> chosen = choose(rowOf(key), now, words);
+    if (chosen) {
+        if (const Description* before = alternativeOf(key, object))
+            for (const Key& own : before->keys())
+                if (!key.objects[*chosen]->find(own.name)) leaveOut(object, own.name);
+        setMember(object, key.name, JsonValue::makeString(words[*chosen]));
+        for (JsonMember& member : smallestObject(*key.objects[*chosen], text()).members)
+            if (!object.find(member.first)) object.add(member.first, std::move(member.second));
+        return true;
+    }
+    const Description* kind = alternativeOf(key, object);
+    return kind && draw(*kind, object);
+}
+
+bool JsonRows::drawList(const Key& key, JsonValue& list) {
+    bool changed = false;
+    const Description& element = *key.objects[0];
+    const bool within = std::exchange(inList_, true);
+    for (size_t i = 0; i < list.items.size(); ++i) {
+        ImGui::PushID(int(i));
+        const bool open = ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str());
+        if (open) {
+            changed |= draw(element, list.items[i]);
+            bool removes = false;
+            if (ImGui::SmallButton("Duplicate")) {
+                JsonValue copy = list.items[i];
+                if (const JsonValue* own = copy.find("name"); own && !own->text.empty())
+                    setMember(copy, "name", JsonValue::makeString(freeName(list, own->text)));
+                list.items.insert(list.items.begin() + std::ptrdiff_t(i + 1), std::move(copy));
+                changed = true;
+            }
+            ImGui::SameLine();
+            if (ImGui::SmallButton("Remove")) removes = true;
+            ImGui::TreePop();
+            if (removes) {
+                list.items.erase(list.items.begin() + std::ptrdiff_t(i--));
+                changed = true;
+            }
+        }
+        ImGui::PopID();
+    }
+    inList_ = within;
+    const auto addOne = [&](JsonValue item) {
+        list.items.push_back(std::move(item));
+        changed = true;
+    };
+    const Key* kinds = variantOf(element);
+    if (ImGui::SmallButton("Add")) {
+        if (kinds)
+            ImGui::OpenPopup("kinds");
+        else
+            addOne(key.name == "groups" ? smallestGroup(list) : smallestObject(element, text()));
+    }
+    tip(element.sentence().c_str());
+    if (kinds && ImGui::BeginPopup("kinds")) {
+        for (const Description* kind : kinds->objects) {
+            if (ImGui::Selectable(kind->name().c_str())) addOne(smallestObject(element, *kind, text()));
+            tip(kind->sentence().c_str());
+        }
+        ImGui::EndPopup();
+    }
+    return changed;
+}
+
+}  // namespace shoal::window
