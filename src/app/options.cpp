@@ -59,7 +59,8 @@ void addError(CLI::App& command, Options& options) {
 }
 
 void addEdit(CLI::App& command, Options& options, Texts& texts) {
-    addFile(command, "molecule", options.files, "Molecule file, or scene (.scene.json); one that is not there is begun")
+    addFile(command, "molecule", options.files,
+            "Molecule file, or scene (.scene.json); one that is not there is begun")
         ->required()
         ->expected(1);
     command.add_option("--shape", options.editShape, "What a new molecule begins as (default sheet)")
@@ -280,7 +281,8 @@ static void declare(CLI::App& app, Options& options, Texts& texts) {
     addField(*add("field", "Bake a model's distance field: its error, and a slice", scenes), options,
              texts.slice, texts.size);
     addExport(*add("export", "Write a scene for game engines and viewers", scenes), options, texts);
-    addEdit(*add("edit", "Change a molecule or a scene in a window, while it moves", molecules), options, texts);
+    addEdit(*add("edit", "Change a molecule or a scene in a window, while it moves", molecules), options,
+            texts);
     addMolecule(app, options);
     app.get_subcommand("molecule")->group(molecules);
     addContext(*add("info", "Print the OpenGL contexts that can be had", machine), options, texts);

@@ -123,7 +123,7 @@ TEST_CASE("a mistake in a fused shader is located in our file and line", "[fused
         {"fused/step.glsl", "vec3 ended = dragged(", Lanes::molecule},  // in a loop that is written out
         {"fused/step.glsl", "vec3 ended = dragged(", Lanes::vertex},    // and spread over lanes
         {"solver/euler.glsl", "sampleHere(time);", Lanes::molecule},
-        {"physics/spring.glsl", "float squared = dot(d, d);", Lanes::molecule},
+        {"physics/spring.glsl", "float inverse = inversesqrt(", Lanes::molecule},
         {"step/drag.glsl", "return dragAndGravity(", Lanes::molecule},
     };
     for (const auto& [file, text, lanes] : cases) {
