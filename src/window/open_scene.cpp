@@ -38,6 +38,7 @@ void OpenScene::follow() {
     scenePanel.follow(running.scene);
     camera.start(View::of(running.scene.camera));
     reload.follow(running, false);
+    timeLine.forget();
     const ExplanationSettings settings = explanations->settings;
     const std::optional<PickedMolecule> picked = explanations->picked;
     explanations = std::make_unique<Explanations>(simulation().context(), shaderRoot(), running.scene, plan);
@@ -128,13 +129,13 @@ void row(const char* label) {
     ImGui::SameLine(points(96));
 }
 
-// At the bottom, from `left` on. `follows`: the camera does. False: the user closed it.
+// At `bottom`, from `left` on. `follows`: the camera does. False: the user closed it.
 bool showMolecule(const PickedMolecule& picked, const std::string& group, const Molecule& shape,
-                  const MoleculeNumbers& numbers, bool& follows, float left) {
+                  const MoleculeNumbers& numbers, bool& follows, float left, float bottom) {
     const ImVec2 screen = ImGui::GetIO().DisplaySize;
     const float width = points(300);
     ImGui::SetNextWindowPos(
-        ImVec2(std::max(points(12), std::min(left, screen.x - width - points(12))), screen.y - points(12)),
+        ImVec2(std::max(points(12), std::min(left, screen.x - width - points(12))), screen.y - bottom),
         ImGuiCond_Always, ImVec2(0, 1));
     ImGui::SetNextWindowSize(ImVec2(width, 0), ImGuiCond_Always);
     bool open = true;
@@ -177,7 +178,7 @@ bool showMolecule(const PickedMolecule& picked, const std::string& group, const 
 
 }  // namespace
 
-void OpenScene::drawPicked(float left) {
+void OpenScene::drawPicked(float left, float bottom) {
     if (!explanations->picked || !numbers) return;
     if (const auto at = Projector(view(), ImGui::GetIO().DisplaySize).place(numbers->middle)) {  // a ring
         ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -186,7 +187,7 @@ void OpenScene::drawPicked(float left) {
     }
     const PickedMolecule& picked = *explanations->picked;
     const Group& group = running.scene.groups[simulation().plan().groups[picked.group].index];
-    if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left)) forget();
+    if (!showMolecule(picked, group.name, group.molecule, *numbers, follows, left, bottom)) forget();
 }
 
 }  // namespace shoal::window

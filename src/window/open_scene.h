@@ -7,6 +7,7 @@
 #include "window/orbit_camera.h"
 #include "window/panel.h"
 #include "window/running_scene.h"
+#include "window/time_line.h"
 
 namespace shoal::window {
 
@@ -18,6 +19,7 @@ struct OpenScene {
     ScenePanel scenePanel;
     OrbitCamera camera;
     HotReload reload;
+    TimeLine timeLine;
     std::unique_ptr<Explanations> explanations;
     std::optional<MoleculeNumbers> numbers;  // of the picked molecule, as read last
     bool follows = false;                    // the camera, the picked molecule
@@ -40,9 +42,9 @@ struct OpenScene {
     void pick(int height);
     void forget();      // what was picked
     void readPicked();  // its numbers, and moves the camera that follows it
-    // Its numbers, from `left` on (in the interface's units) at the bottom of the window, and a ring around
-    // it.
-    void drawPicked(float left);
+    // Its numbers, from `left` on and `bottom` above the window's bottom (in the interface's units), and a
+    // ring around it.
+    void drawPicked(float left, float bottom);
     View view() const;                   // of now
     void drawPicture(double lineWidth);  // pixels, of springs and arrows
 };

@@ -44,6 +44,7 @@ const HelpRow keysHelp[] = {
     {"X", "springs by their strain"},
     {"F", "arrows of the fluid's velocity"},
     {"H", "hide the panels, show them"},
+    {"T", "a time line, to go back on"},
     {"O", "open another scene"},
     {"Ctrl + S", "save what was edited"},
     {"Ctrl + Z, Ctrl + Y", "take a change back, do it again"},
@@ -151,7 +152,9 @@ class Viewer : public WindowLoop {
         if (!hidden_) {
             wish_.panel = open.panel.draw(open.controls, open.simulation(), open.running.renderer(),
                                           *open.explanations, frameSeconds(), lastFrame_);
-            open.drawPicked(points(328));
+            open.drawPicked(points(328), points(open.timeLine.open ? 90 : 12));
+            if (const SavedState* state = open.timeLine.draw(points(328), points(392), open.simulation()))
+                goTo(*state);
         }
         drawScenePanel();
         if (!open.scenePanel.holds()) pointer_.move(open, height());
@@ -171,6 +174,14 @@ class Viewer : public WindowLoop {
             return;
         }
         open_->saveIfAsked(false);
+        open_->timeLine.note(open_->simulation());
+    }
+
+    void goTo(const SavedState& state) {
+        open_->simulation().load(state);
+        open_->controls.paused = true;
+        troubles.end("run");
+        tell(concat("went to frame ", state.frames, ", paused"));
     }
 
     void pauseWith(const std::string& message) {
@@ -392,6 +403,7 @@ class Viewer : public WindowLoop {
         if (keys().pressed(GLFW_KEY_X)) settings.springs = !settings.springs;
         if (keys().pressed(GLFW_KEY_F)) settings.field = !settings.field;
         if (keys().pressed(GLFW_KEY_H)) hidden_ = !hidden_;
+        if (keys().pressed(GLFW_KEY_T)) open_->timeLine.open = !open_->timeLine.open;
         if (keys().pressed(GLFW_KEY_P)) takePicture();
         if (keys().pressed(GLFW_KEY_V)) toggleRecording();
         constexpr double quarter = 1.5707963267948966;  // rad

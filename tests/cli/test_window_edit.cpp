@@ -1,5 +1,7 @@
 // Editing in the window: a slider is dragged, the scene is saved, and the file says so. Needs a display and
 // xdotool, which moves the pointer.
+#include <sstream>
+
 #include "cli/shoal_command.h"
 #include "cli/window_user.h"
 #include "core/file.h"
@@ -116,6 +118,28 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     CHECK(center.items[1].number == Approx(0.34).margin(0.05));
     CHECK(readFile(file) == begun);
     CHECK(runShoal({"run", file + ".kept", "--headless", "--frames", "2"}).code == 0);
+}
+
+TEST_CASE("the time line goes back to a state that was kept", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.write("kept.scene.json", fountain);
+    // the first state, while the run goes on; then on from there, and back again
+    const std::string steps =
+        "key t; settle; settle; settle; settle; settle; settle\n"
+        "press 420 608; says 'went to frame [1-9][0-9]*, paused'\n"
+        "key space; settle; settle; settle; settle; press 420 608; says 'went to frame' 2\n"
+        "key Escape\n";
+    const Outcome outcome = inWindow({"run", file, "--context", "window", "--size", "900x640"}, steps);
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(outcome.err.empty());
+    std::vector<std::string> went;
+    std::istringstream lines(outcome.out);
+    for (std::string line; std::getline(lines, line);)
+        if (line.rfind("went to", 0) == 0) went.push_back(line);
+    REQUIRE(went.size() == 2);
+    CHECK(went[0] == went[1]);
 }
 
 TEST_CASE("a file that changes on disk keeps what was dragged in the window, or the window asks",
