@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <sstream>
 #include <utility>
 
 #include "core/json_build.h"
@@ -43,6 +44,18 @@ JsonValue asJson(const std::vector<double>& numbers, bool list) {
 bool isWhole(const Key& key) {
     return key.kind == Kind::whole || key.kind == Kind::whole3 || key.kind == Kind::seed ||
            key.kind == Kind::longSeed || key.form.of == Form::Of::whole;
+}
+
+// What stands between commas.
+std::vector<std::string> wordsIn(const std::string& text) {
+    std::vector<std::string> out;
+    std::istringstream all(text);
+    for (std::string word; std::getline(all, word, ',');) {
+        const size_t begin = word.find_first_not_of(' ');
+        if (begin != std::string::npos)
+            out.push_back(word.substr(begin, word.find_last_not_of(' ') + 1 - begin));
+    }
+    return out;
 }
 
 // A kind of a variant that has one, by the word that chooses it.
@@ -183,6 +196,14 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     }
     case Kind::text:
         return drawText(key, value, label);
+    case Kind::texts: {
+        std::string words;
+        for (const JsonValue& item : value.items)
+            words += (words.empty() ? "" : ", ") + item.text;
+        if (!type(row, words)) return false;
+        value = toJson(wordsIn(words));
+        return true;
+    }
     case Kind::color: {
         const std::vector<double> now = numbersOf(value);
         if (now.size() != 3) return false;
@@ -299,32 +320,33 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
     bool changed = false;
     const Description& element = *key.objects[0];
     const bool within = std::exchange(inList_, true);
+    std::optional<size_t> copied, removed;
     for (size_t i = 0; i < list.items.size(); ++i) {
         ImGui::PushID(int(i));
-        const bool open = ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str());
-        if (open) {
-            changed |= draw(element, list.items[i]);
-            bool removes = false;
-            if (ImGui::SmallButton("Duplicate")) {
-                JsonValue copy = list.items[i];
-                if (const JsonValue* own = copy.find("name"); own && !own->text.empty())
-                    setMember(copy, "name", JsonValue::makeString(freeName(list, own->text)));
-                list.items.insert(list.items.begin() + std::ptrdiff_t(i + 1), std::move(copy));
-                changed = true;
-            }
+        if (ImGui::TreeNodeEx(concat(titleOf(list.items[i], i), "###element").c_str())) {
+            if (ImGui::SmallButton("Duplicate")) copied = i;
             ImGui::SameLine();
-            if (ImGui::SmallButton("Remove")) removes = true;
+            if (ImGui::SmallButton("Remove")) removed = i;
+            changed |= draw(element, list.items[i]);
             ImGui::TreePop();
-            if (removes) {
-                list.items.erase(list.items.begin() + std::ptrdiff_t(i--));
-                changed = true;
-            }
         }
         ImGui::PopID();
+    }
+    if (copied) {
+        JsonValue copy = list.items[*copied];
+        if (const JsonValue* own = copy.find("name"); own && !own->text.empty())
+            setMember(copy, "name", JsonValue::makeString(freeName(list, own->text)));
+        list.items.insert(list.items.begin() + std::ptrdiff_t(*copied + 1), std::move(copy));
+    }
+    if (removed) list.items.erase(list.items.begin() + std::ptrdiff_t(*removed));
+    if (copied || removed) {
+        places_.clear();  // they have moved
+        changed = true;
     }
     inList_ = within;
     const auto addOne = [&](JsonValue item) {
         list.items.push_back(std::move(item));
+        places_.clear();  // they have moved
         changed = true;
     };
     const Key* kinds = variantOf(element);

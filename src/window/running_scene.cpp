@@ -199,7 +199,10 @@ void RunningScene::save() {
 }
 
 void RunningScene::revert() {
-    if (text_ != saved_) return go(saved_, undo_);
+    if (text_ != saved_) {
+        go(saved_, undo_);
+        return;
+    }
     copyEdits(original_.groups, scene.groups);
     edit();
 }
@@ -212,22 +215,24 @@ JsonValue RunningScene::json() const {
     return parseJson(text(), original_.file);
 }
 
-void RunningScene::take(const std::string& text) {
+std::vector<std::string> RunningScene::take(const std::string& text) {
     FieldWatch baking;
     Scene fresh = parseScene(text, original_.file, baking.baking());
     apply(request_, fresh);
     Scene next = fresh;
     applyChoices(next, fresh);
-    build(std::move(next), true);
+    std::vector<std::string> restarted = build(std::move(next), true);
     original_ = std::move(fresh);
     text_ = text;
+    return restarted;
 }
 
 // What is left behind comes to `passed`.
-void RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
+std::vector<std::string> RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
     std::string now = this->text();
-    take(text);
+    std::vector<std::string> restarted = take(text);
     passed.push_back(std::move(now));
+    return restarted;
 }
 
 void RunningScene::change(const JsonValue& after) {
@@ -241,11 +246,11 @@ void RunningScene::change(const JsonValue& after) {
 }
 
 void RunningScene::undo() {
-    if (edited()) return go(text_, redo_);
-    if (undo_.empty()) return;
-    const std::string before = undo_.back();
+    const bool onlyEdited = edited();
+    if (!onlyEdited && undo_.empty()) return;
+    const std::string before = onlyEdited ? text_ : undo_.back();
     go(before, redo_);
-    undo_.pop_back();
+    if (!onlyEdited) undo_.pop_back();
 }
 
 void RunningScene::redo() {
@@ -285,14 +290,23 @@ std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const
     return out;
 }
 
+// The file's text with what change() did and was not saved.
+RunningScene::Reloaded RunningScene::mergeWhole(const std::string& text, std::optional<Prefer> prefer) {
+    const JsonValue theirs = parseJson(text, original_.file);
+    Reloaded out;
+    const JsonValue both = merged(parseJson(saved_, original_.file), json(), theirs,
+                                  prefer.value_or(Prefer::mine), "$", out.conflicts);
+    if (!out.conflicts.empty() && !prefer) return out;
+    std::vector<TextChange> changes;
+    addChanges(text, theirs, theirs, both, changes);
+    out.restarted = go(withChanges(text, std::move(changes)), undo_);
+    saved_ = text;
+    return out;
+}
+
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     const std::string text = readFile(original_.file);
-    if (text_ != saved_) {
-        if (!prefer) return {{"what was added, removed or changed in the scene"}, {}};
-        if (prefer == Prefer::theirs) go(text, undo_);
-        saved_ = text;
-        return {};
-    }
+    if (text_ != saved_) return mergeWhole(text, prefer);
     FieldWatch baking;
     Scene theirs = parseScene(text, original_.file, baking.baking());
     apply(request_, theirs);

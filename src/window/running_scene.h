@@ -84,10 +84,12 @@ class RunningScene {
     std::vector<std::string> files() const;
 
   private:
-    std::string text() const;            // with what was edited in `scene`
-    bool edited() const;                 // `scene` is not as text_ says
-    void take(const std::string& text);  // in place of text_
-    void go(const std::string& text, std::vector<std::string>& passed);
+    std::string text() const;  // with what was edited in `scene`
+    bool edited() const;       // `scene` is not as text_ says
+    // In place of text_; returns the groups that begin anew.
+    std::vector<std::string> take(const std::string& text);
+    std::vector<std::string> go(const std::string& text, std::vector<std::string>& passed);
+    Reloaded mergeWhole(const std::string& text, std::optional<Prefer> prefer);
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);
     std::vector<std::string> build(Scene next, const Plan& plan, Path path);

@@ -120,6 +120,40 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     CHECK(runShoal({"run", file + ".kept", "--headless", "--frames", "2"}).code == 0);
 }
 
+TEST_CASE("what was added in the window and what changed on disk come together", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("both.scene.json");
+    const std::string steps = "file=" + file +
+                              "\npress 600 360; press 567 397; press 614 432\n"
+                              "sed -i 's/-9.81/-1.62/' $file; says '^reloaded:'\n"
+                              "control s; key Escape\n";
+    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    const JsonValue root = readJson(file);
+    CHECK(member(root, "gravity").items[1].number == -1.62);
+    REQUIRE(member(root, "colliders").items.size() == 2);
+}
+
+TEST_CASE("what cannot run stays in the panel until it is dropped", "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("last.scene.json");
+    // the only group is removed; dropping that brings it back, and nothing is to be saved
+    const std::string steps = "file=" + file +
+                              "\ncp $file $file.begun\n"
+                              "press 600 378; press 600 396; press 662 414\n"
+                              "says 'at least'; control s\n"
+                              "press 535 75; key Escape\n";
+    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    CHECK(readFile(file) == readFile(file + ".begun"));
+    REQUIRE(outcome.messages().size() == 1);
+    CHECK_THAT(outcome.messages()[0], Catch::Contains("$.groups"));
+}
+
 TEST_CASE("the time line goes back to a state that was kept", "[.window]") {
     if (!hasXdotool()) return;
     const Scratch scratch;
