@@ -10,6 +10,7 @@
 #include "author/coarse.h"
 #include "author/springs.h"
 #include "compile/path.h"
+#include "geometry/subdivide.h"
 #include "molecule/skin.h"
 
 namespace shoal {
@@ -193,6 +194,7 @@ class Maker {
 
     MadeMolecule run() {
         examine();
+        refine();
         makeCoarse();
         makeVertices();
         makeSprings();
@@ -236,10 +238,27 @@ class Maker {
         material_ = &scaledMaterial(made_.material);
     }
 
+    int wantedVertices() const {
+        const bool cage = options_.springs == FromMesh::Springs::cage;
+        return options_.vertices.value_or(cage ? cageVertices : usualMadeVertices);
+    }
+
+    // A sheet of a few large triangles could hardly bend.
+    void refine() {
+        const bool ofSurface = options_.springs == FromMesh::Springs::automatic ||
+                               options_.springs == FromMesh::Springs::surface;
+        const size_t few = mesh_.weldedPositions.size(), wanted = size_t(wantedVertices());
+        if (made_.solid || options_.rings || !ofSurface || 2 * few > wanted) return;
+        constexpr size_t skinVertices = 4;  // for each that is simulated, so that the skin bends smoothly
+        subdivide(mesh_, skinVertices * wanted);
+        made_.notes.push_back(concat(
+            "the sheet has ", few, " vertices, too few to bend: its longest edges were halved until it had ",
+            mesh_.weldedPositions.size()));
+    }
+
     void makeCoarse() {
         using Springs = FromMesh::Springs;
-        const int usual = options_.springs == Springs::cage ? cageVertices : usualMadeVertices;
-        const int vertices = options_.vertices.value_or(usual);
+        const int vertices = wantedVertices();
         if (options_.rings) {
             coarse_ = ringsOf(mesh_, *options_.rings);
         } else if (options_.springs == Springs::lattice || options_.springs == Springs::cage) {

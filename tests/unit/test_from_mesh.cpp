@@ -369,8 +369,15 @@ TEST_CASE("separate parts and meshes of few vertices hold together", "[from-mesh
     checkBraced(out.molecule);
     Mesh few = square(0.1);
     const MadeMolecule quad = made(few);
-    CHECK(quad.molecule.vertices.size() == 4);
+    CHECK(quad.molecule.vertices.size() == 24);  // four could hardly bend
+    CHECK(quad.molecule.skin.vertices.size() >= 96);
     CHECK(analyse(quad.molecule, false).zeroModes == 0);
+    checkBraced(quad.molecule);
+    FromMesh asIs;
+    asIs.vertices = 8;
+    CHECK(made(few, asIs).molecule.vertices.size() == 8);
+    asIs.vertices = 6;  // the mesh has more than half of them
+    CHECK(made(few, asIs).molecule.vertices.size() == 4);
 }
 
 TEST_CASE("a few triangles become a molecule of numbers, or are refused", "[from-mesh]") {
