@@ -10,6 +10,7 @@
 #include "author/coarse.h"
 #include "author/springs.h"
 #include "compile/path.h"
+#include "geometry/close_holes.h"
 #include "geometry/subdivide.h"
 #include "molecule/skin.h"
 
@@ -207,15 +208,18 @@ class Maker {
     Molecule& molecule() { return made_.molecule; }
 
     void examine() {
-        const SurfaceReport report = examineSurface(mesh_);
+        SurfaceReport report = examineSurface(mesh_);
         if (report.triangles <= report.degenerate) throw Error("every triangle of the mesh has no area");
-        made_.solid = report.closed();
         made_.area = report.area;
+        Mesh closed;
+        if (report.borders > 0 && report.borders == report.unsound()) closed = withoutHoles(report);
+        const Mesh& body = closed.triangles.empty() ? mesh_ : closed;
+        made_.solid = report.closed();
         made_.volume = made_.solid ? std::abs(report.volume) : 0;
         made_.extent = mesh_.high - mesh_.low;
         if (options_.springs == FromMesh::Springs::lattice && !made_.solid)
             throw Error("a lattice of tetrahedra fills a volume, and this mesh has none: ", whyOpen(report));
-        if (made_.solid) inside_ = std::make_unique<Inside>(mesh_);
+        if (made_.solid) inside_ = std::make_unique<Inside>(body);
         constexpr size_t leastSamples = 100;  // fewer tell nothing of how a mass is spread
         if (inside_ && inside_->samples().size() < leastSamples) {
             inside_.reset();
@@ -236,6 +240,20 @@ class Maker {
         const char* usual = made_.solid || bulky() ? "flesh" : "leaf";
         made_.material = !options_.material.empty() ? options_.material : usual;
         material_ = &scaledMaterial(made_.material);
+    }
+
+    // With small holes closed, where that makes it a body, of which `report` tells then; else empty.
+    Mesh withoutHoles(SurfaceReport& report) {
+        constexpr double small = 0.05;  // of the area
+        Mesh out = mesh_;
+        const int holes = closeHoles(out, small);
+        const SurfaceReport now = examineSurface(out);
+        if (holes == 0 || !now.closed()) return {};
+        made_.notes.push_back(concat(many(holes, "hole was", "holes were"), " closed, at the first at (",
+                                     report.where.x, ", ", report.where.y, ", ", report.where.z,
+                                     "), to make it a body; the skin keeps them"));
+        report = now;
+        return out;
     }
 
     int wantedVertices() const {

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "author/from_mesh.h"
+#include "geometry/close_holes.h"
 #include "geometry/mesh.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
@@ -378,6 +379,43 @@ TEST_CASE("separate parts and meshes of few vertices hold together", "[from-mesh
     CHECK(made(few, asIs).molecule.vertices.size() == 8);
     asIs.vertices = 6;  // the mesh has more than half of them
     CHECK(made(few, asIs).molecule.vertices.size() == 4);
+}
+
+TEST_CASE("small holes are closed to make a body, and the skin keeps them", "[from-mesh]") {
+    Mesh tube;
+    addTube(tube, "a", {0, 0, 0}, 0.1, 1, 12, 6);
+    completeMesh(tube);
+    REQUIRE(examineSurface(tube).closed());
+    const double volume = examineSurface(tube).volume;
+    Mesh holed = tube;
+    // a triangle of the wall, and two beside each other
+    for (const size_t t : {70, 41, 40})
+        holed.triangles.erase(holed.triangles.begin() + std::ptrdiff_t(t));
+    holed.objects = {{"a", 0, int(holed.triangles.size())}};
+    holed.parts.clear();
+    completeMesh(holed);
+    REQUIRE(!examineSurface(holed).closed());
+    const MadeMolecule out = made(holed);
+    CHECK(out.solid);
+    CHECK(out.volume == Approx(volume).epsilon(0.05));
+    CHECK(out.molecule.skin.triangles.size() == holed.triangles.size());
+    CHECK_THAT(out.notes.front(), Catch::Contains("closed"));
+
+    // without its end it is a cup, and stays one
+    const glm::dvec3 extent = tube.high - tube.low;
+    const int axis = extent.x > std::max(extent.y, extent.z) ? 0 : extent.y > extent.z ? 1 : 2;
+    Mesh cup = tube;
+    std::erase_if(cup.triangles, [&](const glm::ivec3& t) {
+        const auto at = [&](int corner) { return cup.positions[size_t(corner)][axis]; };
+        return std::max({at(t.x), at(t.y), at(t.z)}) > tube.low[axis] + 0.9 * extent[axis];
+    });
+    cup.objects = {{"a", 0, int(cup.triangles.size())}};
+    cup.parts.clear();
+    completeMesh(cup);
+    REQUIRE(examineSurface(cup).borders > 0);
+    CHECK(!made(cup).solid);
+    CHECK(closeHoles(cup, 1) == 1);
+    CHECK(examineSurface(cup).closed());
 }
 
 TEST_CASE("a few triangles become a molecule of numbers, or are refused", "[from-mesh]") {
