@@ -401,11 +401,14 @@ static int editScene(const Options& options) {
     Options run = options;
     run.context = gpu::ContextKind::window;
     run.editsScene = true;
-    if (!fs::exists(file)) {
-        writeFile(file, firstScene(file));
-        std::cout << "wrote " << printable(file) << ", to begin with\n";
+    const std::string begun = fs::exists(file) ? std::string() : firstScene(file);
+    if (!begun.empty()) writeFile(file, begun);
+    try {
+        return runCommand(run);
+    } catch (const std::exception&) {
+        if (!begun.empty() && readFile(file) == begun) fs::remove(file);  // there is no window, say
+        throw;
     }
-    return runCommand(run);
 }
 
 int editCommand(const Options& options) {

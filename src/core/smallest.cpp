@@ -82,7 +82,7 @@ JsonValue smallestValue(const Key& key, const TextOf& text) {
     return JsonValue::makeNumber(number);
 }
 
-static void addNeeded(const Description& keys, const TextOf& text, JsonValue& out) {
+void addNeeded(const Description& keys, const TextOf& text, JsonValue& out) {
     for (const Key& key : keys.keys())
         if (key.needed && key.kind != Key::Kind::variant && !out.find(key.name) &&
             meansSomething(keys, key, out))

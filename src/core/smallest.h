@@ -18,6 +18,9 @@ JsonValue smallestObject(const Description& keys, const TextOf& text);
 // Of a description that has a variant, as the kind of this name.
 JsonValue smallestObject(const Description& keys, const Description& kind, const TextOf& text);
 
+// What it needs and does not say yet, beside what it says.
+void addNeeded(const Description& keys, const TextOf& text, JsonValue& object);
+
 const Key* variantOf(const Description& keys);  // null: there is none
 
 // Whether a key means something beside what the object says; what is left out counts as what it then is.

@@ -114,12 +114,24 @@ bool tick(const Row& row, bool& value) {
 }
 
 bool type(const Row& row, std::string& text) {
-    std::array<char, 1024> shown{};
-    text.copy(shown.data(), shown.size() - 1);
+    // what is being typed: ImGui forgets it where something that is drawn earlier is clicked
+    static ImGuiID typing = 0;
+    static std::string typed;
     beginRow(row);
+    const ImGuiID id = ImGui::GetID(hidden(row).c_str());
+    const bool mine = typing == id;
+    std::array<char, 1024> shown{};
+    (mine ? typed : text).copy(shown.data(), shown.size() - 1);
     ImGui::InputText(hidden(row).c_str(), shown.data(), shown.size());
     tipHere(row);
-    if (!ImGui::IsItemDeactivatedAfterEdit() || text == shown.data()) return false;
+    if (ImGui::IsItemActive()) {
+        typing = id;
+        typed = shown.data();
+        return false;
+    }
+    if (!mine) return false;
+    typing = 0;
+    if (text == shown.data()) return false;
     text = shown.data();
     return true;
 }

@@ -120,7 +120,12 @@ bool JsonRows::draw(const Description& keys, JsonValue& object) {
         changed |= key.kind == Kind::variant ? drawKind(key, object) : drawKey(keys, key, object);
         ImGui::PopID();
     }
-    return changed;
+    if (!changed) return false;
+    // what a word or a tick has made meaningless or necessary
+    for (const Key& key : keys.keys())
+        if (!meansSomething(keys, key, object)) leaveOut(object, key.name);
+    addNeeded(keys, text(), object);
+    return true;
 }
 
 // Where something stands, by the words that scenes have for it.
@@ -196,19 +201,16 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     }
     case Kind::text:
         return drawText(key, value, label);
-    case Kind::texts: {
-        std::string words;
-        for (const JsonValue& item : value.items)
-            words += (words.empty() ? "" : ", ") + item.text;
-        if (!type(row, words)) return false;
-        value = toJson(wordsIn(words));
-        return true;
-    }
+    case Kind::texts:
+        return drawTexts(row, value);
     case Kind::color: {
         const std::vector<double> now = numbersOf(value);
         if (now.size() != 3) return false;
         glm::dvec3 color(now[0], now[1], now[2]);
         if (!pickColor(row, {0, std::min(key.says.range.most, 1000.0)}, color)) return false;
+        constexpr double rounding = 0.0005;  // of channels that were not touched
+        for (int i = 0; i < 3; ++i)
+            if (std::abs(color[i] - now[size_t(i)]) <= rounding) color[i] = now[size_t(i)];
         value = toJson(color);
         return true;
     }
@@ -220,38 +222,60 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
         }
         return changed;
     }
-    case Kind::rotation: {
-        if (value.kind != Json::object) value = smallestValue(key, text());  // four numbers say it as well
-        bool changed = drawNumbers(key, *findIn(value, "axis"), concat(label, ", axis"));
-        double angle = findIn(value, "angle")->number * degrees;
-        if (drag({"angle", row.tip, "%.5g\xC2\xB0"}, {-360, 360}, &angle, 1, 1)) {
-            setMember(value, "angle", JsonValue::makeNumber(angle / degrees));
-            changed = true;
-        }
-        return changed;
-    }
-    case Kind::object: {
-        if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return false;
-        const bool changed = draw(*key.objects[0], value);
-        ImGui::TreePop();
-        return changed;
-    }
+    case Kind::rotation:
+        return drawRotation(key, value, label);
+    case Kind::object:
+        return drawNode(key, value);
     case Kind::byHand:
+        if (key.form.of == Form::Of::text && key.form.lists.size() == 1) return drawTexts(row, value);
         if (key.form.of == Form::Of::text && value.kind == Json::string) return drawText(key, value, label);
-        if (value.kind == Json::object && key.objects.size() == 1) {
-            if (!ImGui::TreeNodeEx(inWords(key.name).c_str())) return false;
-            const bool changed = draw(*key.objects[0], value);
-            ImGui::TreePop();
-            return changed;
-        }
+        if (value.kind == Json::object && key.objects.size() == 1) return drawNode(key, value);
         [[fallthrough]];
     default:
         return drawNumbers(key, value, label);
     }
 }
 
+bool JsonRows::drawNode(const Key& key, JsonValue& value) {
+    if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return false;
+    const bool changed = draw(*key.objects[0], value);
+    ImGui::TreePop();
+    return changed;
+}
+
+// An axis and an angle, whether the file has these or a quaternion.
+bool JsonRows::drawRotation(const Key& key, JsonValue& value, const std::string& label) {
+    glm::dvec3 axis(0, 1, 0);
+    double angle = 0;  // degrees
+    if (const std::vector<double> q = numbersOf(value); q.size() == 4) {
+        const glm::dvec3 imaginary(q[0], q[1], q[2]);
+        if (glm::length(imaginary) > 0) axis = glm::normalize(imaginary);
+        angle = 2 * std::atan2(glm::length(imaginary), q[3]) * degrees;
+    }
+    if (const JsonValue* given = value.find("axis"))
+        if (const std::vector<double> at = numbersOf(*given); at.size() == 3) axis = {at[0], at[1], at[2]};
+    if (const JsonValue* given = value.find("angle")) angle = given->number * degrees;
+    const std::string axisLabel = label.empty() ? "axis" : label + ", axis";
+    const char* sentence = key.says.sentence.c_str();
+    bool changed = drag({axisLabel.c_str(), sentence, "%.5g"}, {-1e3, 1e3}, &axis.x, 3, 0.01);
+    changed |= drag({"angle", sentence, "%.5g\xC2\xB0"}, {-360, 360}, &angle, 1, 1);
+    if (changed) value = object(shoal::key("axis", axis), shoal::key("angle", angle / degrees));
+    return changed;
+}
+
+// Between commas.
+bool JsonRows::drawTexts(const Row& row, JsonValue& value) {
+    std::string words;
+    for (const JsonValue& item : value.items)
+        words += (words.empty() ? "" : ", ") + item.text;
+    if (!type(row, words)) return false;
+    value = toJson(wordsIn(words));
+    return true;
+}
+
 bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& label) {
     std::vector<double> numbers = numbersOf(value);
+    const std::vector<double> stored = numbers;
     if (numbers.empty() || numbers.size() > 4) {  // only in the file
         beginRow({label.c_str(), key.says.sentence.c_str()});
         ImGui::TextDisabled("%s", writeJsonLine(value).substr(0, 40).c_str());
@@ -271,16 +295,19 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
         largest = std::max(largest, std::abs(number));
     }
     if (angle) limit = {limit.least * degrees, limit.most * degrees};
+    const std::vector<double> shown = numbers;
     const double speed = isWhole(key) ? std::max(0.2, largest / 200) : std::max(0.005, largest / 200);
     if (!drag({label.c_str(), key.says.sentence.c_str(), format.c_str()}, limit, numbers.data(),
               int(numbers.size()), speed))
         return false;
-    for (double& number : numbers) {
-        if (angle) number /= degrees;
-        if (isWhole(key))
-            number = std::round(number);
-        else if (number != 0)  // as many digits as were seen
-            number = std::stod(formatted("%.6g", number));
+    for (size_t i = 0; i < numbers.size(); ++i) {
+        if (numbers[i] == shown[i]) {  // not touched
+            numbers[i] = stored[i];
+            continue;
+        }
+        if (angle) numbers[i] /= degrees;
+        // as many digits as were seen
+        numbers[i] = isWhole(key) ? std::round(numbers[i]) : std::stod(formatted("%.6g", numbers[i]));
     }
     value = asJson(numbers, value.kind == Json::array);
     return true;

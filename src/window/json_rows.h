@@ -10,6 +10,7 @@
 #include "core/description.h"
 #include "core/json.h"
 #include "core/smallest.h"
+#include "window/edit_widgets.h"
 
 namespace shoal::window {
 
@@ -26,7 +27,7 @@ class JsonRows {
 
     // A place that a key of an element of a list names, which was drawn.
     struct Place {
-        JsonValue* object;  // that has the key; until a list changes
+        JsonValue* object;  // that has the key; until something changes
         std::string key;
         glm::dvec3 at;  // m
     };
@@ -37,6 +38,9 @@ class JsonRows {
     bool drawTree(const Key& key, JsonValue& value);
     void addPlaces(const Key& key, const JsonValue& value, JsonValue& object);
     bool drawPresent(const Key& key, JsonValue& value, const std::string& label);
+    bool drawNode(const Key& key, JsonValue& value);
+    bool drawRotation(const Key& key, JsonValue& value, const std::string& label);
+    bool drawTexts(const Row& row, JsonValue& value);
     bool drawNumbers(const Key& key, JsonValue& value, const std::string& label);
     bool drawText(const Key& key, JsonValue& value, const std::string& label);
     bool drawKind(const Key& key, JsonValue& object);

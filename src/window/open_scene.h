@@ -33,6 +33,7 @@ struct OpenScene {
     Simulation& simulation() { return running.simulation(); }
     const Simulation& simulation() const { return running.simulation(); }
     void follow();  // after the scene was built anew
+    bool unsaved() const { return running.unsaved() || scenePanel.drafted(); }
     // Saves what --save names: at the frames of --save-frames as the run passes them, else once at its end.
     void saveIfAsked(bool end) const;
     // Saves a state that ran away; returns the sentence that tells the user.

@@ -111,9 +111,14 @@ class ScenePanel {
     Action draw(RunningScene& running, bool unsaved, const View& view);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
-    const JsonValue& draft() const { return *draft_; }        // what Action::change asks for
-    void refused() { drafted_ = false, incomplete_ = true; }  // it stays, to be completed
-    void say(const std::string& word) { said_ = word; }       // beside the buttons, until something changes
+    // What Action::change asks for; null: nothing. It goes when it was accepted; refused, it stays in the
+    // panel, to be completed or dropped.
+    const JsonValue* draft() const { return draft_ && draft_->changed ? &draft_->json : nullptr; }
+    bool drafted() const { return draft_ && (draft_->changed || draft_->refused); }
+    bool refused() const { return draft_ && draft_->refused; }
+    void accept() { draft_.reset(); }
+    void refuse() { draft_->changed = false, draft_->refused = true; }
+    void say(const std::string& word) { said_ = word; }  // beside the buttons, until something changes
 
   private:
     struct Edited {
@@ -124,7 +129,7 @@ class ScenePanel {
     };
     Action drawHead(const Scene& scene, bool unsaved);
     Action drawWhole(RunningScene& running, const View& view);
-    bool moveHandles(const std::vector<JsonRows::Place>& places, const View& view);
+    bool moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may);
     void drawGroup(Edited& edited, RunningScene& running);
     void drawCounts(Edited& edited, Simulation& simulation, size_t planGroup);
 
@@ -134,10 +139,13 @@ class ScenePanel {
     bool lives_ = false;          // some group has particles, a life cycle or a school
     bool pending_ = false;        // a rebuild, when the user releases the widget
     bool whole_ = false;          // all that the file says is shown, instead of the groups
-    bool drafted_ = false;        // the draft was changed
-    bool incomplete_ = false;     // the draft is no scene yet
     std::optional<size_t> held_;  // the handle that the pointer moves
-    std::optional<JsonValue> draft_;
+    struct Draft {
+        JsonValue base, json;  // what the scene said, and is to say
+        bool changed = false, refused = false;
+        bool stale = false;  // the scene has changed otherwise since
+    };
+    std::optional<Draft> draft_;
     std::vector<std::string> molecules_;  // that a group may have, as the file names them
 };
 

@@ -200,7 +200,9 @@ void RunningScene::save() {
 
 void RunningScene::revert() {
     if (text_ != saved_) {
-        go(saved_, undo_);
+        const std::string there = readFile(original_.file);
+        go(there, undo_);
+        saved_ = there;
         return;
     }
     copyEdits(original_.groups, scene.groups);
@@ -219,12 +221,27 @@ std::vector<std::string> RunningScene::take(const std::string& text) {
     FieldWatch baking;
     Scene fresh = parseScene(text, original_.file, baking.baking());
     apply(request_, fresh);
-    Scene next = fresh;
-    applyChoices(next, fresh);
-    std::vector<std::string> restarted = build(std::move(next), true);
+    // a choice gives way to what the scene itself says now
+    const Choices before = choices;
+    if (!changedChoices(fresh).empty()) choices = {};
+    std::vector<std::string> restarted;
+    try {
+        Scene next = fresh;
+        applyChoices(next, fresh);
+        restarted = build(std::move(next), true);
+    } catch (const Error&) {
+        choices = before;
+        throw;
+    }
     original_ = std::move(fresh);
     text_ = text;
     return restarted;
+}
+
+// They are of before the file changed: going back to one would take the file's change back as well.
+void RunningScene::forgetTexts() {
+    undo_.clear();
+    redo_.clear();
 }
 
 // What is left behind comes to `passed`.
@@ -292,21 +309,27 @@ std::vector<std::string> RunningScene::changedChoices(const Scene& theirs) const
 
 // The file's text with what change() did and was not saved.
 RunningScene::Reloaded RunningScene::mergeWhole(const std::string& text, std::optional<Prefer> prefer) {
-    const JsonValue theirs = parseJson(text, original_.file);
     Reloaded out;
+    if (text == saved_) {  // another file has changed that the scene names
+        out.restarted = take(this->text());
+        return out;
+    }
+    const JsonValue theirs = parseJson(text, original_.file);
     const JsonValue both = merged(parseJson(saved_, original_.file), json(), theirs,
                                   prefer.value_or(Prefer::mine), "$", out.conflicts);
     if (!out.conflicts.empty() && !prefer) return out;
     std::vector<TextChange> changes;
     addChanges(text, theirs, theirs, both, changes);
-    out.restarted = go(withChanges(text, std::move(changes)), undo_);
+    out.restarted = take(withChanges(text, std::move(changes)));
     saved_ = text;
+    forgetTexts();
     return out;
 }
 
 RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     const std::string text = readFile(original_.file);
     if (text_ != saved_) return mergeWhole(text, prefer);
+    const bool another = text != saved_;
     FieldWatch baking;
     Scene theirs = parseScene(text, original_.file, baking.baking());
     apply(request_, theirs);
@@ -330,6 +353,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     }
     original_ = std::move(theirs);
     text_ = saved_ = text;
+    if (another) forgetTexts();
     return out;
 }
 

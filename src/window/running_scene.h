@@ -53,7 +53,7 @@ class RunningScene {
     void choose();  // `choices` were changed
     void switchPath(Path path);
     void save();    // into the file
-    void revert();  // to what the file said when it was read or saved last
+    void revert();  // to what the file says
 
     // What a file would say of the scene as it is now, and to make the scene what another one says. Comments,
     // order and layout of the file stay.
@@ -89,6 +89,7 @@ class RunningScene {
     // In place of text_; returns the groups that begin anew.
     std::vector<std::string> take(const std::string& text);
     std::vector<std::string> go(const std::string& text, std::vector<std::string>& passed);
+    void forgetTexts();
     Reloaded mergeWhole(const std::string& text, std::optional<Prefer> prefer);
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);
     std::unique_ptr<Simulation> simulateAsBefore(const Plan& plan, Path path);

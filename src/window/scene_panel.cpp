@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <utility>
 
 #include "core/json_build.h"
 #include "window/edit_widgets.h"
@@ -49,6 +50,7 @@ std::vector<std::string> moleculesFor(const std::string& sceneFile) {
     for (const std::string& file : shippedMolecules())
         out.push_back(fs::relative(file, folder, code).generic_string());
     for (const auto& entry : fs::directory_iterator(folder, code)) {
+        if (entry.path().extension() != ".json" || !entry.is_regular_file(code)) continue;
         std::array<char, 512> start{};
         std::ifstream(entry.path()).read(start.data(), start.size() - 1);
         if (std::string_view(start.data()).find("\"shoal-molecule-1\"") == std::string_view::npos) continue;
@@ -93,8 +95,12 @@ bool drawMaterial(Group& group, GroupChoice& choice) {
 }  // namespace
 
 void ScenePanel::follow(const Scene& scene) {
-    pending_ = lives_ = drafted_ = incomplete_ = false;
-    draft_.reset();
+    pending_ = lives_ = false;
+    held_.reset();
+    if (refused())
+        draft_->stale = true;
+    else
+        draft_.reset();
     groups_.clear();
     for (size_t g = 0; g < scene.groups.size(); ++g) {
         const Group& group = scene.groups[g];
@@ -115,17 +121,21 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
     if (whole_) {
         const Action asked = drawWhole(running, view);
         ImGui::End();
-        return action != Action::none ? action : asked;
+        if (action != Action::none) return action;
+        if (asked != Action::none) return asked;
     }
-    for (Edited& group : groups_) {
-        ImGui::PushID(int(group.group));
-        drawGroup(group, running);
-        ImGui::PopID();
+    if (!whole_) {
+        for (Edited& group : groups_) {
+            ImGui::PushID(int(group.group));
+            drawGroup(group, running);
+            ImGui::PopID();
+        }
+        ImGui::End();
+        if (action != Action::none) return action;
     }
-    ImGui::End();
-    if (action != Action::none) return action;
-    if (!pending_ || ImGui::IsAnyItemActive()) return Action::none;
-    return Action::rebuild;
+    if (held_ || ImGui::IsAnyItemActive()) return Action::none;
+    if (draft_ && draft_->changed) return Action::change;
+    return pending_ ? Action::rebuild : Action::none;
 }
 
 ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
@@ -136,11 +146,11 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
     ImGui::BeginDisabled(!unsaved);
     if (ImGui::Button("Revert")) action = Action::revert;
     ImGui::EndDisabled();
-    tip("Back to what was saved last.");
+    tip("Back to what the file says.");
     ImGui::SameLine();
     if (toggle("Scene", whole_)) {
         whole_ = !whole_;
-        draft_.reset();
+        if (!drafted()) draft_.reset();  // groups may have been edited since
     }
     tip("All that the scene's file says: add, copy, remove and change any of it.");
     ImGui::SameLine();
@@ -155,9 +165,13 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
 }
 
 ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view) {
-    if (!draft_) {
-        draft_ = running.json();
-        molecules_ = moleculesFor(running.scene.file);
+    if (molecules_.empty()) molecules_ = moleculesFor(running.scene.file);
+    if (!draft_) draft_ = Draft{running.json(), running.json()};
+    if (std::exchange(draft_->stale, false)) {
+        std::vector<std::string> conflicts;
+        const JsonValue now = running.json();
+        draft_->json = merged(draft_->base, draft_->json, now, Prefer::mine, "$", conflicts);
+        draft_->base = now;
     }
     Action action = Action::none;
     const auto button = [&](const char* label, bool may, Action asks, const char* says) {
@@ -166,9 +180,8 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
         ImGui::EndDisabled();
         tip(says);
     };
-    if (incomplete_) {
-        if (ImGui::Button("Drop")) draft_ = running.json(), drafted_ = true;
-        tip("Takes back what cannot run as it is.");
+    if (refused()) {
+        button("Drop", true, Action::undo, "Takes back what cannot run as it is (Ctrl+Z).");
         ImGui::SameLine();
     }
     button("Undo", running.mayUndo(), Action::undo, "Takes the last change back (Ctrl+Z).");
@@ -177,11 +190,11 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
     ImGui::SameLine();
     if (ImGui::Button("Keep this view")) {
         JsonValue camera = JsonValue::makeObject();
-        if (const JsonValue* there = draft_->find("camera")) camera = *there;
+        if (const JsonValue* there = draft_->json.find("camera")) camera = *there;
         setMember(camera, "eye", toJson(rounded(view.eye)));
         setMember(camera, "target", toJson(rounded(view.target)));
-        setMember(*draft_, "camera", std::move(camera));
-        drafted_ = true;
+        setMember(draft_->json, "camera", std::move(camera));
+        draft_->changed = true;
     }
     tip("Makes what you see now the camera of the scene.");
     const auto words = [&](const std::string& key) -> std::vector<std::string> {
@@ -190,23 +203,23 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
         if (key == "model")
             for (const Model& model : running.scene.models)
                 out.push_back(model.name);
-        if (key == "of")
+        if (key == "of" || key == "group")
             for (const Group& group : running.scene.groups)
                 out.push_back(group.name);
         return out;
     };
     ImGui::PushID("whole");
     JsonRows rows(words);
-    const bool changed = rows.draw(describe(&running.scene), *draft_);
+    const bool changed = rows.draw(describe(&running.scene), draft_->json);
     ImGui::PopID();
-    drafted_ |= changed || moveHandles(rows.places(), view);
-    if (action != Action::none) return action;
-    return drafted_ && !held_ && !ImGui::IsAnyItemActive() ? Action::change : Action::none;
+    const bool moved = moveHandles(rows.places(), view, !changed);
+    draft_->changed |= changed || moved;
+    return action;
 }
 
 // Rings in the picture around the places of what is open in the panel, which the pointer moves across the
-// view.
-bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view) {
+// view. They may only where nothing else was changed in this frame, by which objects move in memory.
+bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may) {
     const ImGuiIO& io = ImGui::GetIO();
     const Projector projector(view, io.DisplaySize);
     ImDrawList& list = *ImGui::GetBackgroundDrawList();
@@ -224,7 +237,7 @@ bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const V
                        points(2));
         list.AddText(ImVec2(at->x + 1.4f * radius, at->y - radius), IM_COL32(255, 255, 255, 230),
                      inWords(places[i].key).c_str());
-        if (held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
+        if (!may || held_ != i || (io.MouseDelta.x == 0 && io.MouseDelta.y == 0)) continue;
         const glm::dvec3 to = projector.onPlane(io.MousePos, places[i].at);
         setMember(*places[i].object, places[i].key, toJson(rounded(to)));
         moved = true;

@@ -34,6 +34,7 @@ size_t bytesOf(const SavedState& state) {
 void TimeLine::forget() {
     kept_.clear();
     bytes_ = 0;
+    every_ = usualEvery;
     loop_.reset();
 }
 
@@ -70,7 +71,9 @@ const SavedState* TimeLine::draw(float left, float right, const Simulation& simu
     ImGui::Begin("Time", &open, ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoFocusOnAppearing);
     const SavedState* chosen = nullptr;
     bool loops = loop_.has_value();
+    ImGui::BeginDisabled(!loops && (kept_.empty() || kept_.front().frames >= simulation.frames()));
     if (ImGui::Checkbox("Loop", &loops)) loop_ = loops ? std::optional(simulation.frames()) : std::nullopt;
+    ImGui::EndDisabled();
     tip("Goes back to the first state that was kept whenever it comes to where you ticked this.");
     ImGui::SameLine();
     const int first = kept_.empty() ? simulation.frames() : kept_.front().frames;

@@ -29,7 +29,8 @@ class TimeLine {
 
     std::vector<SavedState> kept_;  // by ascending frames
     size_t bytes_ = 0;
-    int every_ = 15;           // frames
+    static constexpr int usualEvery = 15;
+    int every_ = usualEvery;   // frames
     std::optional<int> loop_;  // the last frame of the loop, which begins with the first that was kept
 };
 

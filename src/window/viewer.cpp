@@ -73,7 +73,7 @@ class Viewer : public WindowLoop {
         if (!open_) return;
         if (recorder_.records()) toggleRecording();
         open_->saveIfAsked(true);
-        if (open_->running.unsaved())
+        if (open_->unsaved())
             std::cerr << "shoal: warning: what was changed in the window was not saved in "
                       << printable(open_->running.scene.file) << "\n";
     }
@@ -81,7 +81,7 @@ class Viewer : public WindowLoop {
   private:
     // Not before the user has said what becomes of what is not saved.
     bool mayClose() override {
-        if (!open_ || discards_ || !open_->running.unsaved()) return true;
+        if (!open_ || discards_ || !open_->unsaved()) return true;
         asked_ = Wish();
         asked_->close = true;
         return false;
@@ -157,7 +157,7 @@ class Viewer : public WindowLoop {
                 goTo(*state);
         }
         drawScenePanel();
-        if (!open.scenePanel.holds()) pointer_.move(open, height());
+        if (hidden_ || !open.scenePanel.holds()) pointer_.move(open, height());
         drawNotices();
     }
 
@@ -198,14 +198,28 @@ class Viewer : public WindowLoop {
         open_->follow();
     }
 
-    // What cannot be had stays in the panel, to be completed.
-    void changeWhole() {
-        const bool done =
-            troubles.attempt("change", [&] { open_->running.change(open_->scenePanel.draft()); });
-        if (done)
-            open_->follow();
-        else
-            open_->scenePanel.refused();
+    // What the panel's draft says, if it may run; true: there is none that waits to be completed.
+    bool changeWhole() {
+        ScenePanel& panel = open_->scenePanel;
+        if (const JsonValue* draft = panel.draft()) {
+            if (troubles.attempt("change", [&] { open_->running.change(*draft); })) {
+                panel.accept();
+                open_->follow();
+            } else {
+                panel.refuse();
+            }
+        }
+        return !panel.refused();
+    }
+
+    void goBack(bool undo) {
+        RunningScene& running = open_->running;
+        if (open_->scenePanel.refused()) {
+            open_->scenePanel.accept();
+            troubles.end("change");
+        } else if (undo ? running.mayUndo() : running.mayRedo()) {
+            change([&] { undo ? running.undo() : running.redo(); });
+        }
     }
 
     // Follows the reloaded scene, and clears earlier failures, which were those of the old files.
@@ -217,6 +231,16 @@ class Viewer : public WindowLoop {
 
     void obeyPanels() {
         RunningScene& running = open_->running;
+        // first: what follows may begin another draft
+        if (wish_.scene == ScenePanel::Action::change) changeWhole();
+        if (wish_.scene == ScenePanel::Action::save) saveScene();
+        if (wish_.scene == ScenePanel::Action::undo) goBack(true);
+        if (wish_.scene == ScenePanel::Action::redo) goBack(false);
+        if (wish_.scene == ScenePanel::Action::revert) {
+            open_->scenePanel.accept();
+            change([&] { running.revert(); });
+        }
+        if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
         switch (wish_.panel) {
         case Panel::Action::none:
             break;
@@ -248,12 +272,6 @@ class Viewer : public WindowLoop {
             std::cout << open_->panel.error << std::endl;
             break;
         }
-        if (wish_.scene == ScenePanel::Action::save) saveScene();
-        if (wish_.scene == ScenePanel::Action::revert) change([&] { running.revert(); });
-        if (wish_.scene == ScenePanel::Action::rebuild) change([&] { running.edit(); });
-        if (wish_.scene == ScenePanel::Action::change) changeWhole();
-        if (wish_.scene == ScenePanel::Action::undo) change([&] { running.undo(); });
-        if (wish_.scene == ScenePanel::Action::redo) change([&] { running.redo(); });
     }
 
     // ---- Pictures and videos, without the panels
@@ -289,7 +307,7 @@ class Viewer : public WindowLoop {
     }
 
     void askToOpen(const std::string& file) {
-        if (open_ && open_->running.unsaved()) {
+        if (open_ && open_->unsaved()) {
             asked_ = Wish();
             asked_->open = file;
         } else {
@@ -327,7 +345,7 @@ class Viewer : public WindowLoop {
 
     void drawScenePanel() {
         OpenScene& open = *open_;
-        const bool changed = open.running.unsaved();
+        const bool changed = open.unsaved();
         if (!changed) troubles.end("saving");
         if (!hidden_) {
             wish_.scene = open.scenePanel.draw(open.running, changed, open.view());
@@ -351,6 +369,7 @@ class Viewer : public WindowLoop {
 
     bool saveScene() {
         try {
+            if (!changeWhole()) throw Error("what cannot run as it is has to be completed or dropped first");
             open_->running.save();
         } catch (const Error& error) {
             troubles.begin("saving", concat("Not saved: ", error.what()));

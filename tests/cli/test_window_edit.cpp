@@ -150,8 +150,32 @@ TEST_CASE("what cannot run stays in the panel until it is dropped", "[.window]")
     INFO(outcome.out << outcome.err);
     REQUIRE(outcome.code == 0);
     CHECK(readFile(file) == readFile(file + ".begun"));
-    REQUIRE(outcome.messages().size() == 1);
+    REQUIRE(outcome.messages().size() == 2);
     CHECK_THAT(outcome.messages()[0], Catch::Contains("$.groups"));
+    CHECK_THAT(outcome.messages()[1], Catch::Contains("not saved"));
+}
+
+TEST_CASE("what is typed in a row is saved by a click on Save, and what is only shown stays as it is",
+          "[.window]") {
+    if (!hasXdotool()) return;
+    const Scratch scratch;
+    const std::string file = scratch.path("typed.scene.json");
+    // a quaternion, which its row shows as an axis and an angle
+    const std::string steps =
+        "file=" + file +
+        "\nsed -i 's/{\"type\": \"plane\"}/{\"type\": \"box\", \"center\": [0, 0, 0], \"size\": [1, 1, 1], "
+        "\"rotation\": [0, 0.6, "
+        "0, 0.8]}/' $file\n"
+        "says '^reloaded:'; cp $file $file.before\n"
+        "press 600 360; press 600 378\n"
+        "press 760 99; xdotool type --delay 60 leaves; settle; press 549 51; key Escape\n";
+    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
+    INFO(outcome.out << outcome.err);
+    REQUIRE(outcome.code == 0);
+    std::string expected = readFile(file + ".before");
+    const size_t name = expected.find("\"typed\"");
+    REQUIRE(name != std::string::npos);
+    CHECK(readFile(file) == expected.replace(name, 7, "\"typedleaves\""));
 }
 
 TEST_CASE("the time line goes back to a state that was kept", "[.window]") {

@@ -1,7 +1,6 @@
 #include "scene/json/saver.h"
 
 #include "core/description.h"
-#include "core/file.h"
 #include "core/json_edit.h"
 #include "scene/json/reader.h"
 
