@@ -39,6 +39,7 @@ Input::~Input() {
     glfwSetScrollCallback(window_, nullptr);
     glfwSetKeyCallback(window_, nullptr);
     glfwSetCharCallback(window_, nullptr);
+    glfwSetDropCallback(window_, nullptr);
     glfwSetWindowFocusCallback(window_, nullptr);
     glfwSetCursorEnterCallback(window_, nullptr);
     glfwSetWindowUserPointer(window_, nullptr);
@@ -66,6 +67,10 @@ void Input::listen() {
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned letter) {
         inputOf(window).add({.kind = Kind::text, .code = int(letter)});
+    });
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** files) {
+        for (int i = 0; i < count; ++i)
+            inputOf(window).dropped_.emplace_back(files[i]);
     });
     glfwSetWindowFocusCallback(window_, ImGui_ImplGlfw_WindowFocusCallback);
     glfwSetCursorEnterCallback(window_, ImGui_ImplGlfw_CursorEnterCallback);

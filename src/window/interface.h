@@ -10,6 +10,9 @@
 #include <memory>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <imgui.h>
 
@@ -36,7 +39,8 @@ class Input {
     void look(bool heard) { heard_ = heard; }
     bool pressed(int key) const { return heard_ && pressed_.contains(key); }  // went down in this frame
     bool held(int key) const { return down_.contains(key); }
-    bool control() const;  // is held
+    bool control() const;                                                       // is held
+    std::vector<std::string> dropped() { return std::exchange(dropped_, {}); }  // files, since the last call
 
   private:
     struct Event {
@@ -57,6 +61,7 @@ class Input {
 
     GLFWwindow* window_;
     std::deque<Event> waiting_;
+    std::vector<std::string> dropped_;
     std::set<int> down_, pressed_;  // keys
     bool heard_ = true;
     std::set<int> buttons_;  // that are held

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <sstream>
 #include <utility>
 
@@ -88,6 +89,13 @@ void setMember(JsonValue& object, const std::string& key, JsonValue value) {
         object.add(key, std::move(value));
 }
 
+JsonValue smallestGroup(const JsonValue& groups, const std::string& molecule) {
+    const JsonValue box = object(key("low", glm::dvec3(-1, 0.5, -1)), key("high", glm::dvec3(1, 2.5, 1)));
+    return object(key("name", freeName(groups, std::filesystem::path(molecule).stem().string())),
+                  key("molecule", molecule), key("place", object(key("on", "volume"), key("box", box))),
+                  key("count", 100));
+}
+
 std::string titleOf(const JsonValue& element, size_t index) {
     for (const char* key : {"name", "type", "from"})
         if (const JsonValue* value = element.find(key); value && !value->text.empty()) return value->text;
@@ -101,13 +109,6 @@ TextOf JsonRows::text() const {
         const std::vector<std::string> words = choices_(key.name);
         return words.empty() ? key.name : words.front();
     };
-}
-
-// Rules between keys ask for more than a description tells: a kind, and places.
-JsonValue JsonRows::smallestGroup(const JsonValue& groups) const {
-    const JsonValue box = object(key("low", glm::dvec3(-1, 0.5, -1)), key("high", glm::dvec3(1, 2.5, 1)));
-    return object(key("name", freeName(groups, "group")), key("molecule", choices_("molecule").front()),
-                  key("place", object(key("on", "volume"), key("box", box))), key("count", 100));
 }
 
 // ---- Rows
@@ -381,7 +382,8 @@ bool JsonRows::drawList(const Key& key, JsonValue& list) {
         if (kinds)
             ImGui::OpenPopup("kinds");
         else
-            addOne(key.name == "groups" ? smallestGroup(list) : smallestObject(element, text()));
+            addOne(key.name == "groups" ? smallestGroup(list, choices_("molecule").front())
+                                        : smallestObject(element, text()));
     }
     tip(element.sentence().c_str());
     if (kinds && ImGui::BeginPopup("kinds")) {

@@ -45,7 +45,6 @@ class JsonRows {
     bool drawText(const Key& key, JsonValue& value, const std::string& label);
     bool drawKind(const Key& key, JsonValue& object);
     TextOf text() const;  // the first choice, or the key's name
-    JsonValue smallestGroup(const JsonValue& groups) const;
 
     Choices choices_;
     std::vector<Place> places_;
@@ -54,6 +53,9 @@ class JsonRows {
 
 // In place of what the object says of the key, if anything.
 void setMember(JsonValue& object, const std::string& key, JsonValue value);
+
+// A group of a molecule beside others. Rules between keys ask for more than a description tells: places.
+JsonValue smallestGroup(const JsonValue& groups, const std::string& molecule);
 
 // "sphere", or the name of an element of a list, or its number.
 std::string titleOf(const JsonValue& element, size_t index);

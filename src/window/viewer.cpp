@@ -3,12 +3,14 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <utility>
 
 #include "core/error.h"
 #include "core/image.h"
+#include "core/json_build.h"
 #include "core/printable.h"
 #include "gpu/gl.h"
 #include "render/picture.h"
@@ -115,6 +117,8 @@ class Viewer : public WindowLoop {
     void obey() override {
         if (!opening_.empty()) return openNow();
         if (open_) obeyPanels();
+        for (const std::string& file : keys().dropped())
+            takeDropped(file);
         if (!wish_.open.empty()) askToOpen(wish_.open);
     }
 
@@ -272,6 +276,26 @@ class Viewer : public WindowLoop {
             std::cout << open_->panel.error << std::endl;
             break;
         }
+    }
+
+    // A scene is opened; a molecule becomes a group, and what else it may be a model of the scene.
+    void takeDropped(const std::string& file) {
+        namespace fs = std::filesystem;
+        if (file.ends_with(".scene.json")) return askToOpen(file);
+        if (!open_) return troubles.warn("opening", concat(file, ": is no scene (.scene.json)"));
+        RunningScene& running = open_->running;
+        const fs::path folder = fs::absolute(running.scene.file).parent_path();
+        const std::string name = fs::relative(file, folder).generic_string();
+        const bool molecule = fs::path(file).extension() == ".json";
+        change([&] {
+            JsonValue root = running.json();
+            const char* key = molecule ? "groups" : "models";
+            const JsonValue* there = root.find(key);
+            JsonValue list = there ? *there : JsonValue::makeArray();
+            list.items.push_back(molecule ? smallestGroup(list, name) : object(shoal::key("file", name)));
+            setMember(root, key, std::move(list));
+            running.change(root);
+        });
     }
 
     // ---- Pictures and videos, without the panels
