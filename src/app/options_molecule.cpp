@@ -56,7 +56,8 @@ void addFromMesh(CLI::App& command, Options& options) {
         ->capture_default_str();
     addNumber(command, "--size", make.size, "m, of the longest side (default: as in the file)", "a number");
     command.add_flag("--centre,--center", make.centre, "Put the middle of its box at the origin");
-    command.add_option("--pin-name", make.pins.names, "Pin an object, mesh or material of the file by name");
+    command.add_option("--pin-name", make.pins.names,
+                       "Pin an object, mesh, material or bone of the file by name");
     command.add_option("--pin-paint", make.pins.paints,
                        "Pin what is painted in this vertex colour: red, or 1,0.5,0");
     command.add_option("--pin-near", molecule.pinPoints,

@@ -87,6 +87,19 @@ Triangles gather(const Triangles& triangles, const std::vector<glm::dvec3>& posi
     return out;
 }
 
+// How far the furthest vertex of `all` is from those of `few`.
+double furthestFrom(const Triangles& few, const Triangles& all, const std::vector<glm::dvec3>& positions) {
+    const std::set<unsigned> near(few.begin(), few.end());
+    double out = 0;
+    for (const unsigned v : std::set<unsigned>(all.begin(), all.end())) {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (const unsigned other : near)
+            nearest = std::min(nearest, glm::distance(positions[v], positions[other]));
+        out = std::max(out, nearest);
+    }
+    return out;
+}
+
 // Triangles that share an edge with another pass it in opposite directions, as far as there is a way.
 void faceAlike(std::vector<glm::ivec3>& triangles) {
     std::map<std::pair<int, int>, std::vector<size_t>> edges;
@@ -196,7 +209,10 @@ CoarseMesh simplify(const Mesh& mesh, int vertices) {
             positions.emplace_back(p - 0.5 * (mesh.low + mesh.high));
         if (flatness(mesh.weldedPositions) > flat) few = collapse(all, positions, most);
         const size_t left = verticesOf(few);
-        if (left > most || left < 4 || 10 * left < 6 * most) few = gather(all, mesh.weldedPositions, most);
+        constexpr double furthest = 0.25;  // of the size: a straight piece keeps its ends alone
+        if (left > most || left < 4 || 10 * left < 6 * most ||
+            furthestFrom(few, all, mesh.weldedPositions) > furthest * glm::distance(mesh.low, mesh.high))
+            few = gather(all, mesh.weldedPositions, most);
     }
     CoarseMesh out;
     std::vector<int> numbers(mesh.weldedPositions.size(), -1);

@@ -21,8 +21,9 @@ struct CoarseMesh {
 };
 
 // At most `vertices` of them, 3 or more; fewer when the mesh has fewer. Edges collapse by the quadric error
-// metric ([Garland 1997], by meshoptimizer); where its topology stops that too early, and for flat
-// meshes, of which every collapse costs nothing, vertices are gathered about seeds far from one another.
+// metric ([Garland 1997], by meshoptimizer). Vertices are gathered about seeds far from one another where its
+// topology stops that too early, for flat meshes, of which every collapse costs nothing, and where a straight
+// piece would keep no vertex: none of the mesh is left further than a quarter of its size from the nearest.
 CoarseMesh simplify(const Mesh& mesh, int vertices);
 
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its

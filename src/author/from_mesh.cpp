@@ -50,12 +50,14 @@ Mesh withoutStrays(Mesh mesh) {
         mesh.normals[count] = mesh.normals[v];
         if (!mesh.colors.empty()) mesh.colors[count] = mesh.colors[v];
         if (!mesh.uvs.empty()) mesh.uvs[count] = mesh.uvs[v];
+        if (!mesh.bones.empty()) mesh.bones[count] = mesh.bones[v];
         number[v] = int(count++);
     }
     mesh.positions.resize(count);
     mesh.normals.resize(count);
     mesh.colors.resize(std::min(mesh.colors.size(), count));
     mesh.uvs.resize(std::min(mesh.uvs.size(), count));
+    mesh.bones.resize(std::min(mesh.bones.size(), count));
     for (glm::ivec3& t : mesh.triangles)
         for (int i = 0; i < 3; ++i)
             t[i] = number[size_t(t[i])];

@@ -45,6 +45,9 @@ bool markName(Marks& marks, const Mesh& mesh, const std::string& name) {
         if (object.name == name) take(object.firstTriangle, object.triangleCount);
     for (const Mesh::Part& part : mesh.parts)
         if (part.mesh == name || part.material == name) take(part.firstTriangle, part.triangleCount);
+    for (size_t corner = 0; corner < mesh.bones.size(); ++corner)
+        if (const int bone = mesh.bones[corner]; bone >= 0 && mesh.boneNames[size_t(bone)] == name)
+            marks[size_t(mesh.weld[corner])] = any = true;
     return any;
 }
 
@@ -69,6 +72,8 @@ std::string namesIn(const Mesh& mesh) {
         add(object.name);
     for (const Mesh::Part& part : mesh.parts)
         add(part.mesh), add(part.material);
+    for (const std::string& bone : mesh.boneNames)
+        add(bone);
     std::string out;
     for (size_t i = 0; i < all.size() && i < 12; ++i)
         out += (i ? ", " : "") + all[i];
@@ -81,7 +86,8 @@ Marks marksOf(const Mesh& mesh, const PinChoice& choice) {
         if (!mark(marks, mesh, rule)) throw Error("no vertex of the mesh meets ", rule.text);
     for (const std::string& name : choice.names)
         if (!markName(marks, mesh, name))
-            throw Error("the mesh has no object, mesh or material \"", name, "\"; it has ", namesIn(mesh));
+            throw Error("the mesh has no object, mesh, material or bone \"", name, "\"; it has ",
+                        namesIn(mesh));
     if (!choice.paints.empty() && mesh.colors.empty())
         throw Error("the mesh has no vertex colours to find pins by");
     for (const std::string& paint : choice.paints)

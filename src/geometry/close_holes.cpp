@@ -69,6 +69,7 @@ int closeHoles(Mesh& mesh, double mostOfArea) {
         mesh.normals.push_back(glm::dvec3(0));
         if (!mesh.colors.empty()) mesh.colors.push_back(mesh.colors[like]);
         if (!mesh.uvs.empty()) mesh.uvs.push_back(mesh.uvs[like]);
+        if (!mesh.bones.empty()) mesh.bones.push_back(mesh.bones[like]);
         for (size_t i = 0; i < loop.size(); ++i)
             mesh.triangles.emplace_back(cornerOf[size_t(loop[i])],
                                         cornerOf[size_t(loop[(i + 1) % loop.size()])], centre);

@@ -94,6 +94,7 @@ class Collector {
             throw fail("has more than 2^28 triangles, the most that is read");
         const size_t first = mesh.positions.size();
         appendVertices(part, transform);
+        appendBones(part, first);
 
         const bool mirrored = glm::determinant(glm::dmat3(transform)) < 0;
         for (unsigned i = 0; i < part.mNumFaces; ++i) {
@@ -150,6 +151,26 @@ class Collector {
             if (part.HasTextureCoords(set))
                 uv = coordinates.transform * glm::dvec3(glm::dvec2(vector(part.mTextureCoords[set][i])), 1);
             mesh.uvs.push_back(finite(uv) ? glm::dvec2(uv) : glm::dvec2(0));
+        }
+    }
+
+    // Animations are not read: a bone is a name for the vertices that it moves most.
+    void appendBones(const aiMesh& part, size_t first) {
+        mesh.bones.resize(mesh.positions.size(), -1);
+        std::vector<float> heaviest(part.mNumVertices, 0.0f);
+        for (unsigned b = 0; b < part.mNumBones; ++b) {
+            const aiBone& bone = *part.mBones[b];
+            const std::string name = bone.mName.C_Str();
+            const auto known = std::find(mesh.boneNames.begin(), mesh.boneNames.end(), name);
+            const int number = int(known - mesh.boneNames.begin());
+            if (known == mesh.boneNames.end()) mesh.boneNames.push_back(name);
+            for (unsigned i = 0; i < bone.mNumWeights; ++i) {
+                const aiVertexWeight& weight = bone.mWeights[i];
+                if (weight.mVertexId >= part.mNumVertices || !(weight.mWeight > heaviest[weight.mVertexId]))
+                    continue;
+                heaviest[weight.mVertexId] = weight.mWeight;
+                mesh.bones[first + weight.mVertexId] = number;
+            }
         }
     }
 
@@ -213,6 +234,7 @@ Mesh readModel(const std::string& file, std::function<void(uint64_t)> opened) {
     if (mesh.triangles.empty()) throw Error(location, "has no triangles, expected a mesh with at least one");
     if (!collector.anyColors) mesh.colors.clear();
     if (!collector.anyUvs) mesh.uvs.clear();
+    if (mesh.boneNames.empty()) mesh.bones.clear();
     readMaterials(*scene, file, opened, mesh);
     return mesh;
 }
@@ -253,7 +275,12 @@ void put(ToParent& parent, const Mesh& mesh) {
     for (const std::string& note : mesh.notes)
         notes.add(note);
     notes.numbers = {int(mesh.notes.size())};
-    for (const Names& names : {objects, parts, notes}) {
+    Names bones;
+    for (const std::string& name : mesh.boneNames)
+        bones.add(name);
+    bones.numbers = {int(mesh.boneNames.size())};
+    parent.put(mesh.bones);
+    for (const Names& names : {objects, parts, notes, bones}) {
         parent.put(names.text);
         parent.put(names.numbers);
     }
@@ -274,7 +301,10 @@ void checkWhole(const Mesh& mesh, const Location& location) {
     };
     bool whole = count <= mostElements && mesh.triangles.size() <= mostElements && !mesh.triangles.empty() &&
                  mesh.normals.size() == count && (mesh.colors.empty() || mesh.colors.size() == count) &&
-                 (mesh.uvs.empty() || mesh.uvs.size() == count);
+                 (mesh.uvs.empty() || mesh.uvs.size() == count) &&
+                 (mesh.bones.empty() || mesh.bones.size() == count);
+    for (const int bone : mesh.bones)
+        whole = whole && bone >= -1 && bone < int(mesh.boneNames.size());
     for (const glm::ivec3& t : mesh.triangles)
         whole = whole && std::min({t.x, t.y, t.z}) >= 0 && size_t(std::max({t.x, t.y, t.z})) < count;
     for (const auto* vectors : {&mesh.positions, &mesh.normals, &mesh.colors})
@@ -312,6 +342,7 @@ Mesh readConfined(const std::string& file) {
     mesh.colors = child.get<glm::dvec3>();
     mesh.uvs = child.get<glm::dvec2>();
     mesh.triangles = child.get<glm::ivec3>();
+    mesh.bones = child.get<int>();
     Names objects{child.get<char>(), child.get<int>()};
     for (size_t i = 0; i + 1 < objects.numbers.size(); i += 2)
         mesh.objects.push_back({objects.next(), objects.numbers[i], objects.numbers[i + 1]});
@@ -321,9 +352,12 @@ Mesh readConfined(const std::string& file) {
         mesh.parts.push_back({std::move(name), std::move(material), parts.numbers[i], parts.numbers[i + 1],
                               parts.numbers[i + 2]});
     }
-    Names notes{child.get<char>(), child.get<int>()};
-    for (int i = 0; !notes.numbers.empty() && i < notes.numbers.front() && notes.at < notes.text.size(); ++i)
-        mesh.notes.push_back(notes.next());
+    for (std::vector<std::string>* texts : {&mesh.notes, &mesh.boneNames}) {
+        Names names{child.get<char>(), child.get<int>()};
+        for (int i = 0; !names.numbers.empty() && i < names.numbers.front() && names.at < names.text.size();
+             ++i)
+            texts->push_back(names.next());
+    }
     mesh.materials = child.get<SurfaceMaterial>();
     for (const glm::ivec2& size : child.get<glm::ivec2>())
         mesh.images.push_back({size.x, size.y, 4, {}});

@@ -41,6 +41,9 @@ struct Mesh {
     std::vector<glm::dvec2> uvs;        // empty when the file has none
     std::vector<glm::ivec3> triangles;  // indices into the arrays above
 
+    std::vector<int> bones;  // the heaviest bone of each, in boneNames, or -1; empty when the file has none
+    std::vector<std::string> boneNames;
+
     std::vector<int> weld;                    // corner vertex -> welded vertex
     std::vector<glm::dvec3> weldedPositions;  // one per welded vertex
     std::vector<glm::dvec3> weldedNormals;    // unit: the vertex's triangles weighted by their angles there

@@ -97,6 +97,7 @@ class Subdivision {
         half(mesh_.normals);
         half(mesh_.colors);
         half(mesh_.uvs);
+        if (!mesh_.bones.empty()) mesh_.bones.push_back(mesh_.bones[size_t(a)]);
         glm::dvec3& normal = mesh_.normals.back();
         normal = glm::length(normal) > 0 ? glm::normalize(normal) : mesh_.normals[size_t(a)];
         mesh_.weld.push_back(welded_);

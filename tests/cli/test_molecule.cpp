@@ -199,7 +199,7 @@ TEST_CASE("molecule from-mesh: refuses in one line", "[cli][molecule]") {
     refuses({open, "--mass", "heavy"}, "expected a number");
     refuses({open, "--material", "leef"}, "did you mean \"leaf\"");
     refuses({open, "--pin", "y=1"}, "--pin: expected a rule such as y<0.1");
-    refuses({open, "--pin-name", "cup"}, "no object, mesh or material \"cup\"; it has tray");
+    refuses({open, "--pin-name", "cup"}, "no object, mesh, material or bone \"cup\"; it has tray");
     refuses({open, "--pin-paint", "rde"}, "--pin-paint: expected a colour");
     refuses({open, "--pin-paint", "red"}, "no vertex colours");
     refuses({open, "-o", scratch.path("a.json"), "--texture", "none.png"}, "none.png");

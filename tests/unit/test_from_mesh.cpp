@@ -494,9 +494,49 @@ TEST_CASE("parts that face inwards and outwards weigh what they hold", "[from-me
     CHECK(out.volume == Approx(3 * (0.1 * 0.1 + 0.095 * 0.095)).epsilon(0.1));  // prisms of twelve sides
 }
 
+TEST_CASE("no part of a long straight body is far from a simulated vertex", "[from-mesh]") {
+    Mesh tube;
+    addTube(tube, "a", {0, 0, 0}, 0.1, 2, 12, 20);
+    completeMesh(tube);
+    const MadeMolecule out = made(tube);
+    double furthest = 0;
+    for (const glm::dvec3& p : tube.weldedPositions) {
+        double nearest = 1e9;
+        for (const Vertex& vertex : out.molecule.vertices)
+            nearest = std::min(nearest, glm::distance(vertex.position, p));
+        furthest = std::max(furthest, nearest);
+    }
+    CHECK(furthest < 0.25 * glm::distance(tube.low, tube.high));
+    CHECK(out.molecule.vertices.size() == 24);
+    checkBraced(out.molecule);
+}
+
+TEST_CASE("pins by the bone that moves them", "[from-mesh]") {
+    Mesh tube;
+    addTube(tube, "a", {0, 0, 0}, 0.1, 2, 12, 20);
+    completeMesh(tube);
+    const glm::dvec3 extent = tube.high - tube.low;
+    const int axis = extent.x > std::max(extent.y, extent.z) ? 0 : extent.y > extent.z ? 1 : 2;
+    const double middle = 0.5 * (tube.low + tube.high)[axis];
+    tube.boneNames = {"foot", "head"};
+    for (const glm::dvec3& p : tube.positions)
+        tube.bones.push_back(p[axis] < middle ? 0 : 1);
+    FromMesh options;
+    options.pins.names = {"foot"};
+    const MadeMolecule out = made(tube, options);
+    int pinned = 0;
+    for (const Vertex& vertex : out.molecule.vertices) {
+        CHECK(vertex.pinned == (vertex.position[axis] < middle));
+        pinned += vertex.pinned;
+    }
+    CHECK(pinned >= 6);
+    options.pins.names = {"hand"};
+    CHECK_THAT(refused(tube, options), Catch::Contains("or bone \"hand\"; it has a, foot, head"));
+}
+
 TEST_CASE("a skin that would tear is refused", "[from-mesh]") {
     Mesh prism;  // the four vertices that are kept lie in one plane
-    addTube(prism, "prism", {0, 0, 0}, 0.5, 1, 6, 1);
+    addTube(prism, "prism", {0, 0, 0}, 0.5, 0.6, 6, 1);
     completeMesh(prism);
     FromMesh options;
     options.vertices = 4;
