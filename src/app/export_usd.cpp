@@ -134,7 +134,7 @@ class UsdGroup {
 
     const std::string& name() const { return mesh_.name(); }
     const std::optional<RigidFit>& fit() const { return fit_; }
-    // What the group is written as where instances were asked for, and why.
+    // Tells what the group is written as where instances were asked for, and why.
     std::string rigiditySentence() const {
         const std::string what = concat("group \"", printable(name()), "\": ");
         const auto off = [](double residual) { return concat(residual * 1e3, " mm off"); };

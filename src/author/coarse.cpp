@@ -91,7 +91,7 @@ Triangles gather(const Triangles& triangles, const std::vector<glm::dvec3>& posi
 double furthestFrom(const Triangles& few, const Triangles& all, const std::vector<glm::dvec3>& positions) {
     const std::set<unsigned> near(few.begin(), few.end());
     double out = 0;
-    for (const unsigned v : std::set<unsigned>(all.begin(), all.end())) {
+    for (const unsigned v : all) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const unsigned other : near)
             nearest = std::min(nearest, glm::distance(positions[v], positions[other]));

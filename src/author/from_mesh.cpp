@@ -248,7 +248,7 @@ class Maker {
     Mesh withoutHoles(SurfaceReport& report) {
         constexpr double small = 0.05;  // of the area
         Mesh out = mesh_;
-        const int holes = closeHoles(out, small);
+        const int holes = closeHoles(out, small * report.area);
         const SurfaceReport now = examineSurface(out);
         if (holes == 0 || !now.closed()) return {};
         made_.notes.push_back(concat(many(holes, "hole was", "holes were"), " closed, at the first at (",

@@ -23,7 +23,7 @@ bool meansSomething(const Description& keys, const Key& key, const JsonValue& ob
     });
 }
 
-// What is read by hand, `within` so many of its lists.
+// Makes a value that is read by hand, `within` so many of its lists.
 static JsonValue smallestForm(const Key& key, size_t within, const TextOf& text) {
     const Form& form = key.form;
     if (within < form.lists.size()) {

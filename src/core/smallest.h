@@ -1,5 +1,5 @@
-// What a file has to say of a struct at the least, by its description (core/description.h): the keys that it
-// needs, each with a value that it may have. Rules between keys may ask for more.
+// Makes the least that a file has to say of a struct, by its description (core/description.h): the keys that
+// it needs, each with a value that it may have. Rules between keys may ask for more.
 #pragma once
 
 #include <functional>
@@ -15,10 +15,10 @@ using TextOf = std::function<std::string(const Key&)>;
 
 JsonValue smallestValue(const Key& key, const TextOf& text);
 JsonValue smallestObject(const Description& keys, const TextOf& text);
-// Of a description that has a variant, as the kind of this name.
+// The description has a variant, which becomes this kind.
 JsonValue smallestObject(const Description& keys, const Description& kind, const TextOf& text);
 
-// What it needs and does not say yet, beside what it says.
+// Adds what an object needs and does not say yet.
 void addNeeded(const Description& keys, const TextOf& text, JsonValue& object);
 
 const Key* variantOf(const Description& keys);  // null: there is none

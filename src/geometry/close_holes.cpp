@@ -26,24 +26,13 @@ std::map<int, int> bordersOf(const Mesh& mesh) {
     return out;
 }
 
-double areaOf(const Mesh& mesh) {
-    double out = 0;
-    for (const glm::ivec3& t : mesh.triangles) {
-        const glm::dvec3 &a = mesh.positions[size_t(t.x)], &b = mesh.positions[size_t(t.y)],
-                         &c = mesh.positions[size_t(t.z)];
-        out += 0.5 * glm::length(glm::cross(b - a, c - a));
-    }
-    return out;
-}
-
 }  // namespace
 
-int closeHoles(Mesh& mesh, double mostOfArea) {
+int closeHoles(Mesh& mesh, double mostArea) {
     std::map<int, int> next = bordersOf(mesh);
     std::vector<int> cornerOf(mesh.weldedPositions.size());
     for (size_t corner = 0; corner < mesh.weld.size(); ++corner)
         cornerOf[size_t(mesh.weld[corner])] = int(corner);
-    const double most = mostOfArea * areaOf(mesh);
     const auto place = [&](int vertex) { return mesh.weldedPositions[size_t(vertex)]; };
     int holes = 0;
     while (!next.empty()) {
@@ -62,7 +51,7 @@ int closeHoles(Mesh& mesh, double mostOfArea) {
         for (size_t i = 0; i < loop.size(); ++i)
             area += 0.5 * glm::length(glm::cross(place(loop[i]) - middle,
                                                  place(loop[(i + 1) % loop.size()]) - middle));
-        if (area > most) continue;
+        if (area > mostArea) continue;
         const int centre = int(mesh.positions.size());
         const size_t like = size_t(cornerOf[size_t(loop.front())]);
         mesh.positions.push_back(middle);

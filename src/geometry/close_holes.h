@@ -6,7 +6,7 @@
 namespace shoal {
 
 // Closes holes by fans about their middles: those whose border is one simple loop and whose fan has at most
-// this share of the mesh's area. Returns how many.
-int closeHoles(Mesh& mesh, double mostOfArea);
+// this area, m^2. Returns how many.
+int closeHoles(Mesh& mesh, double mostArea);
 
 }  // namespace shoal

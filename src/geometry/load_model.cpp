@@ -262,7 +262,7 @@ void put(ToParent& parent, const Mesh& mesh) {
     parent.put(mesh.colors);
     parent.put(mesh.uvs);
     parent.put(mesh.triangles);
-    Names objects, parts, notes;
+    Names objects, parts;
     for (const Mesh::Object& object : mesh.objects) {
         objects.add(object.name);
         objects.numbers.insert(objects.numbers.end(), {object.firstTriangle, object.triangleCount});
@@ -272,15 +272,15 @@ void put(ToParent& parent, const Mesh& mesh) {
         parts.add(part.material);
         parts.numbers.insert(parts.numbers.end(), {part.firstTriangle, part.triangleCount, part.look});
     }
-    for (const std::string& note : mesh.notes)
-        notes.add(note);
-    notes.numbers = {int(mesh.notes.size())};
-    Names bones;
-    for (const std::string& name : mesh.boneNames)
-        bones.add(name);
-    bones.numbers = {int(mesh.boneNames.size())};
+    const auto listed = [](const std::vector<std::string>& texts) {
+        Names out;
+        for (const std::string& text : texts)
+            out.add(text);
+        out.numbers = {int(texts.size())};
+        return out;
+    };
     parent.put(mesh.bones);
-    for (const Names& names : {objects, parts, notes, bones}) {
+    for (const Names& names : {objects, parts, listed(mesh.notes), listed(mesh.boneNames)}) {
         parent.put(names.text);
         parent.put(names.numbers);
     }

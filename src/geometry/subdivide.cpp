@@ -68,7 +68,7 @@ class Subdivision {
     Edge edgeOf(const glm::ivec3& triangle, int side) const {
         return std::minmax({weldOf(triangle[side]), weldOf(triangle[(side + 1) % 3])});
     }
-    // What has two corners in one place has no side to halve.
+    // A triangle with two corners in one place has no side to halve.
     bool degenerate(size_t t) const {
         const glm::ivec3& corners = triangles_[t];
         const int a = weldOf(corners.x), b = weldOf(corners.y), c = weldOf(corners.z);

@@ -26,9 +26,10 @@ size_t countWords(size_t cells) {
     return cells + (cells + cellTile - 1) / cellTile * lineWords;
 }
 
-// What the shaders that count cells are told.
-std::vector<std::string> countingDefines() {
-    return {"COUNTED", concat("CELL_TILE ", cellTile), concat("LINE_WORDS ", lineWords)};
+// Tells shaders that the keys are sorted by counting.
+void addCounting(std::vector<std::string>& defines) {
+    defines.insert(defines.end(),
+                   {"COUNTED", concat("CELL_TILE ", cellTile), concat("LINE_WORDS ", lineWords)});
 }
 
 size_t wordsOf(Texel texel) {
@@ -174,8 +175,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         return Program(*context_, shaderRoot, options);
     };
     if (counted_) {
-        for (const std::string& define : countingDefines())
-            common.push_back(define);
+        addCounting(common);
         common.insert(common.end(), {"LANES 256", "AHEAD 4"});
         starts_ = make("starts");
         collect_ = make("members");
@@ -213,9 +213,7 @@ void MoleculeContact::makeGroup(const ContactGroup& group, const std::string& sh
     const bool rigid = rigid_ && plan.rigid;
     if (rigid) common.push_back("RIGID");
     if (plan.needs.scale || plan.needs.phase) common.push_back("CONSTANTS");
-    if (counted_)
-        for (const std::string& define : countingDefines())
-            common.push_back(define);
+    if (counted_) addCounting(common);
     const auto make = [&](const char* file, const char* define = nullptr) {
         gpu::ProgramOptions options;
         options.compute = concat("contact/", file, ".comp");

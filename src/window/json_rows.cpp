@@ -47,7 +47,13 @@ bool isWhole(const Key& key) {
            key.kind == Kind::longSeed || key.form.of == Form::Of::whole;
 }
 
-// What stands between commas.
+bool drawWord(const Row& row, JsonValue& value, const std::vector<std::string>& words) {
+    const std::optional<size_t> chosen = choose(row, value.text, words);
+    if (chosen) value = JsonValue::makeString(words[*chosen]);
+    return chosen.has_value();
+}
+
+// Returns the words between commas.
 std::vector<std::string> wordsIn(const std::string& text) {
     std::vector<std::string> out;
     std::istringstream all(text);
@@ -102,7 +108,7 @@ std::string titleOf(const JsonValue& element, size_t index) {
     return std::to_string(index + 1);
 }
 
-// ---- What is new
+// ---- New elements
 
 TextOf JsonRows::text() const {
     return [this](const Key& key) {
@@ -147,7 +153,7 @@ void JsonRows::addPlaces(const Key& key, const JsonValue& value, JsonValue& obje
         if (const JsonValue* numbers = box ? box->find(corner) : nullptr) add(*box, corner, *numbers);
 }
 
-// What a key may do without: its row changes what the object says of it.
+// The row of a key changes what the object says of it, or whether it says anything.
 bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& object) {
     JsonValue* there = findIn(object, key.name);
     JsonValue fresh = keys.usualValue(key);
@@ -171,7 +177,7 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
     }
     JsonValue& value = there ? *there : fresh;
     if (inList_) addPlaces(key, value, object);
-    if (!(tree ? drawTree(key, value) : drawPresent(key, value, label))) return false;
+    if (!(tree ? drawNode(key, value, false) : drawPresent(key, value, label))) return false;
     const bool empty = tree ? value.items.empty() && value.members.empty() : mayBeEmpty && value.text.empty();
     if (empty && !key.needed)
         leaveOut(object, key.name);
@@ -180,9 +186,11 @@ bool JsonRows::drawKey(const Description& keys, const Key& key, JsonValue& objec
     return true;
 }
 
-bool JsonRows::drawTree(const Key& key, JsonValue& value) {
+// A node that holds a list or the keys of an object.
+bool JsonRows::drawNode(const Key& key, JsonValue& value, bool startsOpen) {
     const std::string count = key.kind == Kind::list ? concat(" (", value.items.size(), ")") : std::string();
-    const bool open = ImGui::TreeNodeEx(concat(inWords(key.name), count, "###tree").c_str());
+    const bool open = ImGui::TreeNodeEx(concat(inWords(key.name), count, "###node").c_str(),
+                                        startsOpen ? ImGuiTreeNodeFlags_DefaultOpen : 0);
     tip(key.says.sentence.c_str());
     if (!open) return false;
     const bool changed = key.kind == Kind::list ? drawList(key, value) : draw(*key.objects[0], value);
@@ -195,11 +203,8 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     switch (key.kind) {
     case Kind::flag:
         return tick(row, value.boolean);
-    case Kind::word: {
-        const std::optional<size_t> chosen = choose(row, value.text, key.words);
-        if (chosen) value = JsonValue::makeString(key.words[*chosen]);
-        return chosen.has_value();
-    }
+    case Kind::word:
+        return drawWord(row, value, key.words);
     case Kind::text:
         return drawText(key, value, label);
     case Kind::texts:
@@ -226,22 +231,15 @@ bool JsonRows::drawPresent(const Key& key, JsonValue& value, const std::string& 
     case Kind::rotation:
         return drawRotation(key, value, label);
     case Kind::object:
-        return drawNode(key, value);
+        return drawNode(key, value, true);
     case Kind::byHand:
         if (key.form.of == Form::Of::text && key.form.lists.size() == 1) return drawTexts(row, value);
         if (key.form.of == Form::Of::text && value.kind == Json::string) return drawText(key, value, label);
-        if (value.kind == Json::object && key.objects.size() == 1) return drawNode(key, value);
+        if (value.kind == Json::object && key.objects.size() == 1) return drawNode(key, value, true);
         [[fallthrough]];
     default:
         return drawNumbers(key, value, label);
     }
-}
-
-bool JsonRows::drawNode(const Key& key, JsonValue& value) {
-    if (!ImGui::TreeNodeEx(inWords(key.name).c_str(), ImGuiTreeNodeFlags_DefaultOpen)) return false;
-    const bool changed = draw(*key.objects[0], value);
-    ImGui::TreePop();
-    return changed;
 }
 
 // An axis and an angle, whether the file has these or a quaternion.
@@ -316,12 +314,8 @@ bool JsonRows::drawNumbers(const Key& key, JsonValue& value, const std::string& 
 
 bool JsonRows::drawText(const Key& key, JsonValue& value, const std::string& label) {
     const Row row{label.c_str(), key.says.sentence.c_str()};
-    if (const std::vector<std::string> words = choices_(key.name); !words.empty()) {
-        const std::optional<size_t> chosen = choose(row, value.text, words);
-        if (chosen) value = JsonValue::makeString(words[*chosen]);
-        return chosen.has_value();
-    }
-    return type(row, value.text);
+    const std::vector<std::string> words = choices_(key.name);
+    return words.empty() ? type(row, value.text) : drawWord(row, value, words);
 }
 
 // The word that says what an object is, and the keys that go with it.

@@ -35,10 +35,9 @@ class JsonRows {
 
   private:
     bool drawKey(const Description& keys, const Key& key, JsonValue& object);
-    bool drawTree(const Key& key, JsonValue& value);
     void addPlaces(const Key& key, const JsonValue& value, JsonValue& object);
     bool drawPresent(const Key& key, JsonValue& value, const std::string& label);
-    bool drawNode(const Key& key, JsonValue& value);
+    bool drawNode(const Key& key, JsonValue& value, bool startsOpen);
     bool drawRotation(const Key& key, JsonValue& value, const std::string& label);
     bool drawTexts(const Row& row, JsonValue& value);
     bool drawNumbers(const Key& key, JsonValue& value, const std::string& label);

@@ -111,7 +111,7 @@ class ScenePanel {
     Action draw(RunningScene& running, bool unsaved, const View& view);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
-    // What Action::change asks for; null: nothing. It goes when it was accepted; refused, it stays in the
+    // Action::change asks for this; null: nothing. It goes when it was accepted; refused, it stays in the
     // panel, to be completed or dropped.
     const JsonValue* draft() const { return draft_ && draft_->changed ? &draft_->json : nullptr; }
     bool drafted() const { return draft_ && (draft_->changed || draft_->refused); }

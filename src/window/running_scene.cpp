@@ -217,23 +217,35 @@ JsonValue RunningScene::json() const {
     return parseJson(text(), original_.file);
 }
 
-std::vector<std::string> RunningScene::take(const std::string& text) {
+Scene RunningScene::read(const std::string& text) const {
     FieldWatch baking;
-    Scene fresh = parseScene(text, original_.file, baking.baking());
-    apply(request_, fresh);
-    // a choice gives way to what the scene itself says now
+    Scene out = parseScene(text, original_.file, baking.baking());
+    apply(request_, out);
+    return out;
+}
+
+// Builds `fresh` with other groups in its place. Without `keepsChoices` these give way to what it says.
+std::vector<std::string> RunningScene::replace(Scene fresh, std::vector<Group> groups, bool keepsChoices) {
     const Choices before = choices;
-    if (!changedChoices(fresh).empty()) choices = {};
-    std::vector<std::string> restarted;
+    if (!keepsChoices) choices = {};
     try {
         Scene next = fresh;
+        next.groups = std::move(groups);
         applyChoices(next, fresh);
-        restarted = build(std::move(next), true);
+        std::vector<std::string> restarted = build(std::move(next), true);
+        original_ = std::move(fresh);
+        return restarted;
     } catch (const Error&) {
         choices = before;
         throw;
     }
-    original_ = std::move(fresh);
+}
+
+std::vector<std::string> RunningScene::take(const std::string& text) {
+    Scene fresh = read(text);
+    std::vector<Group> groups = fresh.groups;
+    const bool keepsChoices = changedChoices(fresh).empty();
+    std::vector<std::string> restarted = replace(std::move(fresh), std::move(groups), keepsChoices);
     text_ = text;
     return restarted;
 }
@@ -244,12 +256,11 @@ void RunningScene::forgetTexts() {
     redo_.clear();
 }
 
-// What is left behind comes to `passed`.
-std::vector<std::string> RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
+// Takes a text and adds the one that it leaves behind to `passed`.
+void RunningScene::go(const std::string& text, std::vector<std::string>& passed) {
     std::string now = this->text();
-    std::vector<std::string> restarted = take(text);
+    take(text);
     passed.push_back(std::move(now));
-    return restarted;
 }
 
 void RunningScene::change(const JsonValue& after) {
@@ -330,9 +341,7 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     const std::string text = readFile(original_.file);
     if (text_ != saved_) return mergeWhole(text, prefer);
     const bool another = text != saved_;
-    FieldWatch baking;
-    Scene theirs = parseScene(text, original_.file, baking.baking());
-    apply(request_, theirs);
+    Scene theirs = read(text);
     MergedEdits merged = mergeEdits(original_, scene, theirs, text, prefer.value_or(Prefer::mine));
     const std::vector<std::string> changed = changedChoices(theirs);
     Reloaded out{std::move(merged.conflicts), {}};
@@ -340,18 +349,8 @@ RunningScene::Reloaded RunningScene::reload(std::optional<Prefer> prefer) {
     if (!out.conflicts.empty() && !prefer) return out;
     if (prefer == Prefer::mine && !merged.possible) return out;  // nowhere to put them: what runs, runs on
 
-    const Choices before = choices;
-    if (prefer == Prefer::theirs && !changed.empty()) choices = {};
-    try {
-        Scene next = theirs;
-        next.groups = std::move(merged.groups);
-        applyChoices(next, theirs);
-        out.restarted = build(std::move(next), true);
-    } catch (const Error&) {
-        choices = before;
-        throw;
-    }
-    original_ = std::move(theirs);
+    const bool keepsChoices = prefer != Prefer::theirs || changed.empty();
+    out.restarted = replace(std::move(theirs), std::move(merged.groups), keepsChoices);
     text_ = saved_ = text;
     if (another) forgetTexts();
     return out;

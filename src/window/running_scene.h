@@ -55,7 +55,7 @@ class RunningScene {
     void save();    // into the file
     void revert();  // to what the file says
 
-    // What a file would say of the scene as it is now, and to make the scene what another one says. Comments,
+    // json() is the file as it would be saved now; change() makes the scene what another one says. Comments,
     // order and layout of the file stay.
     JsonValue json() const;
     void change(const JsonValue& after);
@@ -86,9 +86,11 @@ class RunningScene {
   private:
     std::string text() const;  // with what was edited in `scene`
     bool edited() const;       // `scene` is not as text_ says
-    // In place of text_; returns the groups that begin anew.
+    Scene read(const std::string& text) const;
+    // These return the groups that begin anew.
+    std::vector<std::string> replace(Scene fresh, std::vector<Group> groups, bool keepsChoices);
     std::vector<std::string> take(const std::string& text);
-    std::vector<std::string> go(const std::string& text, std::vector<std::string>& passed);
+    void go(const std::string& text, std::vector<std::string>& passed);
     void forgetTexts();
     Reloaded mergeWhole(const std::string& text, std::optional<Prefer> prefer);
     std::unique_ptr<Simulation> simulate(Plan plan, Path path);

@@ -120,20 +120,16 @@ ScenePanel::Action ScenePanel::draw(RunningScene& running, bool unsaved, const V
     Action action = drawHead(running.scene, unsaved);
     if (whole_) {
         const Action asked = drawWhole(running, view);
-        ImGui::End();
-        if (action != Action::none) return action;
-        if (asked != Action::none) return asked;
-    }
-    if (!whole_) {
+        if (action == Action::none) action = asked;
+    } else {
         for (Edited& group : groups_) {
             ImGui::PushID(int(group.group));
             drawGroup(group, running);
             ImGui::PopID();
         }
-        ImGui::End();
-        if (action != Action::none) return action;
     }
-    if (held_ || ImGui::IsAnyItemActive()) return Action::none;
+    ImGui::End();
+    if (action != Action::none || held_ || ImGui::IsAnyItemActive()) return action;
     if (draft_ && draft_->changed) return Action::change;
     return pending_ ? Action::rebuild : Action::none;
 }
@@ -166,8 +162,10 @@ ScenePanel::Action ScenePanel::drawHead(const Scene& scene, bool unsaved) {
 
 ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view) {
     if (molecules_.empty()) molecules_ = moleculesFor(running.scene.file);
-    if (!draft_) draft_ = Draft{running.json(), running.json()};
-    if (std::exchange(draft_->stale, false)) {
+    if (!draft_) {
+        const JsonValue now = running.json();
+        draft_ = Draft{now, now};
+    } else if (std::exchange(draft_->stale, false)) {
         std::vector<std::string> conflicts;
         const JsonValue now = running.json();
         draft_->json = merged(draft_->base, draft_->json, now, Prefer::mine, "$", conflicts);

@@ -16,7 +16,7 @@ size_t bytesIn(const std::vector<T>& values) {
     return values.size() * sizeof(T);
 }
 
-// Of what there is much of.
+// Counts the arrays that grow with the scene.
 size_t bytesOf(const SavedState& state) {
     const ContactMemory& contacts = state.contacts;
     size_t out = bytesIn(contacts.partners) + bytesIn(contacts.pushes) + bytesIn(contacts.anchors) +
@@ -33,7 +33,6 @@ size_t bytesOf(const SavedState& state) {
 
 void TimeLine::forget() {
     kept_.clear();
-    bytes_ = 0;
     every_ = usualEvery;
     loop_.reset();
 }
@@ -41,14 +40,14 @@ void TimeLine::forget() {
 void TimeLine::note(Simulation& simulation) {
     if (!open) return;
     const int frame = simulation.frames();
-    while (!kept_.empty() && kept_.back().frames >= frame) {
-        bytes_ -= bytesOf(kept_.back());
+    while (!kept_.empty() && kept_.back().frames >= frame)
         kept_.pop_back();
-    }
     if (kept_.empty() || frame >= kept_.back().frames + every_ || frame == loop_) {
         kept_.push_back(simulation.save());
-        bytes_ += bytesOf(kept_.back());
-        if (bytes_ > mostBytes) thinOut();
+        size_t bytes = 0;
+        for (const SavedState& state : kept_)
+            bytes += bytesOf(state);
+        if (bytes > mostBytes) thinOut();
     }
     if (loop_ && frame >= *loop_ && kept_.front().frames < frame) simulation.load(kept_.front());
 }
@@ -58,9 +57,6 @@ void TimeLine::thinOut() {
     for (size_t i = 1; i < kept_.size(); ++i)
         kept_.erase(kept_.begin() + std::ptrdiff_t(i));
     every_ *= 2;
-    bytes_ = 0;
-    for (const SavedState& state : kept_)
-        bytes_ += bytesOf(state);
 }
 
 const SavedState* TimeLine::draw(float left, float right, const Simulation& simulation) {

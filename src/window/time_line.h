@@ -28,7 +28,6 @@ class TimeLine {
     void thinOut();
 
     std::vector<SavedState> kept_;  // by ascending frames
-    size_t bytes_ = 0;
     static constexpr int usualEvery = 15;
     int every_ = usualEvery;   // frames
     std::optional<int> loop_;  // the last frame of the loop, which begins with the first that was kept

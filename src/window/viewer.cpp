@@ -202,7 +202,7 @@ class Viewer : public WindowLoop {
         open_->follow();
     }
 
-    // What the panel's draft says, if it may run; true: there is none that waits to be completed.
+    // Takes the panel's draft, if it may run; true: none waits to be completed.
     bool changeWhole() {
         ScenePanel& panel = open_->scenePanel;
         if (const JsonValue* draft = panel.draft()) {

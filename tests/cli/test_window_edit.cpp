@@ -56,6 +56,14 @@ const JsonValue& emittersIn(const JsonValue& root) {
     return member(member(root, "groups").items[0], "emitters");
 }
 
+// All that a scene says, at the right; `$file` in the steps, which is begun where it is not there.
+Outcome editWhole(const std::string& file, const std::string& steps) {
+    const Outcome out = inWindow({"edit", file, "--size", "900x640"}, "file=" + file + "\n" + steps);
+    INFO(out.out << out.err);
+    REQUIRE(out.code == 0);
+    return out;
+}
+
 // In the right panel, with one group and one emitter.
 constexpr const char* places =
     "rate() { drag 700 225 $1; }\nsave() { press 540 51; }\nrevert() { press 595 51; }\n"
@@ -93,8 +101,6 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
     const Scratch scratch;
     const std::string file = scratch.path("new.scene.json");
     const std::string steps =
-        "file=" + file +
-        "\n"
         "cp $file $file.begun\n"
         "press 600 360; press 567 397; press 614 432\n"  // colliders, Add, sphere
         "press 600 397\n"                                // the sphere
@@ -102,9 +108,7 @@ TEST_CASE("a scene from nothing: a collider is added, moved in the picture, save
         "control s; cp $file $file.kept\n"
         "control z; control z; control s\n"
         "key Escape\n";
-    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
-    INFO(outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = editWhole(file, steps);
     CHECK(outcome.err.empty());
     const std::string begun = readFile(file + ".begun"), kept = readFile(file + ".kept");
     const size_t added = kept.find(",\n    {\"type\": \"sphere\", \"center\": [");
@@ -124,13 +128,11 @@ TEST_CASE("what was added in the window and what changed on disk come together",
     if (!hasXdotool()) return;
     const Scratch scratch;
     const std::string file = scratch.path("both.scene.json");
-    const std::string steps = "file=" + file +
-                              "\npress 600 360; press 567 397; press 614 432\n"
-                              "sed -i 's/-9.81/-1.62/' $file; says '^reloaded:'\n"
-                              "control s; key Escape\n";
-    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
-    INFO(outcome.out << outcome.err);
-    REQUIRE(outcome.code == 0);
+    const std::string steps =
+        "press 600 360; press 567 397; press 614 432\n"
+        "sed -i 's/-9.81/-1.62/' $file; says '^reloaded:'\n"
+        "control s; key Escape\n";
+    const Outcome outcome = editWhole(file, steps);
     const JsonValue root = readJson(file);
     CHECK(member(root, "gravity").items[1].number == -1.62);
     REQUIRE(member(root, "colliders").items.size() == 2);
@@ -141,14 +143,12 @@ TEST_CASE("what cannot run stays in the panel until it is dropped", "[.window]")
     const Scratch scratch;
     const std::string file = scratch.path("last.scene.json");
     // the only group is removed; dropping that brings it back, and nothing is to be saved
-    const std::string steps = "file=" + file +
-                              "\ncp $file $file.begun\n"
-                              "press 600 378; press 600 396; press 662 414\n"
-                              "says 'at least'; control s\n"
-                              "press 535 75; key Escape\n";
-    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
-    INFO(outcome.out << outcome.err);
-    REQUIRE(outcome.code == 0);
+    const std::string steps =
+        "cp $file $file.begun\n"
+        "press 600 378; press 600 396; press 662 414\n"
+        "says 'at least'; control s\n"
+        "press 535 75; key Escape\n";
+    const Outcome outcome = editWhole(file, steps);
     CHECK(readFile(file) == readFile(file + ".begun"));
     REQUIRE(outcome.messages().size() == 2);
     CHECK_THAT(outcome.messages()[0], Catch::Contains("$.groups"));
@@ -162,16 +162,12 @@ TEST_CASE("what is typed in a row is saved by a click on Save, and what is only 
     const std::string file = scratch.path("typed.scene.json");
     // a quaternion, which its row shows as an axis and an angle
     const std::string steps =
-        "file=" + file +
-        "\nsed -i 's/{\"type\": \"plane\"}/{\"type\": \"box\", \"center\": [0, 0, 0], \"size\": [1, 1, 1], "
-        "\"rotation\": [0, 0.6, "
-        "0, 0.8]}/' $file\n"
+        "sed -i 's/{\"type\": \"plane\"}/{\"type\": \"box\", \"center\": [0, 0, 0], \"size\": [1, 1, 1], "
+        "\"rotation\": [0, 0.6, 0, 0.8]}/' $file\n"
         "says '^reloaded:'; cp $file $file.before\n"
         "press 600 360; press 600 378\n"
         "press 760 99; xdotool type --delay 60 leaves; settle; press 549 51; key Escape\n";
-    const Outcome outcome = inWindow({"edit", file, "--size", "900x640"}, steps);
-    INFO(outcome.out << outcome.err);
-    REQUIRE(outcome.code == 0);
+    const Outcome outcome = editWhole(file, steps);
     std::string expected = readFile(file + ".before");
     const size_t name = expected.find("\"typed\"");
     REQUIRE(name != std::string::npos);
