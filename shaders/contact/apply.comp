@@ -2,6 +2,9 @@
 //   MANY: a lane a vertex, on which the contacts of several spheres act (contact/spread.glsl)
 //   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
 #include "contact/shape.glsl"
+#if defined(RESTING) && defined(MANY)
+#include "contact/resting.glsl"
+#endif
 #include "contact/spread.glsl"
 
 uniform float stepTime;     // s, of a contact step
@@ -9,10 +12,8 @@ uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
-layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };  // m/s^2, by sphere; w above 0: its molecule rests
-#if defined(RESTING) && defined(MANY)
-#include "contact/resting.glsl"
-#endif
+// m/s^2, by sphere; w below 0: contact alone holds it off the colliders; above 0: its molecule rests.
+layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };
 
 void change(int molecule, int vertex, Total by)
 {
@@ -26,7 +27,12 @@ void change(int molecule, int vertex, Total by)
         state[place] = v[c];
     }
 #ifdef REMEMBERS
-    loads[firstSphere + molecule * SPHERES + vertex] = vec4(by.load / stepTime, 0.0);
+    int sphere = firstSphere + molecule * SPHERES + vertex;
+    bool alone = false;
+#ifdef RIGID
+    alone = holds(sphere, by.impulse, stepTime);
+#endif
+    loads[sphere] = vec4(by.load / stepTime, alone ? -1.0 : 0.0);
 #endif
 #ifdef HISTORY
     // A slow vertex goes on as if it had moved so before; any other begins anew (fused/bdf2.glsl).

@@ -12,9 +12,9 @@ uniform samplerBuffer bodies;   // three texels a sphere
 BodySphere bodySphereAt(int sphere)
 {
     vec4 arm = bodyTexel(sphere, 0);
-    vec3 d = bodyTexel(sphere, 1).xyz;
+    vec4 d = bodyTexel(sphere, 1);
     vec3 o = bodyTexel(sphere, 2).xyz;
-    return BodySphere(arm.xyz, arm.w, mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z));
+    return BodySphere(arm.xyz, arm.w, mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z), d.w);
 }
 
 void add(inout BodyMotion motion, BodySphere at, vec3 impulse)

@@ -1,49 +1,70 @@
 // Where one sphere's contacts move others: the effective count (physics/pair.glsl) of the contacts that act on the same vertices
 // as a sphere's own, or on the same rigid body (RIGID). Needs contact/shape.glsl.
+#include "contact/flags.glsl"
 #include "physics/pair.glsl"
 
 uniform UINTS slots;  // of a sphere
 uniform UINTS counts;
 #ifdef TEXTURES
-uniform sampler2DArray normals;  // by slot, two layers: xyz the parts of a NormalSum, w of the first the turning
-#define normalTexel(slot, k) texelFetch(normals, ivec3(texelOf(slot), k), 0)
+uniform sampler2DArray contactSums;  // by slot, two layers: xyz the parts of a ContactSum, w of the first its number
+#define contactTexel(slot, k) texelFetch(contactSums, ivec3(texelOf(slot), k), 0)
 #else
-uniform samplerBuffer normals;   // two texels a slot
-#define normalTexel(slot, k) texelFetch(normals, 2 * (slot) + (k))
+uniform samplerBuffer contactSums;   // two texels a slot
+#define contactTexel(slot, k) texelFetch(contactSums, 2 * (slot) + (k))
 #endif
 
-float turning = 0.0;  // of the bodies, in what has been added
+bool touches(int sphere)
+{
+    return (fetch(counts, int(fetch(slots, sphere).x)).x & CONTACTS) != 0u;
+}
 
-void add(inout NormalSum sum, int sphere)
+ContactSum contactsOf(int sphere)
 {
     int slot = int(fetch(slots, sphere).x);
-    if (fetch(counts, slot).x == 0u) return;
-    vec4 first = normalTexel(slot, 0);
-    sum.diagonal += first.xyz;
-    sum.beside += normalTexel(slot, 1).xyz;
-    turning += first.w;
+    if (fetch(counts, slot).x == 0u) return noContacts();
+    vec4 first = contactTexel(slot, 0);
+    return ContactSum(first.xyz, contactTexel(slot, 1).xyz, first.w);
 }
 
 #ifdef RIGID
-// Returns it for sphere k of the molecule whose first is `moleculeSphere`: all contacts of the molecule act on it.
+#include "contact/body_sums.glsl"
+
+// Returns it for sphere k of the molecule whose first is `moleculeSphere`: all contacts of the molecule act on it. With X the
+// matrix of a cross product with a sphere's arm and S the sum of its contacts, the matrix of its body is the sum over the spheres
+// of (S, S X^T; I^-1 M X S, I^-1 M X S X^T).
 float effectiveSum(int moleculeSphere, int k)
 {
-    NormalSum sum = NormalSum(vec3(0.0), vec3(0.0));
-    for (int j = 0; j < SPHERES; ++j) add(sum, moleculeSphere + j);
-    return effectiveCount(sum) + turning;
+    mat3 a = mat3(0.0);
+    mat3 b = a;
+    mat3 d = a;
+    BodySphere body;
+    bool any = false;
+    for (int j = 0; j < SPHERES; ++j) {
+        body = bodySphereAt(moleculeSphere + j);
+        mat3 sum = matrixOf(contactsOf(moleculeSphere + j));
+        mat3 arm = mat3(0.0, body.arm.z, -body.arm.y, -body.arm.z, 0.0, body.arm.x, body.arm.y, -body.arm.x, 0.0);
+        mat3 turned = sum * transpose(arm);
+        a += sum;
+        b += turned;
+        d += arm * turned;
+        any = any || touches(moleculeSphere + j);
+    }
+    if (!any) return 0.0;
+    mat3 perInertia = body.perInertia / body.perMass;
+    return effectiveCount(a, b, perInertia * transpose(b), perInertia * d);
 }
 #else
 float countOf(int vertex, int moleculeSphere)
 {
     vec4 shape = shapeOf(vertex);
-    NormalSum sum = NormalSum(vec3(0.0), vec3(0.0));
-    add(sum, moleculeSphere + vertex);
-    for (int i = 0; i < int(shape.w); ++i) add(sum, moleculeSphere + int(shapeOf(int(shape.z) + i).x));
+    ContactSum sum = contactsOf(moleculeSphere + vertex);
+    for (int i = 0; i < int(shape.w); ++i) sum = bothSums(sum, contactsOf(moleculeSphere + int(shapeOf(int(shape.z) + i).x)));
     return effectiveCount(sum);
 }
 
 float effectiveSum(int moleculeSphere, int k)
 {
+    if (!touches(moleculeSphere + k)) return 0.0;
     vec4 shape = shapeOf(k);
     float most = countOf(k < VERTICES ? k : int(shape.x), moleculeSphere);
     if (k >= VERTICES) most = max(most, max(countOf(int(shape.y), moleculeSphere), countOf(int(shape.z), moleculeSphere)));

@@ -1,6 +1,8 @@
-// A slot's count of contacts has a flag: whether it takes part in the response. It does with contacts, and in the step after its
-// last one, because what contacts remember has acted on it since (contact/respond.glsl).
-const uint CONTACTS = 0x7fffffffu;
+// A slot's count of contacts has two flags. HELD: its molecule is a rigid body, which a collider near this sphere may hold while
+// others push it elsewhere. RESPONDS: it takes part in the response, as it does with contacts, where it is held, and in the step
+// after, because what contacts remember has acted on it since (contact/respond.glsl).
+const uint CONTACTS = 0x3fffffffu;
+const uint HELD = 0x40000000u;
 const uint RESPONDS = 0x80000000u;
 // With a sphere's 1/mass, as bits: its molecule has been born since the last step, and remembers nothing.
 const uint FRESH = 0x80000000u;

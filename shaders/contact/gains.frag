@@ -1,5 +1,6 @@
 // gains: a texel a sphere, of one group: what contact adds to the velocity (m/s; w 1: it does) and place (m) of its vertex, and what
-// acts on it over the next step (m/s^2). With MANY the contacts of several spheres act on a vertex (contact/spread.glsl).
+// acts on it over the next step (m/s^2; w as contact/apply.comp has it). With MANY the contacts of several spheres act on a vertex
+// (contact/spread.glsl).
 #include "state/numbered.glsl"
 #ifdef MANY
 #include "contact/shape.glsl"
@@ -34,7 +35,11 @@ void main()
     bool any = by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0);
     newGains[0] = vec4(by.impulse, any ? 1.0 : 0.0);
     newGains[1] = vec4(by.shift, 0.0);
-    newLoad = vec4(by.load / stepTime, 0.0);
+    bool alone = false;
+#ifdef RIGID
+    alone = any && holds(sphere, by.impulse, stepTime);
+#endif
+    newLoad = vec4(by.load / stepTime, alone ? -1.0 : 0.0);
 #else
     int slot = int(fetch(slots, sphere).x);
     bool any = fetch(counts, slot).x != 0u;

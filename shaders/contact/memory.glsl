@@ -6,7 +6,8 @@ uniform ENTRIES oldAnchors;  // Entry::anchor
 #ifdef TEXTURES
 uniform UINTS oldSlots;      // of a sphere
 uniform UINTS oldCounts;     // by slot, as `counts`
-uniform FLOATS oldKnown;     // N s, by slot: the sum of what its contacts remember, which has acted as a force since
+uniform FLOATS oldKnown;     // by slot: xyz the sum of what its contacts remember, N s, which has acted as a force since; w which
+                             // part of what colliders pushed that holds
 
 int memoryOf(int sphere)
 {
@@ -17,8 +18,15 @@ int countAt(int memory)
 {
     return min(int(fetch(oldCounts, memory).x & CONTACTS), LIST);
 }
+
+bool remembersAt(int memory)
+{
+    return (fetch(oldCounts, memory).x & ~RESPONDS) != 0u;
+}
 #else
-layout(std430, binding = 3) buffer Known { vec4 known[]; };  // by sphere: xyz that sum; w how many contacts it remembers
+// By sphere: xyz that sum; w how many contacts it remembers, and a half where a collider pushes, or from contact/prepare.comp to
+// contact/settle.comp how much colliders pushed at first, N s.
+layout(std430, binding = 3) buffer Known { vec4 known[]; };
 
 int memoryOf(int sphere)
 {
@@ -28,5 +36,10 @@ int memoryOf(int sphere)
 int countAt(int memory)
 {
     return int(known[memory].w);
+}
+
+bool remembersAt(int memory)
+{
+    return known[memory].w > 0.0;
 }
 #endif

@@ -10,7 +10,7 @@ layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) writeonly buffer Pushes { vec4 pushes[]; };
 layout(std430, binding = 2) writeonly buffer Anchors { vec4 anchors[]; };
 #ifdef SPREAD
-layout(std430, binding = 4) writeonly buffer Normals { vec4 newNormals[]; };  // two a slot: contact/effective_sum.glsl
+layout(std430, binding = 4) writeonly buffer ContactSums { vec4 newContacts[]; };  // two a slot: contact/effective_sum.glsl
 #else
 layout(std430, binding = 4) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
 #endif
@@ -31,24 +31,27 @@ void main()
         pushes[e * listStride + slot] = known.push;
         anchors[e * listStride + slot] = known.anchor;
     }
+    float start = 0.0;  // of all that colliders push
 #ifdef WALLS
     int first = 2 * MOST_WALLS * sphereOf(slot);
     OldWall old[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k)
         old[k] = OldWall(wallPushes[first + 2 * k].xyz, wallPushes[first + 2 * k + 1].xyz);
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(wallOf(slot, k), listed, old);
+        vec3 push = prepareWall(slot, wallOf(slot, k), old);
         wallPushes[first + 2 * k] = vec4(push, 0.0);
         impulse += push;
+        start += length(push);
     }
 #endif
-    if (oldListed == 0) known[memory] = vec4(0.0);
+    if (!remembers) known[memory] = vec4(0.0);
     newTotals[2 * slot] = vec4(impulse - known[memory].xyz, 0.0);
+    known[memory].w = start;
     newTotals[2 * slot + 1] = vec4(0.0);
 #ifdef SPREAD
-    newNormals[2 * slot] = vec4(normals.diagonal, turning);
-    newNormals[2 * slot + 1] = vec4(normals.beside, 0.0);
+    newContacts[2 * slot] = vec4(contacts.diagonal, contacts.number);
+    newContacts[2 * slot + 1] = vec4(contacts.beside, 0.0);
 #else
-    effectiveCounts[slot] = floatBitsToUint(effectiveCount(normals));
+    effectiveCounts[slot] = floatBitsToUint(listed > 0 ? effectiveCount(contacts) : 0.0);
 #endif
 }

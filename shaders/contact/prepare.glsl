@@ -2,14 +2,16 @@
 #include "contact/respond.glsl"
 #include "contact/memory.glsl"
 
-int memory;     // of the own sphere
-int oldListed;  // 0 where nothing is remembered
+int memory;      // of the own sphere
+bool remembers;
+int oldListed;
 
 void loadOld(int slot)
 {
     loadSphere(slot);
     memory = memoryOf(sphereOf(slot));
-    oldListed = own.fresh ? 0 : countAt(memory);
+    remembers = !own.fresh && remembersAt(memory);
+    oldListed = remembers ? countAt(memory) : 0;
 }
 
 Entry prepare(int slot, int other)
@@ -34,7 +36,7 @@ Entry prepare(int slot, int other)
         return known;
     }
     if (isOld) {
-        known.push.xyz = remembered(old);
+        known.push.xyz = remembered(old, with.sphere).push.xyz;
         bool sticks = old.anchor.w > 0.0 && old.push.w >= 0.0;
         if (sticks || isDeep(contact, reach)) known.anchor.xyz = old.anchor.xyz;
     }
@@ -45,14 +47,11 @@ Entry prepare(int slot, int other)
 }
 
 // Counts the contacts of a sphere, as they act on it together (physics/pair.glsl).
-NormalSum normals = NormalSum(vec3(0.0), vec3(0.0));
-float turning = 0.0;  // of its body, in contacts
+ContactSum contacts = ContactSum(vec3(0.0), vec3(0.0), 0.0);
 
 void countIn(vec3 normal)
 {
-    float part = turningPart(normal);
-    normals = withNormal(normals, normal * sqrt(1.0 - part));
-    turning += part;
+    contacts = withContact(contacts, normal, own.weight / max(ownWeights(normal), vec2(1e-30)));
 }
 
 #ifdef WALLS
@@ -64,14 +63,14 @@ struct OldWall {
 };
 
 // Returns what the contact with a collider remembers, N s: that of the one in the last step whose normal was nearly the same.
-// Of a sphere that touches no other, its own step answers the collider.
-vec3 prepareWall(Wall wall, int listed, OldWall old[MOST_WALLS])
+// Of what touches nothing else, its own step answers the collider.
+vec3 prepareWall(int slot, Wall wall, OldWall old[MOST_WALLS])
 {
     vec3 push = vec3(0.0);
-    if (!pressesOn(wall) || listed == 0) return push;
+    if (!pressesOn(wall) || (fetch(counts, slot).x & ~RESPONDS) == 0u) return push;
     countIn(wall.normal);
     for (int o = 0; o < MOST_WALLS; ++o) {
-        bool same = oldListed > 0 && dot(old[o].normal, wall.normal) > 0.9;
+        bool same = remembers && dot(old[o].normal, wall.normal) > 0.9;
         push = same ? withinFriction(old[o].push, wall.normal, wall.friction) : push;
     }
     return push;

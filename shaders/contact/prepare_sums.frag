@@ -12,7 +12,7 @@ layout(location = 0) out vec4 newImpulse;
 layout(location = 1) out vec4 newShift;
 layout(location = 2) out vec4 newKnown;
 #ifdef SPREAD
-layout(location = 3) out vec4 newNormals[2];  // contact/effective_sum.glsl
+layout(location = 3) out vec4 newContacts[2];  // contact/effective_sum.glsl
 #else
 layout(location = 3) out uvec4 newEffectiveCount;
 #endif
@@ -34,26 +34,28 @@ void main()
         if (with.meets) countIn(with.contact.normal);
         impulse += entry(pushes, slot, e).xyz;
     }
+    vec4 acted = remembers ? fetch(oldKnown, memory) : vec4(0.0);
+    float start = 0.0;  // of all that colliders push
 #ifdef WALLS
     OldWall old[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k)
-        old[k] = OldWall(wallTexel(oldWallPushes, memory, k).xyz, wallTexel(oldWalls, sphereOf(slot), 2 * k).xyz);
+        old[k] = OldWall(wallTexel(oldWallPushes, memory, k).xyz * acted.w, wallTexel(oldWalls, sphereOf(slot), 2 * k).xyz);
     vec4 ofWalls[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(wallOf(slot, k), listed, old);
+        vec3 push = prepareWall(slot, wallOf(slot, k), old);
         ofWalls[k] = vec4(push, 0.0);
         impulse += push;
+        start += length(push);
     }
     newWallPushes = ofWalls;
 #endif
-    vec3 acted = oldListed > 0 ? fetch(oldKnown, memory).xyz : vec3(0.0);
-    newImpulse = vec4(impulse - acted, 0.0);
+    newImpulse = vec4(impulse - acted.xyz, 0.0);
     newShift = vec4(0.0);
-    newKnown = vec4(acted, 0.0);
+    newKnown = vec4(acted.xyz, start);
 #ifdef SPREAD
-    newNormals[0] = vec4(normals.diagonal, turning);
-    newNormals[1] = vec4(normals.beside, 0.0);
+    newContacts[0] = vec4(contacts.diagonal, contacts.number);
+    newContacts[1] = vec4(contacts.beside, 0.0);
 #else
-    newEffectiveCount = uvec4(floatBitsToUint(effectiveCount(normals)), 0u, 0u, 0u);
+    newEffectiveCount = uvec4(floatBitsToUint(listed > 0 ? effectiveCount(contacts) : 0.0), 0u, 0u, 0u);
 #endif
 }

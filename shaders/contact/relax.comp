@@ -32,10 +32,10 @@ void main()
 #ifdef WALLS
     for (int k = 0; k < MOST_WALLS; ++k) {
         Wall wall = wallOf(slot, k);
-        if (!pressesOn(wall) || listed == 0) break;
+        if (!pressesOn(wall)) break;
         int at = 2 * (MOST_WALLS * sphereOf(slot) + k);
         vec4 now = wallPushes[at];
-        vec4 push = relaxWall(wall, now, wallPushes[at + 1]);
+        vec4 push = ownCount > 0.0 ? relaxWall(wall, now, wallPushes[at + 1]) : vec4(0.0);
         wallPushes[at + 1] = now;
         wallPushes[at] = push;
         impulse += push.xyz;

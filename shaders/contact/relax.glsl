@@ -11,10 +11,9 @@ uniform TOTALS totals;
 uniform TOTALS earlier;     // the same an iteration before
 #endif
 
-// An iteration takes a larger step towards several contacts at once than one that is certainly stable, and across the normals
-// a smaller one; a contact alone has its impulse at once.
+// An iteration takes a larger step towards several contacts at once than one that is certainly stable without momentum; a contact
+// alone has its impulse at once.
 const float overRelaxed = 1.3;
-const float frictionStep = 0.4;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
 
 float ownCount;
@@ -60,10 +59,9 @@ float partingSpeed(float depth, float reach)
     return (min(depth, 0.0) + clamp(0.1 * (depth - 0.005 * reach), 0.0, 0.1 * stepTime)) / stepTime;
 }
 
-// 1/kg, of the normal impulse and of friction: by what the step is divided. `count`: of the contacts that are answered at once.
-vec2 stepWeights(float alongNormal, float alongSlip, float count)
+// 1/kg, by what the step is divided, along the normal and across it. `count`: of the contacts that are answered at once.
+vec2 stepWeights(vec2 weights, float count)
 {
-    vec2 weights = vec2(alongNormal, alongSlip);
     return isAlone(count) ? weights : weights / vec2(overRelaxed, overRelaxed * frictionStep);
 }
 
@@ -84,11 +82,7 @@ vec4 relax(int slot, int other, vec4 push, vec4 before, vec4 anchor, out vec3 n)
     vec3 u = ownVelocity - velocityOf(other, with.sphere);
     float target = contact.impact ? -with.material.x * contact.speed
                                   : partingSpeed(contact.depth, own.radius + with.sphere.radius);
-    vec3 across = u - n * dot(u, n);
-    vec2 weights = stepWeights(weightAlong(with, n, shares),
-                               max(weightAlong(with, across / max(length(across), 1e-30), shares),
-                                   dot(vec2(own.weight, with.sphere.weight), shares)),
-                               max(shares.x, shares.y));
+    vec2 weights = stepWeights(weightsBetween(with, n, shares), max(shares.x, shares.y));
     vec3 wanted = pairImpulse(u, n, target, ahead(push.xyz, before.xyz), weights);
     vec3 taken = withinFriction(wanted, n, with.material.y);
     float lacks = min(contact.depth, pushSpeed * stepTime) - dot(ownMove - moveOf(other, with.sphere), n);
@@ -104,11 +98,10 @@ vec4 relaxWall(Wall wall, vec4 push, vec4 before)
 {
     vec3 n = wall.normal;
     vec3 u = ownVelocity - wall.velocity;
-    vec3 across = u - n * dot(u, n);
-    vec2 weights = stepWeights(ownWeightAlong(n) * ownCount,
-                               max(ownWeightAlong(across / max(length(across), 1e-30)), own.weight) * ownCount, ownCount);
-    vec3 wanted = pairImpulse(u, n, -wall.gap / stepTime, ahead(push.xyz, before.xyz), weights);
-    float apart = pushedApart(push.w, before.w, -wall.gap - dot(ownMove, n), weights.x);
+    vec2 weights = stepWeights(ownWeights(n) * ownCount, ownCount);
+    vec3 wanted = pairImpulse(u, n, partingSpeed(-wall.gap, own.radius), ahead(push.xyz, before.xyz), weights);
+    float lacks = min(-wall.gap, pushSpeed * stepTime) - dot(ownMove, n);
+    float apart = pushedApart(push.w, before.w, lacks, weights.x);
     return vec4(withinFriction(wanted, n, wall.friction), apart);
 }
 #endif

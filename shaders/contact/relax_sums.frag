@@ -3,7 +3,7 @@
 
 uniform ENTRIES pushes;
 uniform ENTRIES anchors;
-uniform FLOATS known;  // N s, by slot: what has acted as a force since the last step
+uniform FLOATS known;  // N s, by slot: xyz what has acted as a force since the last step; w contact/memory.glsl
 #ifdef WALLS
 uniform sampler2DArray wallPushes;  // by slot
 uniform sampler2DArray earlierWallPushes;
@@ -21,7 +21,8 @@ void main()
     if (slot >= count || fetch(counts, slot).x == 0u) discard;
     loadOwn(slot);
     int listed = listedOf(slot);
-    vec3 impulse = -fetch(known, slot).xyz;
+    vec4 acted = fetch(known, slot);
+    vec3 impulse = -acted.xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         vec4 push = entry(pushes, slot, e);
@@ -33,7 +34,7 @@ void main()
     for (int k = 0; k < MOST_WALLS; ++k) {
         Wall wall = wallOf(slot, k);
         vec4 push = vec4(0.0);
-        if (pressesOn(wall) && listed > 0)
+        if (pressesOn(wall) && ownCount > 0.0)
             push = relaxWall(wall, wallTexel(wallPushes, slot, k), wallTexel(earlierWallPushes, slot, k));
         ofWalls[k] = push;
         impulse += push.xyz;
@@ -41,6 +42,6 @@ void main()
     }
     newWallPushes = ofWalls;
 #endif
-    newImpulse = vec4(impulse, 0.0);
+    newImpulse = vec4(impulse, acted.w);
     newShift = vec4(shift, 0.0);
 }

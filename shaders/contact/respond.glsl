@@ -22,26 +22,10 @@ uniform int rigidGroups;  // a bit each
 
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if (sphere.rests || (rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0));
+    if (sphere.rests || (rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
     return bodySphereAt(sphereOf(slot));
 }
-
-// Returns by how much an impulse of 1 N s along the unit vector n changes the sphere's velocity along it by turning its body, 1/kg.
-float turningOf(BodySphere body, vec3 n)
-{
-    vec3 across = cross(body.arm, n);
-    return dot(across, body.perInertia * across);
-}
 #endif
-
-// Returns what the next step begins with, N s. An impulse that has stopped what came is not what holds up what lies there, so
-// memory takes in only a part of what an impulse has grown by.
-vec3 remembered(Entry known)
-{
-    float now = length(known.push.xyz);
-    float limit = known.anchor.w + 0.5 * max(now - known.anchor.w, 0.0);
-    return known.anchor.w > 0.0 ? known.push.xyz * min(1.0, limit / max(now, 1e-30)) : vec3(0.0);
-}
 
 struct Meeting {
     Sphere sphere;  // the other
@@ -67,35 +51,33 @@ void loadSphere(int slot)
 #endif
 }
 
-// Returns by how much an impulse of 1 N s along the unit vector n changes this sphere's velocity along it, 1/kg.
-float ownWeightAlong(vec3 n)
+#ifdef BODIES
+vec2 weightsOf(Sphere sphere, BodySphere body, vec3 n)
+{
+    vec3 across = cross(body.arm, n);
+    float turning = dot(across, body.perInertia * across);
+    return sphere.weight + vec2(turning, max(body.turning - turning, 0.0));
+}
+#endif
+
+// Returns what an impulse of 1 N s on this sphere changes of its velocity, 1/kg: x along the unit vector n, y across it, or more.
+vec2 ownWeights(vec3 n)
 {
 #ifdef BODIES
-    return own.weight + turningOf(ownBody, n);
+    return weightsOf(own, ownBody, n);
 #else
-    return own.weight;
+    return vec2(own.weight);
 #endif
 }
 
-// Returns by how much it changes the spheres' relative velocity. `shares`: among how many contacts each of the two is shared.
-float weightAlong(Meeting with, vec3 n, vec2 shares)
+// The same of the two spheres' relative velocity. `shares`: among how many contacts each of the two is shared.
+vec2 weightsBetween(Meeting with, vec3 n, vec2 shares)
 {
-    float other = with.sphere.weight;
+    vec2 other = vec2(with.sphere.weight);
 #ifdef BODIES
-    other += turningOf(with.body, n);
+    other = weightsOf(with.sphere, with.body, n);
 #endif
-    return ownWeightAlong(n) * shares.x + other * shares.y;
-}
-
-// Returns which part of the way that this sphere gives is the turning of its body.
-float turningPart(vec3 n)
-{
-#ifdef BODIES
-    float turning = turningOf(ownBody, n);
-    return turning / max(own.weight + turning, 1e-30);
-#else
-    return 0.0;
-#endif
+    return ownWeights(n) * shares.x + other * shares.y;
 }
 
 // `bounceFrom`: m/s; slower is no impact.
@@ -112,6 +94,26 @@ Meeting meetingOf(int slot, int other, float bounceFrom)
     with.body = bodyOf(other, with.sphere);
 #endif
     return with;
+}
+
+// Returns how large an impulse may be that the next step begins with, N s, of one that began with `start` and is `now`. What has
+// stopped a fall is not what holds up what lies there, so memory takes in a tenth of what it has grown by, and where it carried
+// little not much more than a weight. With half of it, molecules deep in a pile are shaken by what is remembered of their many
+// contacts without balance. `weight`: 1/kg, of all that it moves.
+float mostRemembered(float start, float now, float weight)
+{
+    return min(start + 0.1 * max(now - start, 0.0), 1.5 * start + restSpeed / weight);
+}
+
+// Returns an entry as the next step begins with it.
+Entry remembered(Entry known, Sphere other)
+{
+    float start = known.anchor.w;
+    float now = length(known.push.xyz);
+    float most = start > 0.0 ? mostRemembered(start, now, own.weight + other.weight) : 0.0;
+    known.push.xyz *= min(1.0, most / max(now, 1e-30));
+    if (start > 0.0) known.anchor.w = length(known.push.xyz) + 1e-20;
+    return known;
 }
 
 bool isDeep(PairContact contact, float reach)

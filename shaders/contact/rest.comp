@@ -103,7 +103,7 @@ void rest(int molecule, int sphere, int first)
         if (comesToRest) setMotion(first, v, vec3(0.0), true);
     }
     calm[sphere].w = time;
-    setRest(sphere, comesToRest ? JUST_RESTED : AWAKE);
+    if (comesToRest) setRest(sphere, JUST_RESTED);
 }
 
 void main()

@@ -9,7 +9,7 @@ layout(std430, binding = 0) buffer Totals { vec4 totals[]; };
 // contact/memory.glsl
 layout(std430, binding = 1) writeonly buffer Partners { uint partners[]; };
 layout(std430, binding = 2) writeonly buffer OldPushes { vec4 oldPushes[]; };
-layout(std430, binding = 3) writeonly buffer Known { vec4 known[]; };
+layout(std430, binding = 3) buffer Known { vec4 known[]; };
 layout(std430, binding = 4) writeonly buffer OldAnchors { vec4 oldAnchors[]; };
 #ifdef WALLS
 #include "contact/near_walls.glsl"
@@ -26,23 +26,29 @@ void main()
     int listed = listedOf(slot);
     vec3 shift = totals[2 * slot + 1].xyz;
     vec3 keeps = vec3(0.0);
+    bool isHeld = false;
     for (int e = 0; e < listed; ++e) {
         int other = entryOf(slot, e);
-        Entry kept = Entry(entry(pushes, slot, e), entry(anchors, slot, e));
-        shift += settle(slot, other, kept);
-        keeps += remembered(kept);
+        Entry kept;
+        shift += settle(slot, other, Entry(entry(pushes, slot, e), entry(anchors, slot, e)), kept);
+        keeps += kept.push.xyz;
         int at = e * listStride + sphere;
         partners[at] = uint(sphereOf(other));
         oldPushes[at] = kept.push;
         oldAnchors[at] = kept.anchor;
     }
 #ifdef WALLS
+    float now = 0.0;
+    for (int k = 0; k < MOST_WALLS; ++k) now += length(wallPushes[2 * (MOST_WALLS * sphere + k)].xyz);
+    float part = rememberedOfWalls(known[sphere].w, now);
     for (int k = 0; k < MOST_WALLS; ++k) {
         int at = 2 * (MOST_WALLS * sphere + k);
+        wallPushes[at] *= part;
         keeps += wallPushes[at].xyz;
+        isHeld = isHeld || wallPushes[at].xyz != vec3(0.0);
         wallPushes[at + 1] = vec4(wallOf(slot, k).normal, 0.0);
     }
 #endif
     totals[2 * slot + 1] = vec4(shift, 0.0);
-    known[sphere] = vec4(keeps, float(listed));
+    known[sphere] = vec4(keeps, float(listed) + (isHeld ? 0.5 : 0.0));
 }

@@ -23,15 +23,20 @@ void main()
     int listed = listedOf(slot);
     vec3 shift = secondTotal(totals, slot);
     vec3 keeps = vec3(0.0);
+    float part = 1.0;  // of what colliders push
     for (int e = 0; e < listed; ++e) {
         Entry known = Entry(entry(pushes, slot, e), entry(anchors, slot, e));
-        shift += settle(slot, entryOf(slot, e), known);
-        keeps += remembered(known);
+        Entry kept;
+        shift += settle(slot, entryOf(slot, e), known, kept);
+        keeps += kept.push.xyz;
     }
 #ifdef WALLS
-    for (int k = 0; k < MOST_WALLS; ++k) keeps += wallTexel(wallPushes, slot, k).xyz;
+    float now = 0.0;
+    for (int k = 0; k < MOST_WALLS; ++k) now += length(wallTexel(wallPushes, slot, k).xyz);
+    part = rememberedOfWalls(texelFetch(totals, ivec3(texelOf(slot), 0), 0).w, now);
+    for (int k = 0; k < MOST_WALLS; ++k) keeps += wallTexel(wallPushes, slot, k).xyz * part;
 #endif
     newImpulse = vec4(firstTotal(totals, slot), 0.0);
     newShift = vec4(shift, 0.0);
-    newKnown = vec4(keeps, 0.0);
+    newKnown = vec4(keeps, part);
 }

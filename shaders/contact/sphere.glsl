@@ -89,7 +89,10 @@ BodySphere bodySphereOf(int molecule, vec3 place)
     }
     // a rod has none about its axis
     float most = max(max(inertia[0][0], inertia[1][1]), max(inertia[2][2], 1e-30));
-    return BodySphere(place - centre, 1.0 / mass, inverse(inertia + mat3(1e-5 * most)));
+    vec3 arm = place - centre;
+    mat3 perInertia = inverse(inertia + mat3(1e-5 * most));
+    float trace = perInertia[0][0] + perInertia[1][1] + perInertia[2][2];
+    return BodySphere(arm, 1.0 / mass, perInertia, dot(arm, arm) * trace - dot(arm, perInertia * arm));
 }
 #endif
 
@@ -104,6 +107,15 @@ CellPlace cellPlaceOf(StateSphere own, int sphere, vec3 shift)
 #include "generated/colliders.glsl"
 #include "contact/walls.glsl"
 
+float gapTo(float distance)
+{
+#ifdef RIGID
+    return distance;
+#else
+    return max(distance, 0.0);  // the step has answered it
+#endif
+}
+
 // The colliders that the sphere may press on within the step, the nearest first.
 Wall[MOST_WALLS] nearWalls(StateSphere own)
 {
@@ -116,12 +128,12 @@ Wall[MOST_WALLS] nearWalls(StateSphere own)
     for (int k = 0; k < MOST_WALLS; ++k) {
         Touch t = survey(own.anchor, own.position, own.velocity, contactStep, skip).swept;
         if (t.which < 0 || t.distance >= reach) break;
-        near[k] = Wall(t.normal, max(t.distance, 0.0), t.velocity, materialOf(t).y);
+        near[k] = Wall(t.normal, gapTo(t.distance), t.velocity, materialOf(t).y);
         skip = ivec3(skip.y, t.which, -1);
     }
 #else
     vec4 surface = surfaceAt(own.anchor, own.position);
-    if (surface.w < reach) near[0] = Wall(surface.xyz, max(surface.w, 0.0), vec3(0.0), colliderParameters[0].y);
+    if (surface.w < reach) near[0] = Wall(surface.xyz, gapTo(surface.w), vec3(0.0), colliderParameters[0].y);
 #endif
     return near;
 }

@@ -32,6 +32,31 @@ void add(inout Total a, Total b, float part)
     a.load += b.load * part;
 }
 
+#if defined(RIGID) && defined(APPLIES)
+#include "contact/flags.glsl"
+
+#ifndef RESTING
+uniform UINTS cells;            // contact/records.glsl
+#endif
+uniform UINTS motions;
+uniform UINTS effectiveCounts;  // contact/shares.glsl
+
+// Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
+// reaches none that is not known as near (contact/sphere.glsl). `changed`: how contact has changed its velocity, m/s.
+bool holds(int sphere, vec3 changed, float stepTime)
+{
+    int slot = int(fetch(slots, sphere).x);
+#ifdef TEXTURES
+    uvec3 motion = fetch(motions, slot).xyz;
+#else
+    uvec3 motion = fetch(motions, sphere).xyz;
+#endif
+    float radius = uintBitsToFloat(fetch(cells, slot).w & ~RESTS);
+    return uintBitsToFloat(fetch(effectiveCounts, slot).x) > 0.0 &&
+           length(uintBitsToFloat(motion) + changed) * stepTime < 0.25 * radius;
+}
+#endif
+
 Total totalAt(int sphere)
 {
     int slot = int(fetch(slots, sphere).x);
@@ -70,7 +95,12 @@ Total changeOf(int molecule, int k)
         add(load, at, total.load);
     }
     BodySphere own = bodySphereAt(first + k);
-    return Total(motionAt(own, motion), motionAt(own, move), motionAt(own, load));
+#ifdef APPLIES
+    vec3 shift = wayAt(own, move);
+#else
+    vec3 shift = motionAt(own, move);
+#endif
+    return Total(motionAt(own, motion), shift, motionAt(own, load));
 }
 #else
 // Returns how its own contacts and those of the triangles around it change a vertex.

@@ -143,16 +143,28 @@ void meet(int slot)
     }
 }
 
+#if defined(BODIES) && defined(WALLS)
+#include "contact/walls.glsl"
+
+uniform WALL_RECORDS walls;  // by sphere
+uniform int rigidGroups;     // contact/respond.glsl
+#endif
+
 // Returns the slot's count.
 uint countFound(int slot)
 {
-    bool responds = found > 0;
+    uint counted = uint(found);
+#if defined(BODIES) && defined(WALLS)
+    bool isBody = (rigidGroups >> int(ownLabel >> 26u) & 1) != 0;
+    if (isBody && wallTexel(walls, sphereOf(slot), 0).w < 1e20) counted |= HELD;
+#endif
+    bool responds = counted != 0u;
 #if defined(REMEMBERS) && defined(TEXTURES)
-    responds = responds || (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & CONTACTS) > 0u;
+    responds = responds || (fetch(oldCounts, int(fetch(oldSlots, sphereOf(slot)).x)).x & ~RESPONDS) != 0u;
 #elif defined(REMEMBERS)
     responds = responds || texelFetch(known, sphereOf(slot)).w > 0.0;
 #endif
-    return uint(found) | (responds ? RESPONDS : 0u);
+    return counted | (responds ? RESPONDS : 0u);
 }
 
 #ifndef TEXTURES

@@ -42,6 +42,7 @@ void main()
     if (gl_GlobalInvocationID.x >= marked) return;
     int slot = int(markedSlots[gl_GlobalInvocationID.x]);
     if (!restsAt(slot)) return;
+    loadSphere(slot);
     int sphere = sphereOf(slot);
     vec3 keeps = vec3(0.0);
     int kept = 0;
@@ -53,7 +54,7 @@ void main()
             partners[to] = partners[at];
             oldPushes[to] = old.push;
             oldAnchors[to] = old.anchor;
-            keeps += remembered(old);
+            keeps += old.push.xyz;
             ++kept;
         }
     }
@@ -61,11 +62,11 @@ void main()
         int other = entryOf(slot, e);
         if (!restsAt(other) && kept < LIST) {
             int to = kept * listStride + sphere;
-            Entry now = mirrored(slot, other);
+            Entry now = remembered(mirrored(slot, other), sphereAt(other));
             partners[to] = uint(sphereOf(other));
             oldPushes[to] = now.push;
             oldAnchors[to] = now.anchor;
-            keeps += remembered(now);
+            keeps += now.push.xyz;
             ++kept;
         }
     }
@@ -76,5 +77,5 @@ void main()
     float weight = uintBitsToFloat(fetch(motions, sphere).w & ~FRESH);
     float otherwise = length(keeps - before) * weight;
     totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, otherwise > max(wakeSpeed, 0.25 * length(before) * weight) ? 1.0 : 0.0);
-    known[sphere].w = float(kept);
+    known[sphere].w = float(kept) + fract(known[sphere].w);
 }

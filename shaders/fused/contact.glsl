@@ -133,6 +133,9 @@ bool findContacts(int done)
 #ifdef LIFE
     counts = taken();
 #endif
+#ifdef HELD_BY_CONTACT
+    counts = counts && !heldByContact;
+#endif
 #ifdef JOINT_CONTACT
     beginAnswers();
     for (int k = 0; k < VERTICES; ++k) {

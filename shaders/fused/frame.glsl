@@ -49,7 +49,11 @@ vec3 gained[VERTICES];  // m/s, in a step from rest
 void loadLoads(int molecule)
 {
     for (int i = 0; i < VERTICES; ++i) {
-        load[i] = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i)).xyz;
+        vec4 of = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i));
+        load[i] = of.xyz;
+#ifdef HELD_BY_CONTACT
+        heldByContact = heldByContact && of.w < 0.0;
+#endif
     }
 }
 #endif

@@ -12,6 +12,8 @@ using glm::vec3;
 
 namespace {
 
+constexpr float frictionStep = 0.4f;  // shaders/physics/pair.glsl
+
 struct Motion {
     vec3 velocity;
     float weight;
@@ -204,30 +206,31 @@ struct ContactBaseline::Data {
         for (Active& active : piece.active) {
             const auto slot = size_t(active.slot);
             const Memory known = remembered(size_t(grid.sphereOf(active.slot)));
-            vec3 squares(0), mixed(0);
+            glm::mat3 sum(0);
+            int acting = 0;
             active.total = -active.acted;
             for (int c = active.begin; c < active.end; ++c) {
                 Contact& contact = piece.contacts[size_t(c)];
                 contact = contactOf(active.slot, piece.found[size_t(c)], known, step);
                 active.total += contact.impulse;
-                const vec3 n = contact.takesPart ? contact.normal : vec3(0);
-                squares += n * n;
-                mixed += vec3(n.y * n.z, n.z * n.x, n.x * n.y);
+                if (!contact.takesPart) continue;
+                const glm::mat3 along = glm::outerProduct(contact.normal, contact.normal);
+                if (motions[slot].weight > 0) sum += along + frictionStep * (glm::mat3(1) - along);
+                ++acting;
             }
-            counts[slot] = countOf(squares, mixed);
+            counts[slot] = acting < 2 ? 1 : countOf(sum);
             going[slot] = {motions[slot].velocity + active.total * motions[slot].weight, vec3(0)};
         }
     }
 
-    // A bound of the largest eigenvalue of the sum of n n^T, how many contacts push the same way, and a share
-    // of how many there are. Only of one contact is it 1.
-    static float countOf(const vec3& squares, const vec3& mixed) {
-        const vec3 m = glm::abs(mixed);
-        const vec3 rows = squares + vec3(m.y + m.z, m.z + m.x, m.x + m.y);
-        const float norm = std::sqrt(glm::dot(squares, squares) + 2 * glm::dot(m, m));
-        const float several = squares.x + squares.y + squares.z;
-        const float most = std::min(std::max(rows.x, std::max(rows.y, rows.z)), norm);
-        return 0.6f * std::max(most, several > 1.5f ? 1.01f : 1.0f) + 0.4f * std::max(several, 1.0f);
+    // Returns a bound of the largest eigenvalue: the eighth root of the trace of the eighth power, of which
+    // the fourth is symmetric.
+    static float countOf(const glm::mat3& sum) {
+        const glm::mat3 squared = sum * sum, fourth = squared * squared;
+        float trace = 0;
+        for (int i = 0; i < 3; ++i)
+            trace += glm::dot(fourth[i], fourth[i]);
+        return std::max(std::sqrt(std::sqrt(std::sqrt(trace))), 1.01f);
     }
 
     void share(Piece& piece) {
@@ -240,7 +243,7 @@ struct ContactBaseline::Data {
                 const bool alone = std::max(own, other) < 1.003f;
                 contact.mass = contact.takesPart ? 1 / weight : 0;
                 contact.stepAlong = contact.mass * (alone ? 1 : 1.3f);
-                contact.stepAcross = contact.mass * (alone ? 1 : 1.3f * 0.4f);
+                contact.stepAcross = contact.mass * (alone ? 1 : 1.3f * frictionStep);
             }
         }
     }
@@ -279,7 +282,7 @@ struct ContactBaseline::Data {
     }
 
     // Moves the spheres and keeps what their contacts remember.
-    void apply(int thread, Piece& piece) {
+    void apply(int thread, Piece& piece, const ContactBaselineStep& step) {
         piece.kept.clear();
         for (const Active& active : piece.active) {
             const auto slot = size_t(active.slot), sphere = size_t(grid.sphereOf(active.slot));
@@ -290,7 +293,7 @@ struct ContactBaseline::Data {
                 const Contact& contact = piece.contacts[size_t(c)];
                 if (!contact.takesPart) continue;
                 shift += settle(active.slot, contact);
-                piece.kept.push_back(keptOf(contact));
+                piece.kept.push_back(keptOf(active.slot, contact, step.restSpeed));
                 known.load += piece.kept.back().impulse;
             }
             known.end = int(piece.kept.size());
@@ -308,12 +311,14 @@ struct ContactBaseline::Data {
         return slip * (-contact.mass * std::min(1.0f, 0.002f * reach / std::max(glm::length(slip), 1e-30f)));
     }
 
-    Kept keptOf(const Contact& contact) const {
+    Kept keptOf(int slot, const Contact& contact, float restSpeed) const {
         const int other = grid.sphereOf(contact.other);
         if (contact.since > 0) return {other, false, vec3(0), contact.anchor};
-        // memory takes in a half of what an impulse has grown by
+        // memory takes in a tenth of what an impulse has grown by, and not much more than a weight
+        const float weight = motions[size_t(slot)].weight + motions[size_t(contact.other)].weight;
         const float now = glm::length(contact.impulse), grown = std::max(now - contact.held, 0.0f);
-        return {other, contact.sticks, contact.impulse * (1 - 0.5f * grown / std::max(now, 1e-30f)),
+        const float most = std::min(contact.held + 0.1f * grown, 1.5f * contact.held + restSpeed / weight);
+        return {other, contact.sticks, contact.impulse * std::min(1.0f, most / std::max(now, 1e-30f)),
                 contact.anchor};
     }
 };
@@ -338,12 +343,14 @@ void ContactBaseline::step(const ContactBaselineStep& step) {
     data.each([&](int thread, Piece& piece) { data.find(thread, piece); });
     data.each([&](int, Piece& piece) { data.prepare(piece, step); });
     data.each([&](int, Piece& piece) { data.share(piece); });
-    const auto momentum = [](int i) { return float(i) / float(i + 3); };
+    const auto momentum = [&step](int i) {
+        return i < step.iterations ? ContactPlan::momentum(i, step.iterations) : 0;
+    };
     for (int i = 0; i < step.iterations; ++i) {
         data.each([&](int, Piece& piece) { data.relax(piece, step.friction, momentum(i), momentum(i + 1)); });
         data.going.swap(data.newGoing);
     }
-    data.each([&](int thread, Piece& piece) { data.apply(thread, piece); });
+    data.each([&](int thread, Piece& piece) { data.apply(thread, piece, step); });
     ++data.number;
 }
 

@@ -125,6 +125,11 @@ ContactPlan::Exclusions ContactPlan::exclusions() const {
     return out;
 }
 
+float ContactPlan::momentum(int iteration, int iterations) {
+    const float most = std::min(0.8f, 1 - 1.6f / float(iterations));
+    return iteration == 0 ? 0 : std::clamp(0.8f - 0.05f * float(iteration - 7), 0.0f, most);
+}
+
 double ContactPlan::safeSpeed(double frameTime) const {
     double least = largestRadius;
     for (const ContactGroup& group : groups)

@@ -88,6 +88,11 @@ struct ContactPlan {
     static int substepsOf(int step, int steps, int substeps) {
         return substeps * (step + 1) / steps - substeps * step / steps;
     }
+    // How far an iteration of so many goes on beyond the last, as a part of what that changed. What a step
+    // has to find is mostly smooth, which momentum finds soonest; but few iterations overshoot with much of
+    // it, and as friction that slides makes the matrix of the problem unsymmetric, much of it for long
+    // diverges.
+    static float momentum(int iteration, int iterations);
     // m/s: spheres that move faster relative to one another may pass through each other between two contact
     // steps.
     double safeSpeed(double frameTime) const;

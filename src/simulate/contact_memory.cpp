@@ -5,10 +5,11 @@
 
 namespace shoal {
 
-void forgetLoneWalls(ContactMemory& memory) {
+bool isHeld(const ContactSlots& memory, size_t sphere) {
     const size_t walls = memory.wallPushes.size() / std::max(memory.counts.size(), size_t(1));
-    for (size_t i = 0; i < memory.wallPushes.size(); ++i)
-        if (memory.counts[i / walls] == 0) memory.wallPushes[i] = glm::vec4(0);
+    for (size_t i = walls * sphere; i < walls * (sphere + 1); ++i)
+        if (glm::vec3(memory.wallPushes[i]) != glm::vec3(0)) return true;
+    return false;
 }
 
 ContactMemory bySphere(const ContactSlots& from) {
@@ -19,7 +20,7 @@ ContactMemory bySphere(const ContactSlots& from) {
         sphereOf[from.slots[sphere]] = uint32_t(sphere);
     for (const uint32_t slot : from.slots) {
         out.counts.push_back(from.counts[slot]);
-        out.known.push_back(from.known[slot]);
+        out.known.emplace_back(glm::vec3(from.known[slot]), 0.0f);
         for (size_t e = 0; e < from.counts[slot]; ++e) {
             const size_t at = e * from.stride + slot;
             out.partners.push_back(sphereOf[from.lists[at]]);
@@ -31,7 +32,6 @@ ContactMemory bySphere(const ContactSlots& from) {
     out.calm.resize(spheres);
     out.walls = from.walls;
     out.wallPushes = from.wallPushes;
-    forgetLoneWalls(out);
     return out;
 }
 

@@ -18,17 +18,14 @@ struct ContactMemory {
     std::vector<uint32_t> partners;
     std::vector<glm::vec4> pushes, anchors;
     std::vector<glm::vec4> known;  // N s, of each sphere: the sum of what its contacts remember
-    // Each sphere has what that is on its vertex, m/s^2, and in w 1 where its molecule rests; and where its
-    // vertex was and for how long (shaders/contact/rest.comp).
+    // Each sphere has what that is on its vertex, m/s^2, and in w as shaders/contact/apply.comp has it; and
+    // where its vertex was and for how long (shaders/contact/rest.comp).
     std::vector<glm::vec4> loads, calm;
     // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s.
     std::vector<glm::vec4> walls, wallPushes;
 
     bool operator==(const ContactMemory&) const = default;
 };
-
-// A sphere that touches no other remembers no collider.
-void forgetLoneWalls(ContactMemory& memory);
 
 // Fragments keep it like this, in the order of slots: entry e of slot s at e * stride + s.
 struct ContactSlots {
@@ -38,6 +35,9 @@ struct ContactSlots {
     std::vector<glm::vec4> pushes, anchors, known;
     std::vector<glm::vec4> loads, walls, wallPushes;  // by sphere
 };
+
+// Whether a collider pushes on a sphere.
+bool isHeld(const ContactSlots& memory, size_t sphere);
 
 ContactMemory bySphere(const ContactSlots& from);
 // Slots are spheres. Of more contacts than `entries` a sphere keeps the first.

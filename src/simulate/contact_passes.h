@@ -45,8 +45,8 @@ class ContactPasses : public ContactResult {
         double restSpeed;  // m/s
         double substep;    // s
     };
-    // A slot's contacts in its count (shaders/contact/flags.glsl).
-    static constexpr uint32_t contactsMask = 0x7fffffffu;
+    // In a slot's count: its contacts, and that a collider may hold it (shaders/contact/flags.glsl).
+    static constexpr uint32_t contactsMask = 0x3fffffffu, heldFlag = 0x40000000u;
 
     // `fused`: the state is that of the fused step.
     ContactPasses(const Plan& plan, const Tables& tables, bool fused)
@@ -128,8 +128,9 @@ class ContactPasses : public ContactResult {
     void respond(State& state, const Times& times) {
         if (contact_->remembers()) {
             prepare(state, times);
-            for (int i = 0; i < contact_->settings.iterations; ++i)
-                relax(state, times, i == 0 ? 0.0f : float(i) / float(i + 3));  // Nesterov's, from rest
+            const int iterations = contact_->settings.iterations;
+            for (int i = 0; i < iterations; ++i)
+                relax(state, times, ContactPlan::momentum(i, iterations));
             settle(state, times);
         } else {
             runNearest(state, times);

@@ -56,7 +56,7 @@ void MoleculeContact::prepare(Buffers& state, const Times& times) {
     prepare_.storage("Anchors", 2, anchors_.buffer);
     prepare_.storage("Known", 3, known_.buffer);
     if (spreads_)
-        prepare_.storage("Normals", 4, normals_.buffer);
+        prepare_.storage("ContactSums", 4, contactSums_.buffer);
     else
         prepare_.storage("EffectiveCounts", 4, effectiveCounts_.buffer);
     dispatchTouching(prepare_);
@@ -71,8 +71,9 @@ void MoleculeContact::countEffective(Buffers& state) {
         Textures textures(program);
         textures.add("slots", slots_.texture)
             .add("counts", counts_.texture)
-            .add("normals", normals_.texture)
+            .add("contactSums", contactSums_.texture)
             .add("shapes", groups_[g].shapes.texture);
+        if (isRigid(g)) textures.add("bodies", bodies_.texture);
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
         dispatch(program, setSpheres(program, range));
@@ -151,7 +152,12 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
             .add("known", known_.texture)
             .add("oldRecords", part.record)
             .add("shapes", groups_[g].shapes.texture);
-        if (rigid) textures.add("bodies", bodies_.texture);
+        if (rigid) {
+            textures.add("bodies", bodies_.texture)
+                .add("motions", motions_.texture)
+                .add("effectiveCounts", effectiveCounts_.texture);
+            if (!rests()) textures.add("cells", cells_.texture);
+        }
         if (rests() && ofVertices) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         setTimes(program, times);
         program.set("substepTime", float(times.substep));

@@ -158,7 +158,7 @@ void MoleculeContact::makeMemory() {
     }
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
     if (!spreads_) return;
-    normals_ = array(2 * padded_, Texel::float4, "contact normals");
+    contactSums_ = array(2 * padded_, Texel::float4, "contact normals");
     motionsNow_ = array(2 * padded_, Texel::float4, "contact motions now");
 }
 
@@ -415,6 +415,10 @@ void MoleculeContact::find(const Program& program, const Times& times) {
         setTimes(program, times);
     }
     if (self_) textures.add("apart", apart_.texture).add("groupsOf", groupsOf_.texture);
+    if (walls_ && rigid_) {
+        setRigidGroups(program);
+        textures.add("walls", nearWalls_.texture);
+    }
     program.set("count", contact_->spheres);
     program.set("cell", float(contact_->cell));
     program.set("listStride", int(padded_));
@@ -532,7 +536,6 @@ ContactMemory MoleculeContact::memory() const {
     const auto wallPushes = readBack<glm::vec4>(wallPushes_.buffer, 2 * ContactPlan::mostWalls * spheres);
     for (size_t i = 0; i < wallPushes.size(); i += 2)
         out.wallPushes.push_back(wallPushes[i]);
-    forgetLoneWalls(out);
     return out;
 }
 
@@ -546,7 +549,7 @@ void MoleculeContact::remember(const ContactMemory& memory) {
     }
     ContactSlots in = bySlot(memory, padded_, size_t(listLength_));
     for (size_t sphere = 0; sphere < in.known.size(); ++sphere)
-        in.known[sphere].w = float(in.counts[sphere]);
+        in.known[sphere].w = float(in.counts[sphere]) + (isHeld(in, sphere) ? 0.5f : 0.0f);
     write(partners_.buffer, in.lists);
     write(oldPushes_.buffer, in.pushes);
     write(oldAnchors_.buffer, in.anchors);
@@ -582,7 +585,7 @@ size_t MoleculeContact::bytes() const {
     for (const Array* array :
          {&arrivals_,    &cellStarts_, &members_,         &pairs_,       &staggered_,  &apart_,
           &groupsOf_,    &materials_,  &spherePlaces_,    &sphereCells_, &motions_,    &cells_,
-          &places_,      &loads_,      &effectiveCounts_, &normals_,     &motionsNow_, &bodies_,
+          &places_,      &loads_,      &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_,
           &wallPushes_,  &slots_,      &counts_,          &lists_,       &anchors_,    &known_,
           &nearWalls_,   &partners_,   &oldPushes_,       &oldAnchors_,  &calm_,       &marks_,
           &markedSlots_, &awakeSlots_})

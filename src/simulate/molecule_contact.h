@@ -180,7 +180,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
 
     // The last step leaves these to this one, by sphere (shaders/contact/memory.glsl).
     Array partners_, oldPushes_, oldAnchors_, known_, wallPushes_;
-    Array loads_;  // m/s^2, and in w whether its molecule rests
+    Array loads_;  // m/s^2, and in w what shaders/contact/apply.comp says
     Array calm_;   // shaders/contact/rest.comp
     // Within a step.
     Array slots_, counts_, lists_, anchors_, nearWalls_;
@@ -188,7 +188,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
     std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before
     std::array<Array, 3> totals_;             // in turn: the last stage's, those before, the next
-    Array effectiveCounts_, normals_, motionsNow_, bodies_;
+    Array effectiveCounts_, contactSums_, motionsNow_, bodies_;
 };
 
 }  // namespace shoal

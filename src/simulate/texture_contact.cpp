@@ -86,7 +86,7 @@ void TextureContact::makeTextures(gpu::Context& context) {
             pushes = texture(Format::rgba32f, "wall pushes", ContactPlan::mostWalls);
     if (rigid_) bodies_ = texture(Format::rgba32f, "bodies", 3);
     if (!spreads_) return;
-    normals_ = texture(Format::rgba32f, "contact normals", 2);
+    contactSums_ = texture(Format::rgba32f, "contact normals", 2);
     motionsNow_ = texture(Format::rgba32f, "contact motions now", 2);
 }
 
@@ -317,6 +317,10 @@ void TextureContact::search(ContactState&, const Times& times) {
         find_.texture("motions", 10, motions_);
         setTimes(find_, times);
     }
+    if (walls_ && rigid_) {
+        setRigidGroups(find_);
+        find_.texture("walls", 11, nearWalls_[now_]);
+    }
     if (self_) {
         find_.texture("apart", 7, apart_);
         find_.texture("groupsOf", 8, groupsOf_);
@@ -388,12 +392,11 @@ ContactMemory TextureContact::memory() const {
     out.stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
     out.slots = readLayers<uint32_t>(slots_[now_]);
     out.slots.resize(spheres);
-    bool any = false;
-    for (const glm::uvec2& counts : readLayers<glm::uvec2>(counts_[now_])) {
-        out.counts.push_back(std::min(counts.x & contactsMask, uint32_t(longestList)));
-        any = any || out.counts.back() > 0;
-    }
-    if (!any) return {};
+    const auto counts = readLayers<glm::uvec2>(counts_[now_]);  // by slot
+    for (const glm::uvec2& count : counts)
+        out.counts.push_back(std::min(count.x & contactsMask, uint32_t(longestList)));
+    if (std::all_of(counts.begin(), counts.end(), [](const glm::uvec2& count) { return count.x == 0; }))
+        return {};
     const auto lists = readLayers<glm::uvec4>(lists_[now_]);
     for (int e = 0; e < longestList; ++e)
         for (size_t slot = 0; slot < out.stride; ++slot)
@@ -408,7 +411,8 @@ ContactMemory TextureContact::memory() const {
     const auto pushes = readLayers<glm::vec4>(wallPushes_[0]);  // by slot
     for (const uint32_t slot : out.slots)
         for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
-            out.wallPushes.push_back(pushes[k * out.stride + slot]);
+            out.wallPushes.push_back(counts[slot].x == 0 ? glm::vec4(0)
+                                                         : pushes[k * out.stride + slot] * out.known[slot].w);
     return bySphere(out);
 }
 
@@ -422,8 +426,8 @@ void TextureContact::remember(const ContactMemory& memory) {
     const size_t stride = size_t(counts_[now_].width()) * size_t(counts_[now_].height());
     const ContactSlots in = bySlot(memory, stride, size_t(longestList));
     std::vector<glm::uvec2> counts;
-    for (const uint32_t count : in.counts)
-        counts.emplace_back(count, 0);
+    for (size_t sphere = 0; sphere < spheres; ++sphere)
+        counts.emplace_back(in.counts[sphere] | (isHeld(in, sphere) ? heldFlag : 0), 0);
     std::vector<glm::uvec4> lists(stride * size_t(listLayers));
     for (size_t e = 0; e < size_t(longestList); ++e)
         for (size_t slot = 0; slot < stride; ++slot)
@@ -433,7 +437,10 @@ void TextureContact::remember(const ContactMemory& memory) {
     writeLayers(lists_[now_], lists);
     writeLayers(pushes_[0], in.pushes);
     writeLayers(anchors_[now_], in.anchors);
-    writeLayers(known_[now_], in.known);
+    std::vector<glm::vec4> known = in.known;
+    for (glm::vec4& of : known)
+        of.w = 1;
+    writeLayers(known_[now_], known);
     writeLayers(loads_, in.loads);
     if (!walls_ || in.walls.empty()) return;
     writeLayers(nearWalls_[now_], apart(in.walls, stride, spheres));
@@ -462,7 +469,7 @@ size_t TextureContact::bytes() const {
     const auto add = [&](const Texture& texture) { out += texture ? texture.bytes() : 0; };
     for (const Texture* texture : {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_,
                                    &cells_, &startsOf_, &materials_, &apart_, &groupsOf_, &loads_,
-                                   &effectiveCounts_, &normals_, &motionsNow_, &bodies_, &gains_})
+                                   &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_, &gains_})
         add(*texture);
     for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
         std::for_each(sides->begin(), sides->end(), add);

@@ -121,7 +121,7 @@ class TextureContact : public ContactPasses<ContactState> {
     gpu::Texture loads_;
     // In turn: the last stage's, those before, the next.
     std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
-    gpu::Texture effectiveCounts_, normals_, motionsNow_, bodies_, gains_;
+    gpu::Texture effectiveCounts_, contactSums_, motionsNow_, bodies_, gains_;
     gpu::Framebuffers targets_;
     gpu::VertexArray noAttributes_;
 };

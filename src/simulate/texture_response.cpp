@@ -80,7 +80,7 @@ void TextureContact::prepare(ContactState&, const Times& times) {
     addLayers(into, totals_[0], 0, 2);
     into.emplace_back(&known_[now_]);
     if (spreads_)
-        addLayers(into, normals_, 0, 2);
+        addLayers(into, contactSums_, 0, 2);
     else
         into.emplace_back(&effectiveCounts_);
     if (walls_) {
@@ -101,7 +101,8 @@ void TextureContact::countEffective() {
         program.texture("shapes", 1, groups_[g].shapes);
         program.texture("slots", 2, slots_[now_]);
         program.texture("counts", 3, counts_[now_]);
-        program.texture("normals", 4, normals_);
+        program.texture("contactSums", 4, contactSums_);
+        if (program.uses("bodies")) program.texture("bodies", 5, bodies_);
         program.set("count", contact_->spheres);
         drawAll({&effectiveCounts_});
     }
@@ -195,7 +196,9 @@ void TextureContact::apply(ContactState& state, const Times& times) {
         const ContactGroup& group = contact_->groups[g];
         const Program& program = useGroup(groups_[g].gains, g);
         bindGroup(program, state, g);
-        if (!groups_[g].many) program.texture("motions", 9, motions_);
+        if (program.uses("motions")) program.texture("motions", 9, motions_);
+        if (program.uses("effectiveCounts")) program.texture("effectiveCounts", 11, effectiveCounts_);
+        if (program.uses("cells")) program.texture("cells", 12, cells_);
         program.texture("known", 10, known_[now_]);
         program.set("stepTime", float(times.step));
         const int spheres = plan_->groups[group.group].count * group.spheresOf;

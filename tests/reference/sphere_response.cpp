@@ -66,20 +66,20 @@ void meet(Meeting& m, const Sphere& a, const Sphere& b, const SphereResponse& se
     m.speed = glm::dot(touch, u);
 }
 
-// Among how many contacts a sphere is shared, from the sum of n n^T of them.
-double sharedBy(const dmat3& sum) {
-    double rows = 0, squares = 0;
-    for (int i = 0; i < 3; ++i) {
-        double row = 0;
-        for (int k = 0; k < 3; ++k) {
-            row += std::abs(sum[i][k]);
-            squares += sum[i][k] * sum[i][k];
-        }
-        rows = std::max(rows, row);
-    }
-    const double number = sum[0][0] + sum[1][1] + sum[2][2];
-    const double eigenvalue = std::max(std::min(rows, std::sqrt(squares)), number > 1.5 ? 1.01 : 1.0);
-    return 0.6 * eigenvalue + 0.4 * std::max(number, 1.0);
+constexpr double ofFriction =
+    0.4;  // how far an iteration answers slip, as a part of how far it answers the rest
+
+// Among how many contacts a sphere is shared: a bound of the largest eigenvalue of the sum of
+// n n^T + ofFriction (1 - n n^T) of them, the eighth root of the trace of its eighth power.
+double sharedBy(const dmat3& sum, int number) {
+    const dmat3 fourth = sum * sum * sum * sum, eighth = fourth * fourth;
+    const double bound = std::pow(eighth[0][0] + eighth[1][1] + eighth[2][2], 1.0 / 8);
+    return number < 2 ? 1 : std::max(bound, 1.01);
+}
+
+double momentum(int iteration, int iterations) {
+    if (iteration == 0) return 0;
+    return std::clamp(0.8 - 0.05 * (iteration - 7), 0.0, std::min(0.8, 1 - 1.6 / iterations));
 }
 
 class Response {
@@ -94,7 +94,7 @@ class Response {
             prepare(a, b);
         share();
         for (int i = 0; i < settings_.iterations; ++i)
-            relax(double(i) / (i + 3));
+            relax(momentum(i, settings_.iterations));
         std::vector<dvec3> impulses = gather([](const Meeting& m) { return m.now.impulse; });
         const std::vector<dvec3> shifts = gather([this](const Meeting& m) { return shift(m); });
         for (size_t i = 0; i < spheres_->size(); ++i) {
@@ -144,12 +144,18 @@ class Response {
     }
 
     void share() {
-        std::vector<dmat3> normals(spheres_->size(), dmat3(0));
-        for (const Meeting& m : meetings_)
-            for (const size_t i : {m.a, m.b})
-                if (m.takesPart) normals[i] += glm::outerProduct(m.normal, m.normal);
+        std::vector<dmat3> sums(spheres_->size(), dmat3(0));
+        std::vector<int> numbers(spheres_->size(), 0);
+        for (const Meeting& m : meetings_) {
+            if (!m.takesPart) continue;
+            const dmat3 along = glm::outerProduct(m.normal, m.normal);
+            for (const size_t i : {m.a, m.b}) {
+                if (sphere(i).weight > 0) sums[i] += along + ofFriction * (dmat3(1) - along);
+                ++numbers[i];
+            }
+        }
         for (Meeting& m : meetings_) {
-            const double a = sharedBy(normals[m.a]), b = sharedBy(normals[m.b]);
+            const double a = sharedBy(sums[m.a], numbers[m.a]), b = sharedBy(sums[m.b], numbers[m.b]);
             m.weight = sphere(m.a).weight * a + sphere(m.b).weight * b;
             m.alone = std::max(a, b) < 1.003;
         }
@@ -182,7 +188,7 @@ class Response {
 
     // u, moved: m/s and m, of the first sphere relative to the second, as all contacts make it.
     void improve(Meeting& m, const dvec3& u, const dvec3& moved) const {
-        constexpr double larger = 1.3, ofFriction = 0.4, fastest = 1;  // the last in m/s
+        constexpr double larger = 1.3, fastest = 1;  // the last in m/s
         const double along = glm::dot(u, m.normal);
         const double normalStep = m.alone ? 1 : larger, acrossStep = m.alone ? 1 : larger * ofFriction;
         const dvec3 wanted = m.now.impulse + m.normal * (target(m) - along) * (normalStep / m.weight) -
@@ -213,8 +219,11 @@ class Response {
                 memory_->contacts[{int(m.a), int(m.b)}] = {dvec3(0), m.anchor, m.sticks && !m.impact};
             const double length = glm::length(m.now.impulse);
             if (m.impact || length == 0) continue;
-            // of what it has grown by, a half
-            entry.impulse = m.now.impulse * (length > m.held ? (length + m.held) / 2 / length : 1);
+            // of what it has grown by, a tenth; and not much more than a weight
+            const double weight = sphere(m.a).weight + sphere(m.b).weight;
+            const double most = std::min(m.held + 0.1 * std::max(length - m.held, 0.0),
+                                         1.5 * m.held + settings_.restSpeed / weight);
+            entry.impulse = m.now.impulse * std::min(1.0, most / length);
         }
         memory_->loads.assign(spheres_->size(), dvec3(0));
         for (const auto& [pair, entry] : memory_->contacts) {
