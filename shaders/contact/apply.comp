@@ -12,7 +12,7 @@ uniform float restSpeed;    // m/s
 uniform float substepTime;  // s
 
 layout(std430, binding = 0) buffer State { float state[]; };
-// m/s^2, by sphere; w below 0: contact alone holds it off the colliders; above 0: its molecule rests.
+// By sphere: loadOf(); in w above 0: its molecule rests.
 layout(std430, binding = 1) writeonly buffer Loads { vec4 loads[]; };
 
 void change(int molecule, int vertex, Total by)
@@ -28,11 +28,7 @@ void change(int molecule, int vertex, Total by)
     }
 #ifdef REMEMBERS
     int sphere = firstSphere + molecule * SPHERES + vertex;
-    bool alone = false;
-#ifdef RIGID
-    alone = holds(sphere, by.impulse, stepTime);
-#endif
-    loads[sphere] = vec4(by.load / stepTime, alone ? -1.0 : 0.0);
+    loads[sphere] = loadOf(sphere, by, stepTime);
 #endif
 #ifdef HISTORY
     // A slow vertex goes on as if it had moved so before; any other begins anew (fused/bdf2.glsl).

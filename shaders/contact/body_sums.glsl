@@ -1,5 +1,6 @@
 // Impulses on the spheres of rigid bodies add up here to the motions of the bodies.
 #include "contact/body.glsl"
+#include "physics/pair.glsl"
 
 #ifdef TEXTURES
 uniform sampler2DArray bodies;  // by sphere, three layers
@@ -13,8 +14,7 @@ BodySphere bodySphereAt(int sphere)
 {
     vec4 arm = bodyTexel(sphere, 0);
     vec4 d = bodyTexel(sphere, 1);
-    vec3 o = bodyTexel(sphere, 2).xyz;
-    return BodySphere(arm.xyz, arm.w, mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z), d.w);
+    return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodyTexel(sphere, 2).xyz), d.w);
 }
 
 void add(inout BodyMotion motion, BodySphere at, vec3 impulse)

@@ -35,11 +35,7 @@ void main()
     bool any = by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0);
     newGains[0] = vec4(by.impulse, any ? 1.0 : 0.0);
     newGains[1] = vec4(by.shift, 0.0);
-    bool alone = false;
-#ifdef RIGID
-    alone = any && holds(sphere, by.impulse, stepTime);
-#endif
-    newLoad = vec4(by.load / stepTime, alone ? -1.0 : 0.0);
+    newLoad = any ? loadOf(sphere, by, stepTime) : vec4(0.0);
 #else
     int slot = int(fetch(slots, sphere).x);
     bool any = fetch(counts, slot).x != 0u;

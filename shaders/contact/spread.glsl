@@ -32,7 +32,8 @@ void add(inout Total a, Total b, float part)
     a.load += b.load * part;
 }
 
-#if defined(RIGID) && defined(APPLIES)
+#ifdef APPLIES
+#ifdef RIGID
 #include "contact/flags.glsl"
 
 #ifndef RESTING
@@ -54,6 +55,17 @@ bool holds(int sphere, vec3 changed, float stepTime)
     float radius = uintBitsToFloat(fetch(cells, slot).w & ~RESTS);
     return uintBitsToFloat(fetch(effectiveCounts, slot).x) > 0.0 &&
            length(uintBitsToFloat(motion) + changed) * stepTime < 0.25 * radius;
+}
+#endif
+
+// Returns what acts on the vertex of a sphere over the next step, m/s^2; in w below 0: contact alone holds it off the colliders.
+vec4 loadOf(int sphere, Total by, float stepTime)
+{
+    float alone = 0.0;
+#ifdef RIGID
+    if (holds(sphere, by.impulse, stepTime)) alone = -1.0;
+#endif
+    return vec4(by.load / stepTime, alone);
 }
 #endif
 

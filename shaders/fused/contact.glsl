@@ -133,7 +133,7 @@ bool findContacts(int done)
 #ifdef LIFE
     counts = taken();
 #endif
-#ifdef HELD_BY_CONTACT
+#if defined(RIGID_IMPACT) && defined(REMEMBERS) && !defined(TOUCH_COUNTS)
     counts = counts && !heldByContact;
 #endif
 #ifdef JOINT_CONTACT

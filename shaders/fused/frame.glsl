@@ -51,7 +51,7 @@ void loadLoads(int molecule)
     for (int i = 0; i < VERTICES; ++i) {
         vec4 of = fetch(contactLoads, firstSphere + molecule * SPHERES + vertexOf(i));
         load[i] = of.xyz;
-#ifdef HELD_BY_CONTACT
+#ifdef RIGID_IMPACT
         heldByContact = heldByContact && of.w < 0.0;
 #endif
     }

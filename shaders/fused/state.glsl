@@ -111,8 +111,7 @@ vec3 pull[VERTICES];  // m/s^2, the acceleration of the forces and of steering a
 uniform FLOATS contactLoads;  // m/s^2, by sphere; w as contact/apply.comp has it
 uniform int firstSphere;      // of the part
 vec3 load[VERTICES];          // m/s^2, of what contacts with other molecules remember (contact/apply.comp)
-#if defined(RIGID_IMPACT) && !defined(TOUCH_COUNTS)
-#define HELD_BY_CONTACT
+#ifdef RIGID_IMPACT
 bool heldByContact = true;    // contact with other molecules answers the colliders as well
 #endif
 #endif

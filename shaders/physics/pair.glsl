@@ -89,11 +89,15 @@ ContactSum bothSums(ContactSum a, ContactSum b)
     return ContactSum(a.diagonal + b.diagonal, a.beside + b.beside, a.number + b.number);
 }
 
+// A symmetric matrix from its diagonal and what lies beside it (yz, xz, xy).
+mat3 symmetric(vec3 d, vec3 o)
+{
+    return mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z);
+}
+
 mat3 matrixOf(ContactSum sum)
 {
-    vec3 d = sum.diagonal;
-    vec3 o = sum.beside;
-    return mat3(d.x, o.z, o.y, o.z, d.y, o.x, o.y, o.x, d.z);
+    return symmetric(sum.diagonal, sum.beside);
 }
 
 // Returns the trace of a b.

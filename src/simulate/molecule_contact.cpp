@@ -158,7 +158,7 @@ void MoleculeContact::makeMemory() {
     }
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
     if (!spreads_) return;
-    contactSums_ = array(2 * padded_, Texel::float4, "contact normals");
+    contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
     motionsNow_ = array(2 * padded_, Texel::float4, "contact motions now");
 }
 

@@ -86,7 +86,7 @@ void TextureContact::makeTextures(gpu::Context& context) {
             pushes = texture(Format::rgba32f, "wall pushes", ContactPlan::mostWalls);
     if (rigid_) bodies_ = texture(Format::rgba32f, "bodies", 3);
     if (!spreads_) return;
-    contactSums_ = texture(Format::rgba32f, "contact normals", 2);
+    contactSums_ = texture(Format::rgba32f, "contact sums", 2);
     motionsNow_ = texture(Format::rgba32f, "contact motions now", 2);
 }
 
