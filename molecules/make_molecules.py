@@ -268,8 +268,8 @@ def berry():
 
 
 def snow():
-    write("snow", "A grain of snow, drawn as a sphere 3.4 cm across: a little wider than the contact radius of 15 mm that suits it.", {"mass": 0.002}, [vertex((0, 0, 0))],
-          material={"color": [0.86, 0.88, 0.92], "secondColor": [0.8, 0.84, 0.9], "roughness": 1, "pointSize": 0.034})
+    write("snow", "A grain of snow, drawn as a sphere 2.3 cm across: a little wider than the contact radius of 10 mm that suits it.", {"mass": 0.0006}, [vertex((0, 0, 0))],
+          material={"color": [0.86, 0.88, 0.92], "secondColor": [0.8, 0.84, 0.9], "roughness": 1, "translucency": 0.8, "pointSize": 0.023})
 
 
 def kelp():

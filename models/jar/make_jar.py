@@ -1,14 +1,12 @@
-"""Makes jar.obj, glass.json and table.obj: an open glass jar, 0.27 m tall, for sweets to be poured into, on a table.
+"""Makes jar.obj, jar.mtl and table.obj: an open glass jar, 0.27 m tall, for sweets to be poured into, on a table.
 
 A profile of (radius, height), made smooth by a Catmull-Rom spline, is turned about the y axis. jar.obj is the whole
-wall, a closed shell, 8 mm thick: what molecules touch, as a distance field. glass.json is a molecule with the same
-shape, a sixteenth of its round, every vertex pinned: what is drawn, sixteen times, because materials of molecules can be
-blended and those of models cannot. table.obj are planks, their top at y = 0.
+wall, a closed shell, 8 mm thick: what is drawn, of the glass in jar.mtl, and what molecules touch, as a distance field.
+table.obj are planks, their top at y = 0.
 
 Data: metres, Y up, the jar's foot at y = 0, its axis x = z = 0. Same bytes every run.
 """
 
-import json
 import math
 import pathlib
 import sys
@@ -19,12 +17,19 @@ sys.path.insert(0, str(HERE.parent))
 from obj_writer import ObjWriter  # noqa: E402
 from vectors import add, cross, mix, noise, normalize, scale, smooth, smoothstep, sub  # noqa: E402
 
-SIDES = 64
-PIECES = 16  # of the round, of glass
+SIDES = 96
 PLANKS, PLANK = 8, 0.13  # m wide
 TABLE_LENGTH, TABLE_COLUMNS = 1.6, 40
 TABLE_FRONT = 0.45  # m, its edge towards the camera
-GLASS = (0.80, 0.88, 0.86)
+# What it lets through where it is seen head on, how much it scatters, and its index of refraction.
+GLASS = """# Glass, by make_jar.py. MIT licence.
+newmtl glass
+Kd 0.92 0.97 0.96
+Ks 1 1 1
+Ns 800
+d 0.01
+Ni 1.5
+"""
 
 # From the axis at the bottom, up the outside, over the rim and down the inside to the axis.
 PROFILE = [(0.0, 0.0), (0.06, 0.0), (0.098, 0.002), (0.112, 0.010), (0.118, 0.028), (0.120, 0.06), (0.120, 0.11),
@@ -34,27 +39,24 @@ PROFILE = [(0.0, 0.0), (0.06, 0.0), (0.098, 0.002), (0.112, 0.010), (0.118, 0.02
            (0.112, 0.11), (0.112, 0.06), (0.110, 0.032), (0.103, 0.018), (0.09, 0.0125), (0.05, 0.012), (0.0, 0.012)]
 
 
-def lathe(profile, sides, columns):
-    """Positions and triangles of as many columns of a shell of so many sides; all of them close it. The first and the last
-    point of the profile are on the axis."""
+def lathe(profile, sides):
+    """Positions and triangles of a closed shell. The first and the last point of the profile are on the axis."""
     rings = profile[1:-1]
-    closed = columns == sides
-    corners = columns if closed else columns + 1
     positions = [(0.0, profile[0][1], 0.0)]
     for r, y in rings:
-        for side in range(corners):
+        for side in range(sides):
             angle = 2 * math.pi * side / sides
             positions.append((r * math.cos(angle), y, -r * math.sin(angle)))
     positions.append((0.0, profile[-1][1], 0.0))
     triangles = []
     last = len(positions) - 1
-    for side in range(columns):
-        after = (side + 1) % corners
+    for side in range(sides):
+        after = (side + 1) % sides
         triangles.append((0, 1 + after, 1 + side))
         for ring in range(len(rings) - 1):
-            a, b = 1 + ring * corners, 1 + (ring + 1) * corners
+            a, b = 1 + ring * sides, 1 + (ring + 1) * sides
             triangles += [(a + side, a + after, b + after), (a + side, b + after, b + side)]
-        top = 1 + (len(rings) - 1) * corners
+        top = 1 + (len(rings) - 1) * sides
         triangles.append((last, top + side, top + after))
     return positions, triangles
 
@@ -69,14 +71,17 @@ def normals_of(positions, triangles):
 
 
 def write_mesh():
-    positions, triangles = lathe(smooth(PROFILE, 2), SIDES, SIDES)
+    positions, triangles = lathe(smooth(PROFILE, 4), SIDES)
     writer = ObjWriter(["A glass jar, by make_jar.py. Metres, Y up; one closed shell. MIT licence."])
+    writer.lines.append("mtllib jar.mtl")
     writer.begin_object("jar")
-    numbers = [writer.add_vertex(p, n, GLASS) for p, n in zip(positions, normals_of(positions, triangles))]
+    writer.lines.append("usemtl glass")
+    numbers = [writer.add_vertex(p, n, (1, 1, 1)) for p, n in zip(positions, normals_of(positions, triangles))]
     uv = writer.uv(0, 0)
     for t in triangles:
         writer.add_triangle(*((numbers[v], uv) for v in t))
     writer.save(HERE / "jar.obj")
+    (HERE / "jar.mtl").write_text(GLASS)
     print("jar.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
@@ -116,29 +121,6 @@ def write_table():
     print("table.obj: %d vertices, %d triangles" % (writer.vertex_count, writer.triangle_count))
 
 
-def write_glass():
-    positions, triangles = lathe(PROFILE, SIDES, SIDES // PIECES)
-    rows = ",\n    ".join(json.dumps({"position": [round(c, 5) + 0.0 for c in p], "pinned": True}) for p in positions)
-    faces = ",\n    ".join(json.dumps(t) for t in triangles)
-    text = """{
-  "format": "shoal-molecule-1",
-  "name": "glass",
-  "comment": "A sixteenth of the jar as it is drawn, by make_jar.py. Every vertex is pinned.",
-  "defaults": {"mass": 0.001},
-  "vertices": [
-    %s
-  ],
-  "triangles": [
-    %s
-  ],
-  "material": {"color": [0.75, 0.9, 0.9], "roughness": 0.25, "blend": "alpha", "opacity": 0.07}
-}
-""" % (rows, faces)
-    (HERE / "glass.json").write_text(text)
-    print("glass.json: %d vertices, %d triangles" % (len(positions), len(triangles)))
-
-
 if __name__ == "__main__":
     write_mesh()
-    write_glass()
     write_table()

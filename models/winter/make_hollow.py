@@ -4,7 +4,8 @@ Ledges and steep faces rise around a floor, high at the back and low towards the
 ledges keep what falls on them, faces let it slide, the floor gathers it. A function of (x, z), so that the mesh is a
 height field: 128 x 128 squares over [-2, 2] x [-2, 2] m.
 
-Data: metres, Y up; the floor is near y = 0. Vertex colours in sRGB: rock, heath on what is flat. Same bytes every run.
+Data: metres, Y up; the floor is near y = 0. Vertex colours in sRGB: rock, and old snow on what is flat, with heath at its
+rims. Same bytes every run.
 """
 
 import math
@@ -54,7 +55,10 @@ def ground_colour(x, z):
     layer = noise((0.8 * x, 9 * height(x, z), 0.8 * z), 8)
     rock = mix((0.36, 0.33, 0.32), (0.50, 0.46, 0.42), 0.5 + 0.5 * layer)
     heath = mix((0.33, 0.27, 0.17), (0.40, 0.38, 0.20), 0.5 + 0.5 * noise((4 * x, 1.5, 4 * z), 9))
-    return scale(mix(heath, rock, smoothstep(0.08, 0.3, steep)), 1 + 0.06 * noise((13 * x, 3.5, 13 * z), 10))
+    bare = scale(mix(heath, rock, smoothstep(0.08, 0.3, steep)), 1 + 0.06 * noise((13 * x, 3.5, 13 * z), 10))
+    edge = 0.06 * noise((3 * x, 6.5, 3 * z), 11) + 0.04 * noise((9 * x, 6.5, 9 * z), 12)
+    snow = scale((0.90, 0.92, 0.95), 1 + 0.02 * noise((20 * x, 7.5, 20 * z), 13))
+    return mix(snow, bare, smoothstep(0.16, 0.24, steep + edge))
 
 
 def main():

@@ -62,6 +62,32 @@ float gradientNoise(vec3 p, uint first, uint seed)
     return sum;
 }
 
+// The slope of gradientNoise(p, 0u, seed) along x, y and z, which is exact, and in w its value.
+vec4 gradientNoiseSlope(vec3 p, uint seed)
+{
+    vec3 corner = floor(p);
+    vec3 f = p - corner;
+    ivec3 cell = ivec3(corner);
+    vec3 w1 = vec3(fade(f.x), fade(f.y), fade(f.z));
+    vec3 s1 = vec3(fadeSlope(f.x), fadeSlope(f.y), fadeSlope(f.z));
+    vec4 sum = vec4(0.0f);
+    for (int i = 0; i < 8; ++i) {
+        ivec3 side = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        uvec4 hash = pcg4d(uvec4(uint(cell.x + side.x), uint(cell.y + side.y), uint(cell.z + side.z), seed));
+        vec4 gradient = gradientOf(hash.x);
+        vec3 d = f - vec3(side);
+        float wx = side.x == 1 ? w1.x : 1.0f - w1.x;
+        float wy = side.y == 1 ? w1.y : 1.0f - w1.y;
+        float wz = side.z == 1 ? w1.z : 1.0f - w1.z;
+        float value = gradient.x * d.x + gradient.y * d.y + gradient.z * d.z;
+        float weight = wx * wy * wz;
+        sum += vec4((side.x == 1 ? s1.x : -s1.x) * wy * wz * value + weight * gradient.x,
+                    wx * (side.y == 1 ? s1.y : -s1.y) * wz * value + weight * gradient.y,
+                    wx * wy * (side.z == 1 ? s1.z : -s1.z) * value + weight * gradient.z, weight * value);
+    }
+    return sum;
+}
+
 // Curl of a vector potential psi(p, t) of three 4D gradient noises; component k of psi takes its gradients
 // from word k of pcg4d(cell.x, cell.y, cell.z, cell.w + 0x9e3779b9 seed). Derivatives are exact. t counts from lattice
 // cell `first`.

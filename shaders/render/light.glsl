@@ -111,6 +111,13 @@ float lobe(vec3 normal, vec3 toEye, float roughness)
     return a * a / (4.0 * d * d * lh * lh * (roughness + 0.5));
 }
 
+// The normal of the side that is seen, of a triangle that is drawn from both. A smooth normal may lean away from the eye
+// at a rim: the triangle's own, `flatNormal`, of either sign, says which side it is.
+vec3 towardsEye(vec3 normal, vec3 place, vec3 flatNormal)
+{
+    return dot(normal, flatNormal) * dot(flatNormal, place) > 0.0 ? -normal : normal;
+}
+
 // Neither translucent nor a mirror.
 Surface surfaceOf(vec3 place, vec3 normal, vec3 albedo, float roughness)
 {

@@ -35,7 +35,7 @@ void main()
     // A skin's normals are smooth: at its rim they lean away from the eye, and are right all the same.
     if (!gl_FrontFacing) n = -n;
 #else
-    if (dot(n, place) > 0.0) n = -n;
+    n = towardsEye(n, place, flatNormal);
 #endif
 
     Surface s = surfaceOf(place, n, albedo, roughness);

@@ -18,6 +18,7 @@ uniform mat3 viewToScene;  // columns: right, up, towards the eye
 uniform float pointSize;
 uniform float roughness;
 uniform float metallic;
+uniform float translucency;
 
 out vec4 fragment;
 
@@ -28,9 +29,11 @@ void main()
     float edge = sqrt(r2);
     float covered = clamp((1.0 - edge) / max(fwidth(edge), 1e-4) + 0.5, 0.0, 1.0);
     if (covered <= 0.0) discard;
-    vec3 n = viewToScene * vec3(at, sqrt(max(1.0 - r2, 0.0)));
+    vec3 n = normalize(viewToScene * vec3(at, sqrt(max(1.0 - r2, 0.0))));
+    // Light spreads within the ball: it is shaded as if less of it faced away from the sun.
+    n = normalize(mix(n, sunDirection, 0.6 * translucency));
 
-    Surface s = surfaceOf(middle + n * (0.5 * pointSize), normalize(n), color, roughness);
+    Surface s = surfaceOf(middle + n * (0.5 * pointSize), n, color, roughness);
     s.metallic = metallic;
     fragment = blended(squeeze(withHaze(shade(s), s.place)), color, covered);
 }

@@ -1,9 +1,13 @@
-// Draws the background, behind everything else. Variant: WATER.
+// Draws the background, behind everything else. Variants: WATER, CLOUDS.
 
 #include "render/sky.glsl"
 #ifdef WATER
 #include "water/medium.glsl"
 #include "water/surface.glsl"
+#endif
+#ifdef CLOUDS
+#include "render/sky_map.glsl"
+uniform sampler2D clouds;  // render/clouds.frag
 #endif
 #include "render/tone.glsl"
 
@@ -18,6 +22,15 @@ void main()
 {
     vec3 direction = normalize(viewToScene * vec3((screen * 2.0 - 1.0) * tangents, -1.0));
     vec3 sky = skyGradient(direction) + sunGlow(direction) + sunDisc(direction);
+#ifdef CLOUDS
+    if (direction.y > 0.0) {
+        vec4 cloud = textureLod(clouds, onSkyMap(direction), 0.0);
+        // Lit by the sun above and by the sky below, and through its rim where the sun is behind it.
+        vec3 white = sunColor * (0.3 * cloud.y + 0.25 * cloud.y * pow(max(dot(direction, sunDirection), 0.0), 8.0)) +
+                     0.75 * mix(skyHorizon, skyZenith, 0.35);
+        sky = mix(sky, mix(hazeColor(direction), white, smoothstep(0.0, 0.25, direction.y)), 0.95 * cloud.x);
+    }
+#endif
     // Below the horizon: haze, then ground.
     vec3 ground = mix(hazeColor(direction), skyGround, smoothstep(0.0, 0.35, -direction.y));
 #ifdef WATER

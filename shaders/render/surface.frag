@@ -1,8 +1,8 @@
 // Host models, terrain and colliders. Variants: SHADOWS; PLANE, which has no end and fades into the
 // haze instead; COLOR_IMAGE, NORMAL_IMAGE, ROUGHNESS_IMAGE, EMISSIVE_IMAGE, of the material (geometry/mesh.h), and
-// IMAGES with any of them; CUT, out of the colour image by its alpha.
+// IMAGES with any of them; CUT, out of the colour image by its alpha; REFRACTS, of what is blended.
 
-#include "physics/noise.glsl"
+#include "render/grain.glsl"
 #include "render/light.glsl"
 #ifdef CUT
 #include "render/alpha_cut.glsl"
@@ -19,6 +19,9 @@ uniform sampler2D roughnessImage;  // g roughness, b metallic
 #ifdef EMISSIVE_IMAGE
 uniform sampler2D emissiveImage;
 #endif
+#ifdef REFRACTS
+#include "render/glass.glsl"
+#endif
 #ifdef IMAGES
 in vec2 uv;
 #endif
@@ -33,6 +36,8 @@ uniform vec3 emissive;
 uniform float roughness;
 uniform float metallic;
 uniform float detail;  // strength of the procedural grain, 0 for none
+uniform bool stony;    // whether the grain is stone's
+uniform mat3 meshTurn;
 #ifdef PLANE
 uniform float planeRadius;  // m, where the plane has faded away
 uniform vec3 planeAlong;    // two unit directions within the plane
@@ -42,27 +47,6 @@ uniform bool grid;          // lines every metre
 #endif
 
 out vec4 fragment;
-
-// One octave of grain, which fades before it is finer than a pixel.
-float grain(vec3 p, vec3 stretch, float wavelength, float footprint, uint seed)
-{
-    float weight = 1.0 - smoothstep(0.25, 0.8, footprint / wavelength);
-    if (weight <= 0.0) return 0.0;
-    return weight * gradientNoise(p * stretch / wavelength, 0u, seed);
-}
-
-// The normal of a surface raised by `height` along n, without texture coordinates
-// [Mikkelsen 2010].
-vec3 bumped(vec3 n, vec3 p, float height)
-{
-    vec3 dx = dFdx(p);
-    vec3 dy = dFdy(p);
-    vec3 r1 = cross(dy, n);
-    vec3 r2 = cross(n, dx);
-    float det = dot(dx, r1);
-    vec3 gradient = sign(det) * (dFdx(height) * r1 + dFdy(height) * r2);
-    return normalize(max(abs(det), 1e-12) * n - gradient);
-}
 
 #ifdef NORMAL_IMAGE
 // The normal that an image says, in the frame of its coordinates, which follows from how they change along the
@@ -84,8 +68,7 @@ vec3 mapped(vec3 n, vec3 p, vec2 at)
 
 void main()
 {
-    vec3 n = normalize(normal);
-    if (dot(n, place) > 0.0) n = -n;
+    vec3 n = towardsEye(normalize(normal), place, cross(dFdx(place), dFdy(place)));
     vec3 albedo = color * meshColor.rgb;
     float covered = meshColor.a;
 #ifdef COLOR_IMAGE
@@ -100,24 +83,17 @@ void main()
     float hollow = 1.0;
     vec3 along = n;
 
-    // Between the long and the short side of a pixel's footprint: grass seen at a low angle keeps its grain.
-    float across = length(dFdx(local)), down = length(dFdy(local));
-    float footprint = pow(max(across, down), 0.75) * pow(min(across, down), 0.25);
     if (detail > 0.0) {
-        // Ground that faces up is mottled like grass and soil; what stands upright is furrowed like bark.
-        float level = smoothstep(0.55, 0.8, n.y);
-        vec3 stretch = mix(vec3(1.0, 0.13, 1.0), vec3(1.0), level);
-        float patches = grain(local, vec3(1.0), 2.6, footprint, 11u);
-        float tufts = grain(local, stretch, mix(0.09, 0.34, level), footprint, 12u);
-        float blades = grain(local, stretch, mix(0.035, 0.055, level), footprint, 13u);
-        float fine = grain(local, stretch, mix(0.015, 0.018, level), footprint, 14u);
-        float furrows = tufts * 0.7 + blades * 0.7 + fine * 0.35;
-        float tone = mix(furrows * 0.9, patches * 0.3 + tufts * 0.55 + blades * 0.9 + fine * 0.8, level);
-        albedo *= max(1.0 + detail * tone, 0.25);
-        albedo *= mix(vec3(1.0), vec3(1.0 + 0.25 * patches, 1.0 + 0.05 * tufts, 1.0 - 0.3 * patches), detail * level);
-        float height = mix(furrows * 0.012, tufts * 0.06 + blades * 0.028 + fine * 0.01, level);
-        along = bumped(n, local, detail * height);
-        hollow = clamp(1.0 + detail * 0.7 * mix(furrows, tufts * 0.5 + blades, level), 0.3, 1.0);
+        // Nearly the long side of a pixel's footprint: more of the short one would leave stripes.
+        float across = length(dFdx(local)), down = length(dFdy(local));
+        float footprint = pow(max(across, down), 0.85) * pow(min(across, down), 0.15);
+        Grain grain = stony ? stoneGrain(local, footprint)
+                            : earthGrain(local, smoothstep(0.55, 0.8, n.y), footprint);
+        albedo *= max(1.0 + detail * grain.tone, 0.25) * mix(vec3(1.0), grain.tint, detail);
+        // The normal of a surface that is raised along n, whose slope is the relief's within the surface.
+        vec3 slope = meshTurn * grain.slope;
+        along = normalize(n - detail * (slope - n * dot(n, slope)));
+        hollow = clamp(mix(1.0, grain.openness, detail), 0.3, 1.0);
     }
     float faded = 0.0;
 #ifdef PLANE
@@ -156,6 +132,14 @@ void main()
     s.metallic = metal;
     s.normal = along;
     s.openness *= hollow;
-    vec3 radiance = withHaze(shade(s) + sent, place);
+    vec3 radiance = shade(s) + sent;
+#ifdef REFRACTS
+    // Opacity is the share of light that the glass itself scatters.
+    vec4 glass = throughGlass(s, albedo);
+    vec3 both = covered * radiance + (1.0 - covered) * glass.a * glass.rgb;
+    covered += (1.0 - covered) * glass.a;
+    radiance = both / max(covered, 1e-3);
+#endif
+    radiance = withHaze(radiance, place);
     fragment = vec4(squeeze(mix(radiance, farColor(normalize(place)), faded)), covered);
 }

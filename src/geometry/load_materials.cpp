@@ -75,6 +75,7 @@ class MaterialReader {
             readColor(out);
             readSurface(out);
             readAlpha(out);
+            readRefraction(out);
             tellDropped();
         }
         mesh_.materials.push_back(out);
@@ -136,6 +137,19 @@ class MaterialReader {
             out.roughnessImage = imageOf("roughness", {aiTextureType_UNKNOWN});
         out.normalImage = imageOf("normal", {aiTextureType_NORMAL_CAMERA, aiTextureType_NORMALS});
         out.normalScale = number(AI_MATKEY_GLTF_TEXTURE_SCALE(aiTextureType_NORMALS, 0)).value_or(1);
+    }
+
+    // Glass is blended. A format that has transmission says no index with it; glTF's is 1.5 then.
+    void readRefraction(SurfaceMaterial& out) {
+        if (const double through = share(AI_MATKEY_TRANSMISSION_FACTOR).value_or(0); through > 0) {
+            out.alpha = SurfaceMaterial::Alpha::blend;
+            out.color.a *= 1 - through;
+            out.refraction = 1.5;
+        }
+        if (out.alpha != SurfaceMaterial::Alpha::blend) return;
+        constexpr double densest = 3;  // diamond has 2.4
+        const double index = number(AI_MATKEY_REFRACTI).value_or(1);
+        if (index > 1 && index <= densest) out.refraction = index;
     }
 
     void readAlpha(SurfaceMaterial& out) {

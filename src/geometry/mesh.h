@@ -25,6 +25,7 @@ struct SurfaceMaterial {
     double normalScale = 1;                // of the normal image's slopes
     double alphaCut = 0.5;
     Alpha alpha = Alpha::opaque;
+    double refraction = 1;  // index of refraction of what is blended; 1: light goes straight through
     int colorImage = -1, emissiveImage = -1;  // sRGB; alpha is opacity
     int normalImage = -1;                     // the normal in tangent space, from -1 to 1
     int roughnessImage = -1;                  // green: roughness; blue: metallic

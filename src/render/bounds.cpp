@@ -87,6 +87,14 @@ struct ExtentOf {
     }
 };
 
+// The part of a box that shadows are worth drawing in: hills a kilometre away would leave none for what is near.
+static Box near(const Box& box, const Camera& camera) {
+    const double reach = 10 * std::max(glm::distance(camera.eye, camera.target), 1e-3);
+    const Box part{glm::max(box.low, camera.target - reach), glm::min(box.high, camera.target + reach)};
+    const glm::dvec3 extent = part.high - part.low;
+    return std::min({extent.x, extent.y, extent.z}) >= 0 ? part : box;
+}
+
 SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
     SceneBounds bounds;
     bounds.casters = bounds.models = emptyBox;
@@ -121,6 +129,7 @@ SceneBounds boundsOf(const Scene& scene, const Plan& plan) {
         for (const ColliderPath::Keyframe& frame : frames)
             includePlaced(bounds.casters, *box, frame.pose);
     }
+    if (!isEmpty(bounds.models)) bounds.models = near(bounds.models, scene.camera);
     if (isEmpty(bounds.casters)) bounds.casters = bounds.models;
     if (isEmpty(bounds.casters)) bounds.casters = Box{};
     if (isEmpty(bounds.models)) bounds.models = bounds.casters;

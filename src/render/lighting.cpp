@@ -137,8 +137,10 @@ glm::mat4 ShadowMap::toTexture(const Origin& eye) const {
 
 glm::vec3 ShadowMap::filter() const {
     const float texel = 1 / pixelsPerMeter_;
-    // The sun is not a point: an edge a few metres up is blurred by centimetres, as far as 16 taps reach.
-    const float radius = std::clamp(0.02f, 2 * texel, 5 * texel);
+    // The sun is not a point, but half a degree wide: an edge as far away as the map reaches is blurred by 4
+    // thousandths of that, one a few metres up by centimetres, as far as 16 taps reach.
+    const float reach = 0.5f * texel * float(depth_.width());
+    const float radius = std::clamp(std::min(0.004f * reach, 0.02f), 2 * texel, 5 * texel);
     return {radius / (texel * float(depth_.width())), radius, 0.5f * texel};
 }
 

@@ -20,7 +20,8 @@ class WaterLight;
 namespace unit {
 constexpr int positions = 0, normals = 1, records = 2, constants = 3, image = 4, shadowMap = 5, light = 6,
               order = 7, slabs = 8, slabDraws = 9, velocities = 10, sceneDepth = 11, caustics = 12,
-              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16, occlusion = 17;
+              normalImage = 13, roughnessImage = 14, emissiveImage = 15, wideShadowMap = 16, occlusion = 17,
+              clouds = 18;
 }
 
 struct BoundingSphere {
@@ -32,7 +33,7 @@ struct SceneBounds {
     // Bounds of the shadow casters: molecules, the models that carry them, and drawn colliders with an end.
     // All drawn models where there is none of these.
     Box casters;
-    Box models;  // of all drawn models
+    Box models;  // of all drawn models, as far as ten times the distance that the camera looks
     // Around the molecules that are placed densely on a model and hide the sky from one another.
     BoundingSphere crown;
 };

@@ -157,10 +157,8 @@ const gpu::Program& MoleculeDrawer::useLit(const StateView& state, const DrawInp
     program.set("metallic", float(material_.metallic));
     program.set("opacity", float(material_.opacity));
     setShape(program, inputs.eye.pixelsPerMeter);
-    if (points_)
-        program.set("viewToScene", inputs.eye.viewToScene);
-    else
-        program.set("translucency", float(material_.translucency));
+    program.set("translucency", float(material_.translucency));
+    if (points_) program.set("viewToScene", inputs.eye.viewToScene);
     return program;
 }
 

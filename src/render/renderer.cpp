@@ -29,6 +29,12 @@ static std::vector<std::string> pictureDefines(const Lighting& lighting, const W
     return out;
 }
 
+static std::vector<std::string> skyDefines(const Lighting& lighting, const Sky& sky) {
+    std::vector<std::string> out = lighting.defines(false);
+    if (sky.clouds > 0) out.emplace_back("CLOUDS");
+    return out;
+}
+
 // Returns the pixels per metre at the camera's target, in a picture `height` rows high.
 static double pixelsPerMeterAt(const Camera& camera, int height) {
     const double distance = std::max(glm::distance(camera.eye, camera.target), 1e-3);
@@ -61,7 +67,7 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       beams_(context, shaderRoot, water_.get()),
       occlusion_(context, shaderRoot, scene),
       sky_(context, shaderRoot,
-           {"render/screen.vert", "render/sky.frag", lighting_.defines(false), {}, "sky"}),
+           {"render/screen.vert", "render/sky.frag", skyDefines(lighting_, scene.sky), {}, "sky"}),
       tone_(context, shaderRoot,
             {"render/screen.vert",
              "render/picture.frag",
@@ -71,6 +77,7 @@ Renderer::Renderer(gpu::Context& context, const std::string& shaderRoot, const S
       empty_(context, "no corners"),
       timers_(context, options.timing) {
     resize(options.width, options.height);
+    if (scene.sky.clouds > 0) drawClouds(shaderRoot, scene);
     if (!wideShadow_) return;
     wideShadow_->begin();
     surfaces_.drawShadows(*wideShadow_, {});
@@ -88,7 +95,8 @@ void Renderer::resize(int width, int height) {
     pictureTarget_ = gpu::Framebuffer(*context_, {&picture_}, nullptr, "picture");
     beams_.resize(width, height);
     occlusion_.resize(width, height);
-    if (!groups_.readsDepth() && !beams_ && !occlusion_) return;
+    light_.setLinear();
+    if (!groups_.readsDepth() && !beams_ && !occlusion_ && !surfaces_.refracts()) return;
     sceneDepth_ = gpu::Texture(*context_, Format::depth24, width, height, "scene depth");
     sceneDepthTarget_ = gpu::Framebuffer(*context_, {}, &sceneDepth_, "scene depth");
 }
@@ -155,6 +163,23 @@ void Renderer::drawShadows(const StateView& state, double time) {
     shadow_->end();
 }
 
+void Renderer::drawClouds(const std::string& shaderRoot, const Scene& scene) {
+    constexpr int size = 1536;  // texels a side
+    clouds_ = gpu::Texture(*context_, gpu::Format::rgba16f, size, size, "clouds");
+    clouds_.setLinear();
+    const gpu::Framebuffer target(*context_, {&clouds_}, nullptr, "clouds");
+    const gpu::Program program(*context_, shaderRoot,
+                               {"render/screen.vert", "render/clouds.frag", {}, {}, "clouds"});
+    target.bind();
+    program.use();
+    program.set("share", float(scene.sky.clouds));
+    program.set("sunDirection", glm::vec3(towardsSun(scene.light)));
+    empty_.bind();
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 // Last, at the far plane: only where nothing else was drawn.
 void Renderer::drawSky(const Eye& eye) {
     const auto timer = timers_.time("sky");
@@ -162,6 +187,7 @@ void Renderer::drawSky(const Eye& eye) {
     lighting_.applySky(sky_, eye);
     sky_.set("viewToScene", eye.viewToScene);
     sky_.set("tangents", eye.tangents);
+    if (clouds_) sky_.texture("clouds", unit::clouds, clouds_);
     empty_.bind();
     glDepthMask(GL_FALSE);
     glDrawArrays(GL_TRIANGLES, 0, 3);
@@ -171,9 +197,13 @@ void Renderer::drawSky(const Eye& eye) {
 
 void Renderer::drawBlended(const StateView& state, const DrawInputs& inputs, double time) {
     const auto timer = timers_.time("blended");
+    if (surfaces_.refracts()) {
+        samples_.blitTo(lightTarget_);
+        samples_.bind();
+    }
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);
-    if (surfaces_.blends()) surfaces_.drawBlended(inputs.eye, lighting_, time);
+    if (surfaces_.blends()) surfaces_.drawBlended(inputs.eye, lighting_, time, {&light_, &sceneDepth_});
     groups_.drawBlended(state, inputs);
     glDepthMask(GL_TRUE);
     glDisable(GL_DEPTH_TEST);

@@ -87,6 +87,7 @@ class Renderer {
     Renderer(gpu::Context& context, const std::string& shaderRoot, const Scene& scene, const Plan& plan,
              const RenderOptions& options, const SceneBounds& bounds);
     void drawShadows(const StateView& state, double time);
+    void drawClouds(const std::string& shaderRoot, const Scene& scene);
     void drawSky(const Eye& eye);
     void drawBlended(const StateView& state, const DrawInputs& inputs, double time);
     void drawPicture(const Eye& eye, double exposure);
@@ -102,6 +103,7 @@ class Renderer {
     WaterBeams beams_;  // none without water
     AmbientOcclusion occlusion_;
     gpu::Program sky_, tone_;
+    gpu::Texture clouds_;  // none: a clear sky
     gpu::VertexArray empty_;
     gpu::PassTimers timers_;
     gpu::PrimitiveCounter primitives_;
@@ -109,7 +111,7 @@ class Renderer {
     gpu::Texture light_, picture_;
     gpu::Framebuffer lightTarget_, pictureTarget_;
     // Depth of what is not blended, one sample a pixel; none where nothing fades in front of surfaces,
-    // no beams end there, and no place is darker because of others.
+    // no beams end there, no place is darker because of others, and nothing refracts.
     gpu::Texture sceneDepth_;
     gpu::Framebuffer sceneDepthTarget_;
 };

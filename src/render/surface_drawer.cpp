@@ -169,6 +169,34 @@ static bool cutOut(const SurfaceMaterial& material) {
     return material.alpha == SurfaceMaterial::Alpha::cut && material.colorImage >= 0;
 }
 
+static bool refracting(const SurfaceMaterial& material) {
+    return blended(material) && material.refraction > 1;
+}
+
+// Returns the thickness that half of a closed mesh's surface stays below, m; 0 of one that is open.
+static double thicknessOf(const Mesh& mesh) {
+    std::vector<double> areas(mesh.weldedPositions.size());
+    for (const glm::ivec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[size_t(t[0])];
+        const double area =
+            0.5 * glm::length(glm::cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
+        for (int i = 0; i < 3; ++i)
+            areas[size_t(mesh.weld[size_t(t[i])])] += area / 3;
+    }
+    const std::vector<double> thickness = localThickness(mesh);
+    std::vector<size_t> order;
+    double half = 0;
+    for (size_t v = 0; v < thickness.size(); ++v)
+        if (std::isfinite(thickness[v])) {
+            order.push_back(v);
+            half += 0.5 * areas[v];
+        }
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return thickness[a] < thickness[b]; });
+    for (const size_t v : order)
+        if (half -= areas[v]; half <= 0) return thickness[v];
+    return 0;
+}
+
 bool SurfaceDrawer::blends(const Scene& scene) {
     return std::any_of(scene.models.begin(), scene.models.end(), [](const Model& model) {
         return model.draw && std::any_of(model.mesh.materials.begin(), model.mesh.materials.end(), blended);
@@ -188,6 +216,7 @@ static gpu::Texture imageTexture(gpu::Context& context, Image image, bool srgb, 
 SurfaceDrawer::Drawn SurfaceDrawer::drawnModel(gpu::Context& context, const Model& model) {
     Drawn drawn;
     drawn.detail = float(model.grain);
+    drawn.stony = model.grainOf == GrainKind::stone;
     const Mesh& mesh = model.mesh;
     std::vector<bool> colors(mesh.images.size());
     for (const SurfaceMaterial& material : mesh.materials)
@@ -204,11 +233,17 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
         if (!model.draw || model.mesh.triangles.empty()) continue;
         Drawn drawn = drawnModel(context, model);
         const SurfaceMesh mesh = meshOf(model.mesh);
+        std::optional<double> thickness;
         for (const SurfaceMesh::Piece& piece : mesh.pieces) {
             Look look;
             if (piece.material >= 0) look.material = model.mesh.materials[size_t(piece.material)];
             look.material.color *= glm::dvec4(model.color, 1);
             if (model.roughness) look.material.roughness = *model.roughness;
+            if (refracting(look.material)) {
+                if (!thickness) thickness = thicknessOf(model.mesh);
+                look.plate = *thickness;
+                refracts_ = true;
+            }
             look.firstIndex = piece.firstIndex;
             look.indexCount = piece.indexCount;
             drawn.looks.push_back(look);
@@ -283,6 +318,7 @@ void SurfaceDrawer::choosePrograms(gpu::Context& context, const std::string& sha
                              material.emissiveImage}) >= 0,
                    "IMAGES");
             define(cutOut(material), "CUT");
+            define(refracting(material), "REFRACTS");
             if (surface.plane) lit.label = "planes";
             look.lit = &programs_.get(context, shaderRoot, lit);
             if (surface.plane) {
@@ -358,6 +394,7 @@ void SurfaceDrawer::drawLook(const Drawn& surface, const Look& look, const Eye& 
     program.set("roughness", float(material.roughness));
     program.set("metallic", float(material.metallic));
     program.set("detail", surface.detail);
+    program.set("stony", int(surface.stony));
     const auto image = [&](const char* name, int textureUnit, int number) {
         if (number >= 0) program.texture(name, textureUnit, surface.images[size_t(number)]);
     };
@@ -390,7 +427,8 @@ void SurfaceDrawer::draw(const Eye& eye, const Lighting& lighting, double time, 
         }
 }
 
-void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double time) const {
+void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double time,
+                                const Behind& behind) const {
     struct Far {
         double distance;
         const Drawn* surface;
@@ -408,9 +446,29 @@ void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double
                      [](const Far& a, const Far& b) { return a.distance > b.distance; });
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
-    for (const Far& one : order)
-        drawLook(*one.surface, *one.look, eye, lighting, time);
+    glEnable(GL_CULL_FACE);
+    for (const Far& one : order) {
+        if (refracting(one.look->material)) applyGlass(*one.look, eye, behind);
+        // Of what is closed, all that faces away from the eye is behind what faces it.
+        for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
+            glCullFace(hidden);
+            drawLook(*one.surface, *one.look, eye, lighting, time);
+        }
+    }
+    glDisable(GL_CULL_FACE);
     glDisable(GL_BLEND);
+}
+
+void SurfaceDrawer::applyGlass(const Look& look, const Eye& eye, const Behind& behind) const {
+    const gpu::Program& program = *look.lit;
+    program.use();
+    program.texture("lightBehind", unit::light, *behind.light);
+    program.texture("sceneDepth", unit::sceneDepth, *behind.depth);
+    program.set("nearest", eye.nearest);
+    program.set("viewToScene", eye.viewToScene);
+    program.set("tangents", eye.tangents);
+    program.set("refraction", float(look.material.refraction));
+    program.set("plate", float(look.plate));
 }
 
 }  // namespace shoal

@@ -24,17 +24,24 @@ class SurfaceDrawer {
 
     static bool blends(const Scene& scene);  // whether a model has a part that is blended with what is behind
     bool blends() const { return blends_; }
+    bool refracts() const { return refracts_; }  // then what is not blended has to be at hand as a picture
 
     // Without a time: of what stands still.
     void drawShadows(const ShadowMap& shadow, std::optional<double> time) const;
     void draw(const Eye& eye, const Lighting& lighting, double time, bool multisampled) const;
-    void drawBlended(const Eye& eye, const Lighting& lighting, double time) const;  // from back to front
+    // From back to front. `behind`: the light of all that is not blended, and its depth; only where it
+    // refracts.
+    struct Behind {
+        const gpu::Texture *light = nullptr, *depth = nullptr;
+    };
+    void drawBlended(const Eye& eye, const Lighting& lighting, double time, const Behind& behind) const;
 
   private:
     // The triangles of a mesh that look alike.
     struct Look {
         SurfaceMaterial material;
         int firstIndex = 0, indexCount = 0;
+        double plate = 0;      // m: the thickness of what refracts
         glm::dvec3 middle{0};  // m, relative to the mesh's origin: orders what is blended
         const gpu::Program* lit = nullptr;
         const gpu::Program* depth = nullptr;  // null: casts no shadow
@@ -42,6 +49,7 @@ class SurfaceDrawer {
     struct Drawn {
         glm::dvec3 origin{0};  // m, of the mesh
         float detail = 0;
+        bool stony = false;  // the kind of its grain
         bool casts = true;
         std::vector<Look> looks;
         std::vector<gpu::Texture> images;  // as the materials number them
@@ -58,11 +66,12 @@ class SurfaceDrawer {
     void submit(const Drawn& surface, const Look& look) const;
     void drawLook(const Drawn& surface, const Look& look, const Eye& eye, const Lighting& lighting,
                   double time) const;
+    void applyGlass(const Look& look, const Eye& eye, const Behind& behind) const;
     void placePlane(const gpu::Program& program, const PlaneCollider& plane, const Eye& eye) const;
 
     gpu::Programs programs_;
     std::vector<Drawn> surfaces_;
-    bool blends_ = false;
+    bool blends_ = false, refracts_ = false;
 };
 
 }  // namespace shoal

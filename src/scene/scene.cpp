@@ -112,6 +112,9 @@ const Description& describe(const Sky*) {
             .color("ground", &Sky::ground, {"", "The colour of what lies below the horizon."})
             .key("intensity", &Sky::intensity, {"", "Its strength.", Range::atLeast(0)})
             .key("fog", &Sky::fog, {"1/m", "How fast the horizon's colour covers things.", Range::atLeast(0)})
+            .key("clouds", &Sky::clouds,
+                 {"", "The share of it that clouds cover; they are drawn, and cast no shadows.",
+                  Range::between(0, 1)})
             .key("occlusion", &Sky::occlusion,
                  {"", "How much darker it is where near things hide the sky; 0: not at all, which is faster.",
                   Range::between(0, 1)});

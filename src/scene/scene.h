@@ -31,6 +31,12 @@ class Description;
 
 // ---- Models
 
+// What a model's drawn grain looks like.
+enum class GrainKind {
+    earth,  // soil and grass on what faces up, else bark
+    stone,  // pits and stains, alike in all directions
+};
+
 struct Model {
     std::string name, file;
     glm::dvec3 position{0};
@@ -39,8 +45,9 @@ struct Model {
     bool draw = true;
     glm::dvec3 color{1};              // multiplies its own
     std::optional<double> roughness;  // in [0, 1]; nothing: as its materials say
-    double grain = 0;  // strength of the drawn grain: soil and grass on what faces up, else bark; in [0, 1]
-    Mesh mesh;         // in scene coordinates: position, rotation and scale applied
+    double grain = 0;                 // strength of the drawn grain, in [0, 1]
+    GrainKind grainOf = GrainKind::earth;
+    Mesh mesh;  // in scene coordinates: position, rotation and scale applied
 };
 
 // ---- Groups of molecules
@@ -159,6 +166,7 @@ struct Sky {
     glm::dvec3 zenith{0.18, 0.36, 0.72}, horizon{0.74, 0.82, 0.88}, ground{0.22, 0.2, 0.16};
     double intensity = 1;
     double fog = 0;        // 1/m: how fast the horizon's colour covers things
+    double clouds = 0;     // share of the sky that they cover, in [0, 1]
     double occlusion = 1;  // in [0, 1]: how much of what near things hide of its light is missing
 };
 

@@ -30,7 +30,7 @@ TEST_CASE("scenes are listed without a display, and each is called as it is list
     CHECK(list.code == 0);
     CHECK(list.err.empty());
     CHECK_THAT(list.out,
-               Catch::Contains("hello/hello") && Catch::Contains("Twenty squares drop onto a plane"));
+               Catch::Contains("hello/hello") && Catch::Contains("Twenty leaves fall onto a plane"));
     CHECK(runShoal({"run"}, noDisplay).out == list.out);
     const std::vector<std::string> names = namesIn(list.out);
     CHECK(names.size() >= 14);

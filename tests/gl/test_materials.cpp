@@ -1,9 +1,12 @@
 // How the materials of models are drawn.
+#include <numbers>
+
 #include "gl/render_scene.h"
 #include "support/catch.h"
 
 using namespace shoal;
 using namespace shoal::test;
+using std::numbers::pi;
 using Alpha = SurfaceMaterial::Alpha;
 
 namespace {
@@ -165,4 +168,118 @@ TEST_CASE("normals, roughness, metal and emitted light come from their images", 
     CHECK(difference(dielectric, mirror) > 10);
     grey.roughness = 1;
     CHECK(difference(dielectric, middle(grey, {})) <= 1);
+}
+
+namespace {
+
+// A plate of 1.6 m x 1.6 m about the origin, which stands at half a right angle to the view.
+Model plate(double thickness, const SurfaceMaterial& material) {
+    constexpr int squares = 8;
+    Model out;
+    out.name = "plate";
+    Mesh& mesh = out.mesh;
+    const glm::dquat turn = glm::angleAxis(0.25 * pi, glm::dvec3(0, 1, 0));
+    const auto face = [&](const glm::dvec3& middle, const glm::dvec3& u, const glm::dvec3& v) {
+        const int first = int(mesh.positions.size()), across = squares + 1;
+        for (int i = 0; i < across * across; ++i) {
+            const double s = 2.0 * (i % across) / squares - 1, t = 2.0 * (i / across) / squares - 1;
+            mesh.positions.push_back(turn * (middle + s * u + t * v));
+        }
+        for (int i = 0; i < squares * squares; ++i) {
+            const int a = first + i / squares * across + i % squares;
+            mesh.triangles.emplace_back(a, a + 1, a + across + 1);
+            mesh.triangles.emplace_back(a, a + across + 1, a + across);
+        }
+    };
+    const glm::dvec3 x(0.8, 0, 0), y(0, 0.8, 0), z(0, 0, 0.5 * thickness);
+    face(z, x, y), face(-z, y, x), face(x, y, z), face(-x, z, y), face(y, z, x), face(-y, x, z);
+    mesh.parts = {{"plate", "glass", 0, int(mesh.triangles.size()), 0}};
+    mesh.materials = {material};
+    completeMesh(mesh);
+    return out;
+}
+
+// Where the border of red and green is, in a row above the middle.
+int borderOf(const Scene& scene) {
+    const Image image = show(scene, 1, {.width = 640, .height = 480}).image;
+    int last = 0;
+    for (int x = 240; x < 400; ++x)
+        if (const glm::ivec3 color = pixel(image, x, 200); color.r > color.g) last = x;
+    return last;
+}
+
+}  // namespace
+
+TEST_CASE("what refracts moves what is behind it as a plate does", "[render][material]") {
+    SurfaceMaterial glass, paint;
+    glass.color = {1, 1, 1, 0.01};
+    glass.alpha = Alpha::blend;
+    paint.colorImage = 0;
+    const Model behind = wall(paint, {fourColors()}, -1);
+    const int straight = borderOf(sceneOf({plate(0.2, glass), behind}));
+    CHECK(std::abs(straight - 320) <= 1);
+    for (const double index : {1.25, 1.5, 2.0}) {
+        glass.refraction = index;
+        const double slope = std::sqrt(0.5);
+        const double aside = 0.2 * slope * (1 - slope / std::sqrt(index * index - 0.5));  // Snell's law, m
+        const double pixelsPerMeter = 240 / (std::tan(0.4) * 4);
+        const int moved = borderOf(sceneOf({plate(0.2, glass), behind}));
+        INFO("index " << index << ": " << moved - straight << " pixels");
+        CHECK(std::abs(moved - straight - aside * pixelsPerMeter) <= 1);
+    }
+}
+
+TEST_CASE("smooth normals that lean away from the eye do not turn over", "[render][material]") {
+    const auto floorOf = [](double lean) {
+        Model out = wall({}, {});
+        for (glm::dvec3& p : out.mesh.positions)
+            p = {p.x, 0, -2 * p.y};
+        completeMesh(out.mesh);
+        for (glm::dvec3& n : out.mesh.normals)
+            n = {0, std::cos(lean), -std::sin(lean)};
+        Scene scene = sceneOf({out});
+        scene.light.direction = {0, -1, 0};
+        scene.sky.occlusion = 0;
+        scene.camera.eye = {0, 0.15, 2};
+        return brightness(pixel(show(scene).image, 80, 62));
+    };
+    const int straight = floorOf(0), leaning = floorOf(0.25);
+    CHECK(straight > 300);
+    CHECK(std::abs(leaning - straight) < straight / 20);
+}
+
+TEST_CASE("clouds cover their share of the sky", "[render]") {
+    const auto sky = [](double share) {
+        Scene scene = sceneOfSquares({{0, 0, 1000}});
+        scene.sky.clouds = share;
+        scene.camera.target = {0, 2, 0};
+        return show(scene).image;
+    };
+    const Image clear = sky(0);
+    int before = 0;
+    for (const double share : {0.25, 0.5, 1.0}) {
+        const int covered = changed(clear, sky(share), 20).count;
+        INFO(share << ": " << covered);
+        CHECK(covered > before);
+        before = covered;
+    }
+    CHECK(before > 160 * 120 / 2);
+    CHECK(sky(0.5).pixels == sky(0.5).pixels);
+}
+
+TEST_CASE("grain is of earth or of stone", "[render][material]") {
+    const auto picture = [](double grain, GrainKind kind) {
+        Model model = wall({}, {});
+        model.grain = grain;
+        model.grainOf = kind;
+        Scene scene = sceneOf({model});
+        scene.camera.eye = {0, 0, 0.5};
+        return show(scene).image;
+    };
+    const Image plain = picture(0, GrainKind::earth);
+    CHECK(picture(0, GrainKind::stone).pixels == plain.pixels);
+    const Image earth = picture(1, GrainKind::earth), stone = picture(1, GrainKind::stone);
+    CHECK(changed(plain, earth, 3).count > 500);
+    CHECK(changed(plain, stone, 3).count > 500);
+    CHECK(changed(earth, stone, 3).count > 500);
 }

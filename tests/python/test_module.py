@@ -33,9 +33,9 @@ def hello():
 
 
 def test_state_has_shapes_and_types(hello):
-    assert hello.groups == ["quad"]
-    for values, kind in ((hello.positions(), np.float64), (hello.velocities(0), np.float64), (hello.normals("quad"), np.float32)):
-        assert values.shape == (20, 4, 3) and values.dtype == kind
+    assert hello.groups == ["leaf"]
+    for values, kind in ((hello.positions(), np.float64), (hello.velocities(0), np.float64), (hello.normals("leaf"), np.float32)):
+        assert values.shape == (20, 9, 3) and values.dtype == kind
     assert hello.alive().shape == (20,) and hello.alive().all()
 
 
@@ -70,7 +70,7 @@ def test_energy_of_a_stretched_spring_is_kept():
 
 def test_set_state_is_what_is_read_back(hello):
     places = hello.positions() + [0.25, 1, -2]
-    hello.set_state(positions=places, velocities=np.ones((20, 4, 3)))
+    hello.set_state(positions=places, velocities=np.ones((20, 9, 3)))
     assert abs(hello.positions() - places).max() < 1e-6
     assert (hello.velocities() == 1).all()
 
@@ -181,11 +181,11 @@ def test_errors_say_where(tmp_path, hello):
         shoal.Scene(bad)
     assert caught.value.file == str(bad) and caught.value.line == 3
     for wrong, words in (
-        (lambda: hello.positions("quads"), 'did you mean "quad"'),
+        (lambda: hello.positions("leafs"), 'did you mean "leaf"'),
         (lambda: hello.positions(1), "there is no group 1"),
         (lambda: hello.step(-1), "0 frames or more"),
-        (lambda: hello.set_state(positions=np.zeros((3, 4, 3))), r"expected an array of shape \(20, 4, 3\), found \(3, 4, 3\)"),
-        (lambda: hello.set_state(velocities=np.full((20, 4, 3), np.nan)), "not finite"),
+        (lambda: hello.set_state(positions=np.zeros((3, 4, 3))), r"expected an array of shape \(20, 9, 3\), found \(3, 4, 3\)"),
+        (lambda: hello.set_state(velocities=np.full((20, 9, 3), np.nan)), "not finite"),
         (lambda: hello.picture(0, 10), "pixels a side"),
         (lambda: shoal.Simulation(shoal.Scene("hello"), solver="leapfog"), 'did you mean "leapfrog"'),
         (lambda: shoal.Simulation(shoal.Scene("hello"), device=99), "no device 99"),
@@ -199,7 +199,7 @@ def test_errors_say_where(tmp_path, hello):
         (lambda: setattr(hello.parameters, "gravity", [0, np.nan, 0]), "gravity is not finite"),
         (lambda: setattr(hello.parameters, "substeps", 0), "1 to 1000 substeps"),
         (lambda: setattr(hello.parameters, "drag", -1), "drag is at least 0"),
-        (lambda: hello.set_state(positions=np.full((20, 4, 3), 1e300)), "beyond what a float holds"),
+        (lambda: hello.set_state(positions=np.full((20, 9, 3), 1e300)), "beyond what a float holds"),
         (lambda: hello.positions(1.0), "a name, a number or None"),
         (lambda: shoal.Scene(3), "a scene is a file, a name or a dict, found 3"),
         (lambda: shoal.Molecule(None), "a molecule is a file or a dict, found None"),

@@ -81,6 +81,18 @@ TEST_CASE("a material's numbers become those of a metallic and rough surface", "
     CHECK(mesh.notes.empty());
 }
 
+TEST_CASE("what is blended refracts by its index, what is opaque does not", "[model][material]") {
+    const Scratch scratch;
+    const auto index = [&](const std::string& lines) {
+        return materialOf(withMaterial(scratch, lines)).refraction;
+    };
+    CHECK(index("d 0.1\nNi 1.5\n") == Approx(1.5));
+    CHECK(index("d 1\nNi 1.5\n") == 1);
+    CHECK(index("d 0.1\n") == 1);
+    for (const char* wrong : {"0.5", "-2", "40", "nan", "1e39"})
+        CHECK(index(concat("d 0.1\nNi ", wrong, "\n")) == 1);
+}
+
 TEST_CASE("a model without materials has none, whatever the reader puts in", "[model][material]") {
     const Scratch scratch;
     const Mesh mesh = loadMesh(scratch.write("m.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n"));

@@ -63,6 +63,21 @@ TEST_CASE("shader noise agrees with the reference on both sides of 0", "[physics
     }
 }
 
+TEST_CASE("the slope of the shader's noise is that of its values", "[physics]") {
+    constexpr double step = 1e-4;
+    for (int i = 0; i < 500; ++i) {
+        const vec3 p = sample(i);
+        const glm::vec4 slope = shader::gradientNoiseSlope(p, 11u);
+        REQUIRE(slope.w == Approx(shader::gradientNoise(p, 0u, 11u)).margin(1e-6));
+        for (int axis = 0; axis < 3; ++axis) {
+            dvec3 ahead(p), behind(p);
+            ahead[axis] += step, behind[axis] -= step;
+            const double rise = reference::gradientNoise(ahead, 11) - reference::gradientNoise(behind, 11);
+            REQUIRE(std::abs(double(slope[axis]) - rise / (2 * step)) < 1e-4);
+        }
+    }
+}
+
 TEST_CASE("shader fields agree with the reference", "[physics]") {
     ShearField shear = test::shear();
     const glm::mat3 rows = glm::transpose(glm::mat3(shear.gradient));

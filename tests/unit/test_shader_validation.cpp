@@ -527,6 +527,9 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     validator.addPicture("water/caustics.vert", {"CELLS 176", "MARGIN 0.15"});
     validator.addPicture("water/caustics.frag", {"TEXELS 512"});
     validator.addPicture("render/sky.frag", {"LINEAR_LIGHT"});
+    validator.addPicture("render/sky.frag", {"CLOUDS"});
+    validator.addPicture("render/clouds.frag", {});
+    validator.addPicture("render/surface.frag", {"LINEAR_LIGHT", "SHADOWS", "REFRACTS"});
     validator.addPicture("render/picture.frag", {"LINEAR_LIGHT"});
     validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
     validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});

@@ -10,6 +10,8 @@ namespace shoal {
 
 namespace {
 
+const std::vector<std::string> grainKinds = {"earth", "stone"};
+
 // Applies the model's scale, rotation and position, in this order.
 void placeMesh(Mesh& mesh, const Model& model) {
     const glm::dmat3 turn = glm::mat3_cast(model.rotation);
@@ -88,8 +90,12 @@ const Description& describe(const Model*) {
             .key("roughness", &Model::roughness, {"", "How dull it is.", Range::between(0, 1)})
             .usually("as its materials say, else 0.9")
             .key("grain", &Model::grain,
-                 {"", "The strength of the drawn grain: soil and grass on what faces up, else bark.",
-                  Range::between(0, 1)})
+                 {"", "The strength of the drawn grain.", Range::between(0, 1)})
+            .word("grainOf", &Model::grainOf, grainKinds,
+                  {"",
+                   "What the grain is of: earth is soil and grass on what faces up, and bark elsewhere; "
+                   "stone is "
+                   "alike in all directions."})
             .derive(load)
             .rule(checkModel);
     return it;
