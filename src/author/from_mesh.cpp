@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numbers>
 
@@ -11,6 +12,7 @@
 #include "author/springs.h"
 #include "compile/path.h"
 #include "geometry/close_holes.h"
+#include "geometry/doubled_walls.h"
 #include "geometry/subdivide.h"
 #include "molecule/skin.h"
 
@@ -193,9 +195,14 @@ struct TornSkin : Error {
 // One run of makeMolecule, step by step.
 class Maker {
   public:
-    Maker(const Mesh& mesh, const FromMesh& options) : options_(options), mesh_(placed(mesh, options)) {}
+    Maker(const Mesh& mesh, const FromMesh& options)
+        : options_(options), mesh_(placed(mesh, options)), shape_(withoutDoubledWalls(mesh_)) {}
 
     MadeMolecule run() {
+        if (shape_.triangles.size() < mesh_.triangles.size())
+            made_.notes.push_back(
+                concat(mesh_.triangles.size() - shape_.triangles.size(), " of ", mesh_.triangles.size(),
+                       " triangles lie on others or within the shape: only the skin has them"));
         examine();
         refine();
         makeCoarse();
@@ -209,13 +216,26 @@ class Maker {
   private:
     Molecule& molecule() { return made_.molecule; }
 
+    // Returns what the molecule is made of, of which the skin keeps all.
+    static Mesh withoutDoubledWalls(Mesh mesh) {
+        const std::vector<char> doubled = doubledWalls(mesh);
+        std::vector<glm::ivec3> kept;
+        for (size_t t = 0; t < doubled.size(); ++t)
+            if (!doubled[t]) kept.push_back(mesh.triangles[t]);
+        if (kept.size() == mesh.triangles.size()) return mesh;
+        mesh.triangles = std::move(kept);
+        mesh.objects.clear();
+        mesh.parts.clear();
+        return mesh;
+    }
+
     void examine() {
-        SurfaceReport report = examineSurface(mesh_);
+        SurfaceReport report = examineSurface(shape_);
         if (report.triangles <= report.degenerate) throw Error("every triangle of the mesh has no area");
         made_.area = report.area;
         Mesh closed;
         if (report.borders > 0 && report.borders == report.unsound()) closed = withoutHoles(report);
-        const Mesh& body = closed.triangles.empty() ? mesh_ : closed;
+        const Mesh& body = closed.triangles.empty() ? shape_ : closed;
         made_.solid = report.closed();
         made_.volume = made_.solid ? std::abs(report.volume) : 0;
         made_.extent = mesh_.high - mesh_.low;
@@ -229,6 +249,7 @@ class Maker {
             made_.volume = 0;
             if (options_.springs == FromMesh::Springs::lattice)
                 throw Error("a lattice of tetrahedra fills a volume, and this mesh is too thin for any");
+            made_.area *= 0.5;  // it has two sides
             made_.notes.push_back("the mesh is so thin for its size that it is taken for a sheet");
         }
         // Parts that face inwards and outwards cancel out in the sum over triangles, never in the samples.
@@ -247,7 +268,7 @@ class Maker {
     // With small holes closed, where that makes it a body, of which `report` tells then; else empty.
     Mesh withoutHoles(SurfaceReport& report) {
         constexpr double small = 0.05;  // of the area
-        Mesh out = mesh_;
+        Mesh out = shape_;
         const int holes = closeHoles(out, small * report.area);
         const SurfaceReport now = examineSurface(out);
         if (holes == 0 || !now.closed()) return {};
@@ -271,6 +292,7 @@ class Maker {
         if (made_.solid || options_.rings || !ofSurface || 2 * few > wanted) return;
         constexpr size_t skinVertices = 4;  // for each that is simulated, so that the skin bends smoothly
         subdivide(mesh_, skinVertices * wanted);
+        shape_ = withoutDoubledWalls(mesh_);
         made_.notes.push_back(concat(
             "the sheet has ", few, " vertices, too few to bend: its longest edges were halved until it had ",
             mesh_.weldedPositions.size()));
@@ -282,12 +304,12 @@ class Maker {
         if (options_.rings) {
             coarse_ = ringsOf(mesh_, *options_.rings);
         } else if (options_.springs == Springs::lattice || options_.springs == Springs::cage) {
-            Lattice lattice = options_.springs == Springs::cage ? cageAround(mesh_, inside_.get(), vertices)
-                                                                : latticeIn(mesh_, *inside_, vertices);
+            Lattice lattice = options_.springs == Springs::cage ? cageAround(shape_, inside_.get(), vertices)
+                                                                : latticeIn(shape_, *inside_, vertices);
             coarse_ = std::move(lattice.surface);
             cells_ = std::move(lattice.cells);
         } else {
-            coarse_ = simplify(mesh_, vertices);
+            coarse_ = simplify(shape_, vertices);
         }
         if (coarse_.positions.size() < 3) throw Error("the mesh has no shape that three vertices could hold");
         mapToCoarse(mesh_, coarse_);
@@ -302,7 +324,7 @@ class Maker {
     }
 
     void makeVertices() {
-        const Spread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(mesh_, coarse_);
+        const Spread spread = inside_ ? spreadOfBody(coarse_, *inside_) : spreadOfSheet(shape_, coarse_);
         const double density = options_.density.value_or(material_->density);
         const double mass =
             options_.mass.value_or(density * (inside_ ? made_.volume : made_.area * material_->thickness));
@@ -451,6 +473,10 @@ class Maker {
         for (size_t i = 0; i < mesh.positions.size(); ++i) {
             const SkinVertex& vertex = molecule().skin.vertices[i];
             made_.skinError = std::max(made_.skinError, glm::distance(mesh.positions[i], vertex.position));
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const Vertex& simulated : molecule().vertices)
+                nearest = std::min(nearest, glm::distance(vertex.position, simulated.position));
+            made_.skinReach = std::max(made_.skinReach, nearest);
             for (const SkinWeight& weight : vertex.weights)
                 lever = std::max(lever, std::abs(weight.weight));
         }
@@ -465,7 +491,8 @@ class Maker {
     }
 
     const FromMesh& options_;
-    Mesh mesh_;
+    Mesh mesh_;   // all of it
+    Mesh shape_;  // without what is there twice
     std::unique_ptr<Inside> inside_;
     const ScaledMaterial* material_ = nullptr;
     CoarseMesh coarse_;

@@ -89,6 +89,7 @@ struct MadeMolecule {
     double lowestFrequency = 0;      // Hz, of the free molecule
     double dampingRatio = 0;         // of that mode; at most the material's
     double skinError = 0;            // m, how far the skin lies off the mesh at rest, at most
+    double skinReach = 0;            // m, from the skin to the nearest simulated vertex, at most
     double skinLever = 0;            // how far the skin moves by how far a vertex does, at most
     std::string material;            // as used
     std::vector<std::string> notes;  // what was done that was not asked for

@@ -5,6 +5,7 @@
 
 #include "author/from_mesh.h"
 #include "geometry/close_holes.h"
+#include "geometry/doubled_walls.h"
 #include "geometry/mesh.h"
 #include "molecule/check.h"
 #include "molecule/molecule_file.h"
@@ -416,6 +417,73 @@ TEST_CASE("small holes are closed to make a body, and the skin keeps them", "[fr
     CHECK(!made(cup).solid);
     CHECK(closeHoles(cup, 1) == 1);
     CHECK(examineSurface(cup).closed());
+}
+
+TEST_CASE("walls that are there twice, or inside, count once", "[from-mesh]") {
+    const auto ball = [](double radius, bool inwards = false, const glm::dvec3& middle = glm::dvec3(0)) {
+        Mesh out;
+        addSphere(out, middle, radius, 16, 12);
+        for (glm::ivec3& t : out.triangles)
+            if (inwards) std::swap(t.y, t.z);
+        return out;
+    };
+    const auto sheet = [](double height, bool turned = false) {  // 1 m x 0.6 m, bent
+        Mesh out;
+        std::vector<glm::dvec3> p;
+        std::vector<glm::ivec3> t;
+        for (int i = 0; i < 9 * 9; ++i) {
+            const double x = i % 9 / 8.0 - 0.5, z = i / 9 / 8.0 - 0.5;
+            p.emplace_back(x, height + 0.3 * x * x, 0.6 * z);
+        }
+        for (int i = 0; i < 8 * 8; ++i) {
+            const int a = i / 8 * 9 + i % 8;
+            t.emplace_back(a, a + 10, a + 1);
+            t.emplace_back(a, a + 9, a + 10);
+        }
+        for (glm::ivec3& one : t)
+            if (turned) std::swap(one.y, one.z);
+        addTriangles(out, "sheet", p, t);
+        return out;
+    };
+    const auto together = [](Mesh a, const Mesh& b) {
+        addTriangles(a, "other", b.positions, b.triangles);
+        completeMesh(a);
+        return a;
+    };
+    struct Case {
+        const char* name;
+        Mesh mesh;
+        size_t doubled;
+    };
+    const size_t inBall = ball(1).triangles.size(), inSheet = sheet(0).triangles.size();
+    const Case cases[] = {
+        {"a ball twice", together(ball(1), ball(1)), inBall},
+        {"a ball within a ball", together(ball(0.9), ball(1)), inBall},
+        {"a hollow ball", together(ball(1), ball(0.9, true)), 0},
+        {"two balls that overlap", together(ball(1), ball(0.5, false, {0.8, 0, 0})), 0},
+        {"two balls apart", together(ball(1), ball(0.5, false, {3, 0, 0})), 0},
+        {"a sheet with a back", together(sheet(0), sheet(0, true)), inSheet},
+        {"a sheet with a back close to it", together(sheet(0), sheet(-0.002, true)), inSheet},
+        {"two sheets", together(sheet(0), sheet(-0.1, true)), 0},
+        {"a sheet within a ball", together(sheet(0), ball(1)), inSheet},
+    };
+    for (const Case& one : cases) {
+        INFO(one.name);
+        const std::vector<char> doubled = doubledWalls(one.mesh);
+        CHECK(size_t(std::count(doubled.begin(), doubled.end(), 1)) == one.doubled);
+    }
+    // The mass and the shape are those of one wall, the skin is all of it.
+    Mesh alone = ball(1);
+    completeMesh(alone);
+    const MadeMolecule once = made(alone), twice = made(cases[1].mesh);
+    CHECK(twice.volume == Approx(once.volume).epsilon(1e-9));
+    CHECK(twice.molecule.springs.size() == once.molecule.springs.size());
+    CHECK(twice.molecule.skin.triangles.size() == 2 * inBall);
+    CHECK_THAT(twice.notes.front(), Catch::Contains("lie on others or within the shape"));
+    Mesh thin = sheet(0);
+    completeMesh(thin);
+    CHECK(made(cases[5].mesh).area == Approx(made(thin).area));
+    CHECK(made(cases[6].mesh).area == Approx(made(thin).area).epsilon(1e-3));
 }
 
 TEST_CASE("a few triangles become a molecule of numbers, or are refused", "[from-mesh]") {
