@@ -66,13 +66,17 @@ PySimulation::PySimulation(const PyScene& scene, const std::optional<std::string
     if (substeps) scene_.solver.substeps = *substeps;
     checkScene(scene_);
     const Path wanted = shoal::path(path);
-    const py::gil_scoped_release release;
-    device_ = &deviceOf(device);
-    enter(*device_);
-    SimulationOptions options;
-    options.path = wanted;
-    options.cache = &device_->cache;
-    simulation_ = std::make_unique<Simulation>(device_->context, shaderRoot(), compile(scene_), options);
+    {
+        const py::gil_scoped_release release;
+        device_ = &deviceOf(device);
+        enter(*device_);
+        SimulationOptions options;
+        options.path = wanted;
+        options.cache = &device_->cache;
+        simulation_ = std::make_unique<Simulation>(device_->context, shaderRoot(), compile(scene_), options);
+    }
+    for (const Warning& warning : simulation_->warnings())
+        if (PyErr_WarnEx(PyExc_RuntimeWarning, text(warning).c_str(), 1) != 0) throw py::error_already_set();
 }
 
 PySimulation::~PySimulation() {

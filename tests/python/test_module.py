@@ -2,6 +2,7 @@
 import ast
 import os
 import pathlib
+import shutil
 import signal
 import subprocess
 import sys
@@ -73,6 +74,18 @@ def test_set_state_is_what_is_read_back(hello):
     hello.set_state(positions=places, velocities=np.ones((20, 9, 3)))
     assert abs(hello.positions() - places).max() < 1e-6
     assert (hello.velocities() == 1).all()
+
+
+def test_compute_shaders_that_fail_are_told(tmp_path):
+    shutil.copytree(ROOT / "shaders", tmp_path / "shaders")
+    for name in ("models", "molecules"):
+        (tmp_path / name).symlink_to(ROOT / name)
+    with open(tmp_path / "shaders/fused/lane.glsl", "a") as lane:
+        lane.write("\n#ifndef LAYERED\nbroken;\n#endif\n")
+    text = "import shoal; shoal.Simulation(shoal.Scene('hello')).step(1)"
+    run = subprocess.run([sys.executable, "-c", text], env=dict(os.environ, SHOAL_DATA=str(tmp_path)), capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    assert "RuntimeWarning" in run.stderr and "going on in fragment shaders" in run.stderr
 
 
 def test_a_run_is_repeated_and_resumed(hello, tmp_path):
