@@ -77,8 +77,8 @@ const JsonValue& member(const JsonValue& object, const std::string& key);
 inline std::string sourceFile(const std::string& name) {
     return std::string(SHOAL_SOURCE_DIR) + "/" + name;
 }
-inline std::string helloScene() {
-    return sourceFile("models/hello/hello.scene.json");
+inline std::string squaresScene() {
+    return sourceFile("tests/cli/squares.scene.json");
 }
 
 }  // namespace shoal::test

@@ -174,17 +174,17 @@ TEST_CASE("a height field's image that is none", "[cli]") {
 
 TEST_CASE("a step that is too long names the substeps that would do", "[cli]") {
     const std::string message =
-        refusal({"run", helloScene(), "--headless", "--frames", "1", "--dt", "0.1", "--solver", "leapfrog"},
+        refusal({"run", squaresScene(), "--headless", "--frames", "1", "--dt", "0.1", "--solver", "leapfrog"},
                 "use at least 9 substeps");
-    CHECK_THAT(message, Catch::Contains("hello.scene.json:"));
-    CHECK(runShoal({"run", helloScene(), "--headless", "--frames", "1", "--dt", "0.1", "--solver", "leapfrog",
-                    "--substeps", "9", "--json"})
+    CHECK_THAT(message, Catch::Contains("squares.scene.json:"));
+    CHECK(runShoal({"run", squaresScene(), "--headless", "--frames", "1", "--dt", "0.1", "--solver",
+                    "leapfrog", "--substeps", "9", "--json"})
               .code == 0);
 }
 
 TEST_CASE("more molecules than can be had say how many fit", "[cli]") {
-    refusal({"run", helloScene(), "--headless", "--count", "1073741825"}, "expected at most 1073741824");
-    refusal({"explain", helloScene(), "--count", "2147483647"}, "expected at most 1073741824");
+    refusal({"run", squaresScene(), "--headless", "--count", "1073741825"}, "expected at most 1073741824");
+    refusal({"explain", squaresScene(), "--count", "2147483647"}, "expected at most 1073741824");
     const Scratch scratch;  // 9 vertices each are too many before that
     const std::string scene = scratch.write(
         "many.scene.json", R"({"format": "shoal-scene-1", "groups": [{"count": 900000000, "molecule": ")" +

@@ -90,7 +90,7 @@ TEST_CASE("bench refuses what it cannot do", "[cli]") {
     refusal({"bench", "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png, found \"x.pdf\"");
     refusal({"bench", "--context", "egll"}, "did you mean \"egl\"?");
     refusal({"bench", "--quik"}, "unknown option --quik (did you mean \"--quick\"?)");
-    refusal({"bench", "hello.scene.json"}, "hello.scene.json");
+    refusal({"bench", "squares.scene.json"}, "squares.scene.json");
     refusal({"bench", "sorr"}, "bench: unknown \"sorr\" (did you mean \"sort\"?)");
     refusal({"bench", "sort", "--only", "radix"}, "--only is not of bench sort");
     refusal({"bench", "sort", "--plot", "x.svg"}, "--plot is of bench without a word");

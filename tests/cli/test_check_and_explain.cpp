@@ -116,17 +116,17 @@ TEST_CASE("one bad file among good ones fails the check and is named", "[cli]") 
     const Scratch scratch;
     const std::string bad =
         scratch.write("bad.json", "{\"format\": \"shoal-molecule-1\",\n \"vertices\": {}}");
-    const Outcome outcome = runShoal({"check", helloScene(), bad, "--json"});
+    const Outcome outcome = runShoal({"check", squaresScene(), bad, "--json"});
     CHECK(outcome.code == 1);
     const JsonValue report = outcome.json();
     REQUIRE(report.items.size() == 2);
     CHECK(member(report.items[0], "ok").boolean);
     CHECK_FALSE(member(report.items[1], "ok").boolean);
     CHECK_THAT(member(report.items[1], "error").text, Catch::Contains("bad.json:2:"));
-    const Outcome plain = runShoal({"check", bad, helloScene()});
+    const Outcome plain = runShoal({"check", bad, squaresScene()});
     CHECK(plain.code == 1);
     CHECK(plain.messages().size() == 1);
-    CHECK_THAT(plain.out, Catch::Contains("scene \"hello\""));  // the others are still checked
+    CHECK_THAT(plain.out, Catch::Contains("scene \"squares\""));  // the others are still checked
 }
 
 TEST_CASE("a warning is told and does not fail", "[cli]") {
@@ -137,7 +137,7 @@ TEST_CASE("a warning is told and does not fail", "[cli]") {
 }
 
 TEST_CASE("the smallest scene that ships warns of nothing", "[cli]") {
-    const Outcome outcome = runShoal({"check", helloScene()});
+    const Outcome outcome = runShoal({"check", squaresScene()});
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, !Catch::Contains("warning"));
 }
@@ -297,7 +297,7 @@ TEST_CASE("explain says what was left out, and why", "[cli]") {
 }
 
 TEST_CASE("explain takes the same overrides as run", "[cli]") {
-    const JsonValue report = runShoal({"explain", helloScene(), "--json", "--count", "2000", "--substeps",
+    const JsonValue report = runShoal({"explain", squaresScene(), "--json", "--count", "2000", "--substeps",
                                        "7", "--dt", "0.02", "--solver", "euler"})
                                  .json();
     CHECK(member(report, "substeps").number == 7);

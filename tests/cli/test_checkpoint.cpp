@@ -11,7 +11,7 @@ using namespace shoal::test;
 namespace {
 
 Words words(int frames, const Words& more) {
-    Words out{"run", helloScene(), "--headless", "--json", "--frames", std::to_string(frames)};
+    Words out{"run", squaresScene(), "--headless", "--json", "--frames", std::to_string(frames)};
     out.insert(out.end(), more.begin(), more.end());
     return out;
 }
@@ -90,7 +90,7 @@ TEST_CASE("what cannot be resumed or saved says why, in one line", "[cli]") {
     const std::string file = scratch.path("s.shoal");
     report(2, {"--save", file});
     refusal(words(2, {"--resume", scratch.path("none")}), "none: no such file");
-    refusal(words(2, {"--resume", helloScene()}), "hello.scene.json: is not a checkpoint of Shoal");
+    refusal(words(2, {"--resume", squaresScene()}), "squares.scene.json: is not a checkpoint of Shoal");
     refusal(words(2, {"--resume", file, "--count", "21"}),
             "s.shoal: is of another scene: its group \"quad\" had 20 molecules, here it has 21");
     refusal(words(2, {"--resume", file, "--seed", "3"}), "another --seed");

@@ -27,7 +27,7 @@ TEST_CASE("version and help", "[cli]") {
 }
 
 TEST_CASE("unknown words are refused with the nearest known one", "[cli]") {
-    const std::string scene = helloScene();
+    const std::string scene = squaresScene();
     refusal({}, "subcommand is required");
     refusal({"rn", scene}, "unknown command \"rn\" (did you mean \"run\"?)");
     refusal({"run", scene, "--headles"}, "unknown option --headles (did you mean \"--headless\"?)");
@@ -65,13 +65,14 @@ TEST_CASE("values out of range are refused", "[cli]") {
         {"--export-frames", "1,x", "--export-frames: expected a whole number, found \"x\""},
     };
     for (const Case& one : cases)
-        refusal({"run", helloScene(), "--headless", "--capture", "x", "--export", "x.csv",
+        refusal({"run", squaresScene(), "--headless", "--capture", "x", "--export", "x.csv",
                  concat(one.option, "=", one.value)},
                 one.message);
-    refusal({"run", helloScene(), "--headless", "--frames"}, "--frames");
-    refusal({"run", helloScene(), "--headless", "--frames", "2", "--export", "x.csv", "--export-frames", "3"},
-            "frame 3 is beyond the last, 2");
-    refusal({"run", helloScene(), "--headless", "--context", "window"}, "exclude each other");
+    refusal({"run", squaresScene(), "--headless", "--frames"}, "--frames");
+    refusal(
+        {"run", squaresScene(), "--headless", "--frames", "2", "--export", "x.csv", "--export-frames", "3"},
+        "frame 3 is beyond the last, 2");
+    refusal({"run", squaresScene(), "--headless", "--context", "window"}, "exclude each other");
 }
 
 TEST_CASE("a report that cannot be written is an error", "[cli]") {
@@ -83,8 +84,8 @@ TEST_CASE("a report that cannot be written is an error", "[cli]") {
     }
     for (const Words& words :
          {Words{"--version"}, Words{"--help"}, Words{"info", "--json"},
-          Words{"explain", helloScene(), "--json"}, Words{"check", helloScene(), "--json"},
-          Words{"run", helloScene(), "--headless", "--frames", "1", "--json"}})
+          Words{"explain", squaresScene(), "--json"}, Words{"check", squaresScene(), "--json"},
+          Words{"run", squaresScene(), "--headless", "--frames", "1", "--json"}})
         refusal(words, "standard output cannot be written", full);
 }
 
@@ -125,15 +126,15 @@ TEST_CASE("--gpu takes one of the devices that info lists", "[cli]") {
     const JsonValue report = runShoal({"info", "--json"}).json();
     const std::vector<JsonValue>& devices = member(report, "devices").items;
     const std::string beyond = std::to_string(devices.size());
-    refusal({"run", helloScene(), "--gpu", beyond, "--frames", "1"}, "there is no device " + beyond);
+    refusal({"run", squaresScene(), "--gpu", beyond, "--frames", "1"}, "there is no device " + beyond);
     refusal({"info", "--gpu", beyond}, "there is no device " + beyond);
-    refusal({"run", helloScene(), "--gpu", "-1", "--frames", "1"}, "--gpu: expected at least 0, found -1");
-    refusal({"run", helloScene(), "--gpu", "0", "--context", "egl"}, "excludes");
+    refusal({"run", squaresScene(), "--gpu", "-1", "--frames", "1"}, "--gpu: expected at least 0, found -1");
+    refusal({"run", squaresScene(), "--gpu", "0", "--context", "egl"}, "excludes");
     if (devices.empty()) {
         WARN("skipped: EGL lists no devices here");
         return;
     }
-    const JsonValue run = runShoal({"run", helloScene(), "--gpu", "0", "--frames", "1", "--json"}).json();
+    const JsonValue run = runShoal({"run", squaresScene(), "--gpu", "0", "--frames", "1", "--json"}).json();
     CHECK(member(member(run, "context"), "renderer").text == member(devices[0], "renderer").text);
     const JsonValue alone = runShoal({"info", "--gpu", "0", "--json"}).json();
     CHECK(member(alone, "platform").text == "EGL, device 0");
@@ -141,7 +142,7 @@ TEST_CASE("--gpu takes one of the devices that info lists", "[cli]") {
 
 TEST_CASE("a context that cannot be had says what helps", "[cli]") {
     const Surroundings noDisplay{.environment = {{"DISPLAY", {}}, {"WAYLAND_DISPLAY", {}}}};
-    const std::string window = refusal({"run", helloScene(), "--context", "window", "--frames", "1"},
+    const std::string window = refusal({"run", squaresScene(), "--context", "window", "--frames", "1"},
                                        "there is no display", noDisplay);
     CHECK_THAT(window, Catch::Contains("xvfb-run"));
 
@@ -153,11 +154,11 @@ TEST_CASE("a context that cannot be had says what helps", "[cli]") {
         return;
     }
     const std::string egl =
-        refusal({"run", helloScene(), "--context", "egl", "--frames", "1"}, "egl: ", noEgl);
+        refusal({"run", squaresScene(), "--context", "egl", "--frames", "1"}, "egl: ", noEgl);
     CHECK_THAT(egl, Catch::Contains("install libegl1"));
     if (!hasContext("osmesa")) return;
     // without EGL, "auto" goes on to OSMesa
-    const Outcome other = runShoal({"run", helloScene(), "--headless", "--frames", "1", "--json"}, noEgl);
+    const Outcome other = runShoal({"run", squaresScene(), "--headless", "--frames", "1", "--json"}, noEgl);
     REQUIRE(other.code == 0);
     CHECK(member(member(other.json(), "context"), "kind").text == "osmesa");
 }

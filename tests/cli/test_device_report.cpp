@@ -158,7 +158,7 @@ TEST_CASE("bench --report refuses what it cannot do, and leaves nothing behind",
 TEST_CASE("explain --cost tells what bounds each kernel, and keeps the rates of the device", "[cli]") {
     const Scratch scratch;
     const Surroundings kept{.environment = {{"SHOAL_CACHE", scratch.path("cache")}}};
-    const Words words = {"explain", helloScene(), "--cost", "--json"};
+    const Words words = {"explain", squaresScene(), "--cost", "--json"};
     const Outcome outcome = runShoal(words, kept);
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -189,11 +189,11 @@ TEST_CASE("explain --cost tells what bounds each kernel, and keeps the rates of 
     CHECK(member(member(member(again, "cost"), "rates"), "bytesPerSecond").number ==
           member(rates, "bytesPerSecond").number);
 
-    const Outcome text = runShoal({"explain", helloScene(), "--cost"}, kept);
+    const Outcome text = runShoal({"explain", squaresScene(), "--cost"}, kept);
     CHECK(text.code == 0);
     CHECK_THAT(text.out, Catch::Contains("kept from before") && Catch::Contains(bound) &&
                              Catch::Contains("within a factor of two"));
-    refusal({"explain", helloScene(), "--cost", "--path", "ping-pong"},
+    refusal({"explain", squaresScene(), "--cost", "--path", "ping-pong"},
             "--cost is of the fused path's kernels");
-    refusal({"explain", helloScene(), "--cost", "--shader"}, "--shader");
+    refusal({"explain", squaresScene(), "--cost", "--shader"}, "--shader");
 }

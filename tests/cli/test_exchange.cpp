@@ -20,7 +20,7 @@ using Catch::Contains;
 namespace {
 
 void runHello(const Words& more, int frames = 6) {
-    Words words{"run", helloScene(), "--headless", "--frames", std::to_string(frames)};
+    Words words{"run", squaresScene(), "--headless", "--frames", std::to_string(frames)};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome outcome = runShoal(words);
     INFO(outcome.err);
@@ -138,7 +138,7 @@ TEST_CASE("places far from the origin are written to all their digits", "[cli][e
 TEST_CASE("an index is whole at any moment, and a run that goes on adds to it", "[cli][exchange]") {
     const Scratch scratch;
     // The disk is full at the second file: what the index names is there.
-    refusal({"run", helloScene(), "--headless", "--frames", "4", "--count", "200", "--export",
+    refusal({"run", squaresScene(), "--headless", "--frames", "4", "--count", "200", "--export",
              scratch.path("out.pvd")},
             "cannot be written", {.largestFile = 20000});
     CHECK(filesIn(scratch.path("")).empty());
@@ -171,7 +171,7 @@ TEST_CASE("Assimp reads a sequence of .ply", "[cli][exchange]") {
 }
 
 TEST_CASE("wrong words of --export", "[cli][exchange]") {
-    const Words words{"run", helloScene(), "--headless", "--frames", "2"};
+    const Words words{"run", squaresScene(), "--headless", "--frames", "2"};
     const auto refused = [&](const Words& more, const std::string& part) {
         Words all = words;
         all.insert(all.end(), more.begin(), more.end());

@@ -80,7 +80,7 @@ std::vector<std::vector<Row>> statesOf(const std::string& folder, int frames) {
 
 std::vector<std::vector<Row>> statesOfHello(const Scratch& scratch, int frames) {
     const std::string folder = scratch.path("csv");
-    const Outcome run = runShoal({"run", helloScene(), "--headless", "--frames", std::to_string(frames - 1),
+    const Outcome run = runShoal({"run", squaresScene(), "--headless", "--frames", std::to_string(frames - 1),
                                   "--export", folder, "--export-every", "1"});
     INFO(run.err);
     REQUIRE(run.code == 0);
@@ -121,7 +121,7 @@ class ReadMesh {
 };
 
 Outcome exported(Words more) {
-    Words words{"export", helloScene()};
+    Words words{"export", squaresScene()};
     words.insert(words.end(), more.begin(), more.end());
     const Outcome out = runShoal(words);
     INFO(out.err);
@@ -415,7 +415,7 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
     const Scratch scratch;
     const std::string folder = scratch.path("vat");
     const auto refuses = [&](const Words& more, const std::string& part) {
-        Words words{"export", helloScene()};
+        Words words{"export", squaresScene()};
         words.insert(words.end(), more.begin(), more.end());
         refusal(words, part);
     };
@@ -428,7 +428,7 @@ TEST_CASE("export refuses in one line, and leaves nothing behind", "[cli][export
     refuses({"--vat", folder, "--molecules", "21"}, "--molecules: group \"quad\" has 20, found 21");
     refuses({"--vat", folder, "--texels", "jpg"}, "--texels: unknown word \"jpg\"");
     refuses({"--vat", "/proc/nothing"}, "/proc/nothing");
-    refusal({"export", helloScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
+    refusal({"export", squaresScene(), "--vat", folder, "--frames", "60"}, "vat", {.largestFile = 20000});
     refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "-1"}, "expected metres, 0 or more");
     refuses({"--usd", scratch.path("a.usda"), "--rigid-within", "nan"}, "expected metres, 0 or more");
     refuses({"--vat", scratch.path("a"), "--rigid-within", "1"}, "--usd");

@@ -78,6 +78,6 @@ TEST_CASE("field: warns and refuses in one line", "[cli][field]") {
             "outside of the grid");
     refusal({"field", model, "--capture", "a.jpg"}, ".png");
     refusal({"field", scratch.path("no.obj")}, "no such file");
-    refusal({"field", helloScene()}, "has no collider of type \"distanceField\"");
-    refusal({"field", helloScene(), "--resolution", "8"}, "a scene has its own");
+    refusal({"field", squaresScene()}, "has no collider of type \"distanceField\"");
+    refusal({"field", squaresScene(), "--resolution", "8"}, "a scene has its own");
 }

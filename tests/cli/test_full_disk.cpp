@@ -12,7 +12,7 @@ using namespace shoal::test;
 namespace {
 
 Words words(const std::string& option, const std::string& target) {
-    return {"run", helloScene(), "--headless", "--size", "160x90", "--frames", "2", option, target};
+    return {"run", squaresScene(), "--headless", "--size", "160x90", "--frames", "2", option, target};
 }
 
 Surroundings almostFull() {

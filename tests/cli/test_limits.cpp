@@ -109,7 +109,7 @@ TEST_CASE("--sandbox keeps commands within the folder of their file", "[cli]") {
     const Outcome ran = runShoal(run);
     INFO(ran.err);
     CHECK(ran.code == 0);
-    CHECK(runShoal({"run", helloScene(), "--headless", "--frames", "1", "--json", "--sandbox"}).code == 0);
+    CHECK(runShoal({"run", squaresScene(), "--headless", "--frames", "1", "--json", "--sandbox"}).code == 0);
     refusal({"run", outside, "--headless", "--frames", "1", "--json", "--sandbox"}, "--sandbox");
     std::filesystem::create_symlink(scratch / "blade.json", scratch / "own/link.json");
     refusal({"check", scratch.path("own/link.json"), "--sandbox"}, "--sandbox");

@@ -116,7 +116,7 @@ TEST_CASE("measure prints a table, says what it did otherwise, and plots", "[cli
 
 TEST_CASE("a reference that ran out of time is no chaos", "[cli]") {
     const Outcome outcome =
-        runShoal({"measure", helloScene(), "--seconds", "2", "--count", "20", "--solvers", "leapfrog",
+        runShoal({"measure", squaresScene(), "--seconds", "2", "--count", "20", "--solvers", "leapfrog",
                   "--samplings", "vertexSubstep", "--molecules", "2", "--json"});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -230,18 +230,18 @@ TEST_CASE("--error refuses what cannot be had", "[cli]") {
 
 TEST_CASE("measure refuses what it cannot do", "[cli]") {
     refusal({"measure"}, "measure: expected a scene file, or --report and a folder");
-    refusal({"measure", helloScene(), "--report", "x"}, "measure: expected a scene file, or --report");
+    refusal({"measure", squaresScene(), "--report", "x"}, "measure: expected a scene file, or --report");
     refusal({"measure", "--report", "x", "--json"}, "--report excludes --json");
     refusal({"measure", "--report", "x", "--duration", "1"}, "--duration excludes --report");
     refusal({"measure", "--report", "x", "--seed", "1"}, "--report excludes --seed");
-    refusal({"measure", helloScene(), "--solvers", "eulr"},
+    refusal({"measure", squaresScene(), "--solvers", "eulr"},
             "--solvers: unknown solver \"eulr\" (did you mean");
-    refusal({"measure", helloScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");
-    refusal({"measure", helloScene(), "--samplings", "vertex"}, "--samplings: unknown sampling \"vertex\"");
-    refusal({"measure", helloScene(), "--duration", "0"}, "--duration: expected a time above 0");
-    refusal({"measure", helloScene(), "--molecules", "0"}, "--molecules: expected 1 to 1024, found 0");
-    refusal({"measure", helloScene(), "--seconds", "nan"}, "--seconds: expected a time above 0");
-    refusal({"measure", helloScene(), "--error", "0"}, "--error: expected a relative error above 0");
-    refusal({"measure", helloScene(), "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png");
+    refusal({"measure", squaresScene(), "--solvers", "auto"}, "--solvers: expected the names of solvers");
+    refusal({"measure", squaresScene(), "--samplings", "vertex"}, "--samplings: unknown sampling \"vertex\"");
+    refusal({"measure", squaresScene(), "--duration", "0"}, "--duration: expected a time above 0");
+    refusal({"measure", squaresScene(), "--molecules", "0"}, "--molecules: expected 1 to 1024, found 0");
+    refusal({"measure", squaresScene(), "--seconds", "nan"}, "--seconds: expected a time above 0");
+    refusal({"measure", squaresScene(), "--error", "0"}, "--error: expected a relative error above 0");
+    refusal({"measure", squaresScene(), "--plot", "x.pdf"}, "--plot: expected a name ending in .svg or .png");
     refusal({"measure", "missing.scene.json"}, "missing.scene.json");
 }

@@ -15,7 +15,7 @@ const Surroundings on33{
     .environment = {{"MESA_GL_VERSION_OVERRIDE", "3.3"}, {"MESA_GLSL_VERSION_OVERRIDE", "330"}}};
 
 Words runWords(const Words& more = {}) {
-    Words words{"run", helloScene(), "--headless", "--frames", "3", "--json"};
+    Words words{"run", squaresScene(), "--headless", "--frames", "3", "--json"};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -87,7 +87,7 @@ TEST_CASE("fields are read as often as is asked", "[cli]") {
     for (const char* sampling : {"vertexSubstep", "vertexFrame", "moleculeFrame"}) {
         hashes.insert(hashOf(report({"--field-sampling", sampling})));
         const JsonValue plan =
-            runShoal({"explain", helloScene(), "--json", "--field-sampling", sampling}).json();
+            runShoal({"explain", squaresScene(), "--json", "--field-sampling", sampling}).json();
         CHECK(member(plan, "fieldSampling").text == sampling);
     }
     CHECK(hashes.size() == 3);
@@ -100,13 +100,13 @@ TEST_CASE("words that no path knows are refused", "[cli]") {
     refusal(runWords({"--lanes", "vertices"}), "unknown lanes \"vertices\"");
     refusal(runWords({"--field-sampling", "vertexframe"}), "did you mean \"vertexFrame\"?");
     refusal(runWords({"--path", "ping-pong", "--field-sampling", "moleculeFrame"}), "needs the fused path");
-    refusal({"explain", helloScene(), "--path", "x"}, "unknown path \"x\"");
-    refusal({"explain", helloScene(), "--path", "ping-pong", "--shader"}, "--shader");
+    refusal({"explain", squaresScene(), "--path", "x"}, "unknown path \"x\"");
+    refusal({"explain", squaresScene(), "--path", "ping-pong", "--shader"}, "--shader");
 }
 
 TEST_CASE("explain prints the kernels, in which no slider's value occurs", "[cli]") {
     const auto kernels = [](const Words& more) {
-        Words words{"explain", helloScene(), "--shader"};
+        Words words{"explain", squaresScene(), "--shader"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = runShoal(words);
         CHECK(outcome.code == 0);

@@ -16,7 +16,7 @@ using namespace shoal::test;
 namespace {
 
 Words runWords(const Words& more, int frames = 5) {
-    Words words{"run", helloScene(), "--headless", "--size", "160x90", "--frames", std::to_string(frames)};
+    Words words{"run", squaresScene(), "--headless", "--size", "160x90", "--frames", std::to_string(frames)};
     words.insert(words.end(), more.begin(), more.end());
     return words;
 }
@@ -163,11 +163,11 @@ TEST_CASE("a run that asks for nothing leaves pictures and says where", "[cli]")
     Words words = runWords({});
     const Outcome outcome = runShoal(words, {.folder = scratch.path("")});
     CHECK(outcome.code == 0);
-    CHECK_THAT(outcome.out, Catch::Contains("pictures: pictures/hello"));
+    CHECK_THAT(outcome.out, Catch::Contains("pictures: pictures/squares"));
     CHECK_THAT(outcome.err, Catch::Contains("5 of 5"));
-    const std::vector<std::string> files = filesIn(scratch.path("pictures/hello"));
+    const std::vector<std::string> files = filesIn(scratch.path("pictures/squares"));
     REQUIRE(files.size() == 5);
-    checkPicture(scratch.path("pictures/hello/" + files.back()));
+    checkPicture(scratch.path("pictures/squares/" + files.back()));
 }
 
 TEST_CASE("the state is exported as CSV", "[cli]") {

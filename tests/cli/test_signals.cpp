@@ -21,7 +21,7 @@ namespace {
 
 // Runs until it is ended.
 Words endless(const Words& more) {
-    Words out{"run", helloScene(), "--headless", "--size", "32x18", "--frames", "99999"};
+    Words out{"run", squaresScene(), "--headless", "--size", "32x18", "--frames", "99999"};
     out.insert(out.end(), more.begin(), more.end());
     return out;
 }
@@ -77,7 +77,7 @@ TEST_CASE("Ctrl-C finishes the video, the export and the saved state of the last
     CHECK(filesIn(scratch.path("")).size() == size_t(last) + 1 + 3);  // .vtp from frame 0 on; the others
     CHECK(hidden(scratch.path("")) == 0);
     const Outcome on =
-        runShoal({"run", helloScene(), "--headless", "--json", "--frames", "1", "--resume", saved});
+        runShoal({"run", squaresScene(), "--headless", "--json", "--frames", "1", "--resume", saved});
     REQUIRE(on.code == 0);
     CHECK(member(on.json(), "frames").number == last + 1);
 }
@@ -138,9 +138,9 @@ TEST_CASE("what a killed run left is swept by the next one that writes there", "
     const std::vector<std::string> swept = {".shoal-notes", "e.csv", "x.csv"};
     const auto end = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     do {
-        CHECK(
-            runShoal({"run", helloScene(), "--headless", "--frames", "1", "--export", scratch.path("x.csv")})
-                .code == 0);
+        CHECK(runShoal(
+                  {"run", squaresScene(), "--headless", "--frames", "1", "--export", scratch.path("x.csv")})
+                  .code == 0);
     } while (filesIn(scratch.path("")) != swept && std::chrono::steady_clock::now() < end);
     CHECK(filesIn(scratch.path("")) == swept);
 }
@@ -151,7 +151,7 @@ TEST_CASE("two runs do not write into one folder", "[cli][signals]") {
         endless({"--capture", scratch.path("p"), "--export", scratch.path("e"), "--export-every", "1"}));
     first.waitForFile(scratch.path("e/state-00001.csv"));
     const auto second = [&](const std::string& option, const std::string& target) {
-        return Words{"run", helloScene(), "--headless", "--frames", "2", "--size", "32x18", option, target};
+        return Words{"run", squaresScene(), "--headless", "--frames", "2", "--size", "32x18", option, target};
     };
     const std::string busy = concat("is being written by another run, process ", first.process());
     refusal(second("--capture", scratch.path("p")), busy);
@@ -178,7 +178,7 @@ TEST_CASE("numbers of frames are as long as the last one's, so that names sort",
     CHECK(std::filesystem::exists(scratch.path("s-000000.shoal")));
     CHECK(std::filesystem::exists(scratch.path("s-000001.shoal")));
     refusal(
-        {"run", helloScene(), "--headless", "--frames", "100000", "--capture", scratch.path("a-%05d.png")},
+        {"run", squaresScene(), "--headless", "--frames", "100000", "--capture", scratch.path("a-%05d.png")},
         "say %06d");
 }
 
@@ -191,7 +191,7 @@ TEST_CASE("what cannot be written is told before the first frame", "[cli][signal
                     "cannot make this folder");
     refusal(endless({"--export", scratch.path("x.csv"), "--capture", file + "/v.mp4"}),
             "cannot make this folder");
-    refusal({"measure", helloScene(), "--csv", file + "/x.csv"}, "cannot make this folder");
+    refusal({"measure", squaresScene(), "--csv", file + "/x.csv"}, "cannot make this folder");
     CHECK(filesIn(scratch.path("")) == std::vector<std::string>{"taken"});
 }
 
@@ -201,7 +201,7 @@ TEST_CASE("what is no file is neither waited for nor replaced", "[cli][signals]"
     REQUIRE(::mkfifo(fifo.c_str(), 0600) == 0);
     for (const char* command : {"run", "check", "explain", "measure"})
         CHECK_THAT(runShoal({command, fifo}).err, Catch::Contains("fifo.json: is a FIFO, expected a file"));
-    const Words words{"run", helloScene(), "--headless", "--frames", "1"};
+    const Words words{"run", squaresScene(), "--headless", "--frames", "1"};
     const auto with = [&](Words more) {
         more.insert(more.begin(), words.begin(), words.end());
         return more;

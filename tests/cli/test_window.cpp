@@ -23,7 +23,7 @@ static double brightness(const Image& image, int left, int top, int width, int h
 TEST_CASE("a window shows the scene and the panel", "[.window]") {
     const Scratch scratch;
     const std::string file = scratch.path("window.png");
-    const Outcome outcome = runShoal({"run", helloScene(), "--context", "window", "--size", "800x600",
+    const Outcome outcome = runShoal({"run", squaresScene(), "--context", "window", "--size", "800x600",
                                       "--frames", "3", "--screenshot", file});
     INFO(outcome.err);
     REQUIRE(outcome.code == 0);
@@ -38,7 +38,7 @@ TEST_CASE("a window shows the scene and the panel", "[.window]") {
 
 TEST_CASE("a window that is told to end closes, and ends by the signal", "[.window]") {
     const Scratch scratch;
-    StartedShoal window({"run", helloScene(), "--context", "window", "--size", "320x240", "--save",
+    StartedShoal window({"run", squaresScene(), "--context", "window", "--size", "320x240", "--save",
                          scratch.path("s.shoal"), "--save-frames", "1"});
     window.waitForFile(scratch.path("s.shoal"));
     window.send(SIGTERM);
@@ -53,7 +53,7 @@ TEST_CASE("a window saves when it closes, and goes on from there", "[.window]") 
     const Scratch scratch;
     const std::string first = scratch.path("first.shoal"), second = scratch.path("second.shoal");
     const auto window = [](const Words& more) {
-        Words words{"run", helloScene(), "--context", "window", "--size", "320x240", "--frames", "3"};
+        Words words{"run", squaresScene(), "--context", "window", "--size", "320x240", "--frames", "3"};
         words.insert(words.end(), more.begin(), more.end());
         const Outcome outcome = runShoal(words);
         INFO(outcome.err);
@@ -63,7 +63,7 @@ TEST_CASE("a window saves when it closes, and goes on from there", "[.window]") 
     CHECK_THAT(window({"--save", first}).out, Catch::Contains("saved: " + first));
     window({"--resume", first, "--save", second});
     const auto hash = [](const Words& more) {
-        Words words{"run", helloScene(), "--headless", "--json"};
+        Words words{"run", squaresScene(), "--headless", "--json"};
         words.insert(words.end(), more.begin(), more.end());
         return member(runShoal(words).json(), "hash").text;
     };

@@ -78,7 +78,7 @@ TEST_CASE("what files may say is printed", "[cli]") {
 TEST_CASE("a scene that ships goes by its name", "[cli]") {
     const Scratch scratch;
     const Surroundings elsewhere{.folder = scratch.path("")};
-    const std::string plan = runShoal({"explain", helloScene()}).out;
+    const std::string plan = runShoal({"explain", sourceFile("models/hello/hello.scene.json")}).out;
     CHECK(runShoal({"explain", "hello"}, elsewhere).out == plan);
     CHECK(runShoal({"explain", "hello/hello"}, elsewhere).out == plan);
     CHECK_THAT(
@@ -104,7 +104,7 @@ TEST_CASE("exit code 2 is a wrong command line, 1 a run that failed", "[cli]") {
         int code;
         Words words;
     };
-    const std::string scene = helloScene();
+    const std::string scene = squaresScene();
     const Case cases[] = {
         {2, {}},
         {2, {"rn"}},
@@ -161,7 +161,7 @@ TEST_CASE("exit code 2 is a wrong command line, 1 a run that failed", "[cli]") {
 
 TEST_CASE("messages point to the help of the command they are of", "[cli]") {
     refusal({"rn"}, "; see shoal --help");
-    refusal({"run", helloScene(), "--headles"}, "; see shoal run --help");
+    refusal({"run", squaresScene(), "--headles"}, "; see shoal run --help");
     refusal({"check"}, "; see shoal check --help");
     refusal({"molecule", "shw"}, "; see shoal molecule --help");
     refusal({"molecule", "show", "x.json", "--captur", "x.png"}, "; see shoal molecule show --help");

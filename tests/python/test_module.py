@@ -295,7 +295,7 @@ def test_what_has_run_away_is_not_saved(tmp_path):
 
 def test_check_and_measure():
     assert shoal.check(ROOT / "molecules/leaf.json") == []
-    assert any("without any stiffness" in finding.message for finding in shoal.check("hello"))
+    assert any("without any stiffness" in finding.message for finding in shoal.check(ROOT / "tests/cli/squares.scene.json"))
     missing = shoal.check("none.json")
     assert len(missing) == 1 and missing[0].error
     rows = shoal.measure(shoal.Scene("hello"), duration=0.1, seconds=2)
