@@ -529,7 +529,8 @@ TEST_CASE("the renderer's shaders are sound GLSL, of WebGL 2 as well", "[shaders
     validator.addPicture("render/sky.frag", {"LINEAR_LIGHT"});
     validator.addPicture("render/sky.frag", {"CLOUDS"});
     validator.addPicture("render/clouds.frag", {});
-    validator.addPicture("render/surface.frag", {"LINEAR_LIGHT", "SHADOWS", "REFRACTS"});
+    for (const char* medium : {"WATER", "WIDE_SHADOWS"})
+        validator.addPicture("render/surface.frag", {"LINEAR_LIGHT", "SHADOWS", "REFRACTS", medium});
     validator.addPicture("render/picture.frag", {"LINEAR_LIGHT"});
     validator.addPicture("render/surface.vert", {"DEPTH_ONLY"});
     validator.addPicture("render/surface_shadow.frag", {"DEPTH_ONLY"});
