@@ -151,7 +151,7 @@ std::string asText(const Report& r) {
         out += concat("\n  skin: ", many(molecule.skin.vertices.size(), "vertex", "vertices"), ", ",
                       many(molecule.skin.triangles.size(), "triangle", "triangles"), ", at rest within ",
                       round3(made.skinError / molecule.size()), " of its size, all of it within ",
-                      round3(made.skinReach / molecule.size()), " of a simulated vertex",
+                      round3(made.skinReach / glm::length(made.extent)), " of a simulated vertex",
                       made.image ? concat(", coloured by an image of ", made.image->width, " x ",
                                           made.image->height, " texels")
                                  : "");
@@ -189,7 +189,7 @@ JsonValue asJson(const Report& r) {
         key("skinVertices", molecule.skin.vertices.size()),
         key("skinTriangles", molecule.skin.triangles.size()),
         key("skinError", made.skinError / molecule.size()),
-        key("skinReach", made.skinReach / molecule.size()), key("skinLever", made.skinLever),
+        key("skinReach", made.skinReach / glm::length(made.extent)), key("skinLever", made.skinLever),
         key("notes", made.notes), key("warnings", arrayOf(r.warnings, asJson)), key("seconds", r.seconds));
     if (r.trial && r.trial->untried.empty())
         append(out, key("trial", object(key("solver", r.trial->solver), key("substeps", r.trial->substeps),

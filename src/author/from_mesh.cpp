@@ -542,16 +542,21 @@ MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     checkOptions(options);
     if (options.springs != FromMesh::Springs::automatic || options.rings || !options.skin)
         return Maker(mesh, options).run();
-    // Beyond, what hangs over the ends of the simulated surface swings about, or hangs on another part's.
-    constexpr double mostLever = 2;
+    // Beyond, what hangs over the ends of the simulated surface swings about, or hangs on another part's; and
+    // what is far from all simulated vertices does not bend. The reach is a share of the size.
+    constexpr double mostLever = 2, mostReach = 0.25;
     std::string why;
     std::optional<MadeMolecule> plain;
     try {
         plain = Maker(mesh, options).run();
-        if (plain->skinLever <= mostLever) return std::move(*plain);
-        why = concat("with ", plain->molecule.vertices.size(),
-                     " vertices along the surface the skin would move ",
-                     std::round(10 * plain->skinLever) / 10, " times as far as one of them");
+        const double reach = plain->skinReach / glm::length(plain->extent);
+        if (plain->skinLever <= mostLever && reach <= mostReach) return std::move(*plain);
+        why = concat("with ", plain->molecule.vertices.size(), " vertices along the surface ",
+                     plain->skinLever > mostLever
+                         ? concat("the skin would move ", std::round(10 * plain->skinLever) / 10,
+                                  " times as far as one of them")
+                         : concat("some of the skin would be ", std::round(100 * reach) / 100,
+                                  " of its size away from all of them"));
     } catch (const TornSkin& torn) {
         why = torn.message();
     }
