@@ -489,15 +489,15 @@ TEST_CASE("walls that are there twice, or inside, count once", "[from-mesh]") {
 TEST_CASE("no part of a skin is far from what is simulated", "[from-mesh]") {
     // a ball with eight legs of few triangles, whose ends a simplified surface loses
     Mesh spider;
-    addSphere(spider, {0, 0, 0}, 0.06, 12, 8);
+    addSphere(spider, {0, 0, 0}, 0.12, 12, 8);
     for (int i = 0; i < 8; ++i) {
         const double turn = (i + 0.5) * std::numbers::pi / 4;
-        const glm::dvec3 way(std::cos(turn), 0.3, std::sin(turn)), across(-way.z, 0, way.x);
+        const glm::dvec3 way(std::cos(turn), 0, std::sin(turn)), across(-way.z, 0, way.x);
         std::vector<glm::dvec3> p;
         std::vector<glm::ivec3> t;
         for (int k = 0; k < 4; ++k)
             for (const double side : {-0.01, 0.01})
-                p.push_back((0.05 + 0.1 * k) * way + side * across);
+                p.push_back((0.11 + 0.1 * k) * way + side * across);
         for (int k = 0; k < 3; ++k) {
             t.emplace_back(2 * k, 2 * k + 1, 2 * k + 3);
             t.emplace_back(2 * k, 2 * k + 3, 2 * k + 2);
