@@ -22,7 +22,7 @@ static double brightness(const Image& image, int left, int top, int width, int h
 
 TEST_CASE("a window shows the scene and the panel", "[.window]") {
     const Scratch scratch;
-    const std::string file = scratch.path("window.webp");
+    const std::string file = scratch.path("window.png");
     const Outcome outcome = runShoal({"run", squaresScene(), "--context", "window", "--size", "800x600",
                                       "--frames", "3", "--screenshot", file});
     INFO(outcome.err);
