@@ -298,7 +298,7 @@ def test_check_and_measure():
     assert any("without any stiffness" in finding.message for finding in shoal.check(ROOT / "tests/cli/squares.scene.json"))
     missing = shoal.check("none.json")
     assert len(missing) == 1 and missing[0].error
-    rows = shoal.measure(shoal.Scene("hello"), duration=0.1, seconds=2)
+    rows = shoal.measure(shoal.Scene(ROOT / "tests/cli/squares.scene.json"), duration=0.1, seconds=2)
     errors = [row["error"] for row in rows if row["solver"] == "leapfrog" and row["error"] is not None]
     assert errors and min(errors) < 1e-3
 
