@@ -37,7 +37,7 @@ void main()
     vec2 towards = sunDirection.xz / (max(sunDirection.y, 0.0) + 0.3);
     float before = thickness(at + 0.22 * towards, 4);
     float cover = smoothstep(0.0, 0.22, here);
-    // What lies between here and the sun shades; thin rims let light through.
+    // Clouds between here and the sun shade this one; thin rims let light through.
     float light = exp(-2.2 * max(before, 0.0) - 1.1 * max(here, 0.0));
     fragment = vec4(cover * smoothstep(0.0, 0.16, direction.y), light, 0.0, 1.0);
 }

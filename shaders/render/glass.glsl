@@ -1,5 +1,5 @@
-// What refracts, drawn as a plate of even thickness: light leaves it in the direction in which it came, moved sideways.
-// Whatever is blended is not seen through it displaced. Needs render/light.glsl.
+// Glass is drawn as a plate of even thickness, which light leaves in the direction in which it came, moved sideways.
+// Nothing that is blended is seen displaced through it. Needs render/light.glsl.
 
 uniform sampler2D lightBehind;  // of all that is not blended
 uniform sampler2D sceneDepth;   // 1 - nearest / depth
@@ -36,7 +36,7 @@ vec4 throughGlass(Surface s, vec3 tint)
     float forward = dot(along, -viewToScene[2]);
     vec3 behind = along * (min(depthBehind(straight), 1e4) / forward);
     vec2 bent = inPicture(behind + aside);
-    // What stands before the plate is not seen through it.
+    // A thing before the plate is not seen through it.
     float ahead = dot(s.place, -viewToScene[2]);
     if (depthBehind(bent) < ahead) bent = straight;
 

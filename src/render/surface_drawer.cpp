@@ -449,7 +449,7 @@ void SurfaceDrawer::drawBlended(const Eye& eye, const Lighting& lighting, double
     glEnable(GL_CULL_FACE);
     for (const Far& one : order) {
         if (refracting(one.look->material)) applyGlass(*one.look, eye, behind);
-        // Of what is closed, all that faces away from the eye is behind what faces it.
+        // A closed surface has all that faces away from the eye behind what faces it.
         for (const GLenum hidden : {GL_FRONT, GL_BACK}) {
             glCullFace(hidden);
             drawLook(*one.surface, *one.look, eye, lighting, time);

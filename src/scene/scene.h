@@ -31,7 +31,7 @@ class Description;
 
 // ---- Models
 
-// What a model's drawn grain looks like.
+// The look of a model's drawn grain.
 enum class GrainKind {
     earth,  // soil and grass on what faces up, else bark
     stone,  // pits and stains, alike in all directions
