@@ -21,7 +21,8 @@ uniform bool wakes;             // all molecules of the group
 layout(std430, binding = 0) buffer State { float state[]; };
 layout(std430, binding = 1) buffer Loads { vec4 loads[]; };  // contact/apply.comp; in w one of the numbers below
 // By sphere. Of what is awake: xyz where its vertex was, m from the anchor; in w of the first sphere for how long all have stayed
-// there, s. Of what rests: the velocity that its vertex gains in the first step, m/s.
+// there, s. Of what rests: xyz the velocity that its vertex gains in the first step, m/s; w how much its contacts pushed then
+// (contact/weigh.comp), N s, or -1: nobody has asked yet.
 layout(std430, binding = 2) buffer Calm { vec4 calm[]; };
 
 const float AWAKE = 0.0;
@@ -76,7 +77,7 @@ void keepOrWake(int sphere, int first)
         if (isFirst) calm[sphere + v].xyz = gained;
         otherwise = max(otherwise, distance(gained, calm[sphere + v].xyz));
     }
-    bool woken = isWoken(sphere) || ((probes || isFirst) && otherwise > wakeSpeed);
+    bool woken = isWoken(sphere) || (probes && otherwise > wakeSpeed);
     for (int v = 0; v < VERTICES; ++v) {
         vec3 place = stateVector(first, v);
         vec3 gained = stateVector(first + POSITION_ELEMENTS * BLOCK, v);
@@ -103,7 +104,9 @@ void rest(int molecule, int sphere, int first)
         if (comesToRest) setMotion(first, v, vec3(0.0), true);
     }
     calm[sphere].w = time;
-    if (comesToRest) setRest(sphere, JUST_RESTED);
+    if (!comesToRest) return;
+    for (int k = 0; k < SPHERES; ++k) calm[sphere + k].w = -1.0;
+    setRest(sphere, JUST_RESTED);
 }
 
 void main()

@@ -1,5 +1,6 @@
 // A lane a marked slot (contact/marks.glsl) whose molecule rests: what touches it and is awake has worked out their impulse, and
-// its memory takes that over. It wakes where its contacts now push otherwise than when it came to rest.
+// its memory takes that over. It wakes where its contacts push more than when it came to rest, or where one has gone and the others
+// push otherwise. That they push less is no reason: what is awake between two that rest lets go of how these squeeze it.
 #include "contact/respond.glsl"
 #include "contact/marked.glsl"
 
@@ -13,13 +14,14 @@ layout(std430, binding = 1) buffer Partners { uint partners[]; };
 layout(std430, binding = 2) buffer OldPushes { vec4 oldPushes[]; };
 layout(std430, binding = 3) buffer Known { vec4 known[]; };
 layout(std430, binding = 4) buffer OldAnchors { vec4 oldAnchors[]; };
-layout(std430, binding = 5) readonly buffer MarkedSlots { uint markedSlots[]; };
+layout(std430, binding = 5) buffer Calm { vec4 calm[]; };  // contact/rest.comp
 #ifdef WALLS
 #include "contact/walls.glsl"
 
 layout(std430, binding = 6) readonly buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
 #endif
 uniform usamplerBuffer slots;  // of a sphere
+uniform usamplerBuffer markedSlots;
 
 bool restsAt(int slot)
 {
@@ -37,45 +39,77 @@ Entry mirrored(int slot, int other)
     return Entry(vec4(-push.xyz, push.w), vec4(-anchor.xyz, anchor.w));
 }
 
-void main()
+// What the contacts of a sphere push, N s.
+struct Pushes {
+    vec3 sum;
+    float lengths;  // the sum of their lengths
+};
+
+void add(inout Pushes pushes, vec3 push)
 {
-    if (gl_GlobalInvocationID.x >= marked) return;
-    int slot = int(markedSlots[gl_GlobalInvocationID.x]);
-    if (!restsAt(slot)) return;
-    loadSphere(slot);
-    int sphere = sphereOf(slot);
-    vec3 keeps = vec3(0.0);
+    pushes.sum += push;
+    pushes.lengths += length(push);
+}
+
+// Returns how the memory of a sphere has it.
+Pushes rememberedBy(int sphere)
+{
+    Pushes all = Pushes(vec3(0.0), 0.0);
+    for (int e = 0; e < int(known[sphere].w); ++e) add(all, oldPushes[e * listStride + sphere].xyz);
+#ifdef WALLS
+    for (int k = 0; k < MOST_WALLS; ++k) add(all, wallPushes[2 * (MOST_WALLS * sphere + k)].xyz);
+#endif
+    return all;
+}
+
+bool isListed(int slot, int sphere)
+{
+    bool is = false;
+    for (int e = 0; e < listedOf(slot); ++e) is = is || sphereOf(entryOf(slot, e)) == sphere;
+    return is;
+}
+
+void remember(int sphere, int e, uint partner, Entry entry)
+{
+    int at = e * listStride + sphere;
+    partners[at] = partner;
+    oldPushes[at] = entry.push;
+    oldAnchors[at] = entry.anchor;
+}
+
+// Renews the memory of a sphere, and returns whether it has lost a contact.
+bool renew(int slot, int sphere)
+{
+    bool hasLost = false;
     int kept = 0;
     for (int e = 0; e < int(known[sphere].w); ++e) {
         int at = e * listStride + sphere;
-        if (restsAt(int(texelFetch(slots, int(partners[at])).x))) {
-            int to = kept * listStride + sphere;
-            Entry old = Entry(oldPushes[at], oldAnchors[at]);
-            partners[to] = partners[at];
-            oldPushes[to] = old.push;
-            oldAnchors[to] = old.anchor;
-            keeps += old.push.xyz;
-            ++kept;
-        }
+        bool rests = restsAt(int(texelFetch(slots, int(partners[at])).x));
+        if (rests) remember(sphere, kept++, partners[at], Entry(oldPushes[at], oldAnchors[at]));
+        hasLost = hasLost || !(rests || isListed(slot, int(partners[at])));
     }
     for (int e = 0; e < listedOf(slot); ++e) {
         int other = entryOf(slot, e);
-        if (!restsAt(other) && kept < LIST) {
-            int to = kept * listStride + sphere;
-            Entry now = remembered(mirrored(slot, other), sphereAt(other));
-            partners[to] = uint(sphereOf(other));
-            oldPushes[to] = now.push;
-            oldAnchors[to] = now.anchor;
-            keeps += now.push.xyz;
-            ++kept;
-        }
+        if (!restsAt(other) && kept < LIST)
+            remember(sphere, kept++, uint(sphereOf(other)), remembered(mirrored(slot, other), sphereAt(other)));
     }
-#ifdef WALLS
-    for (int k = 0; k < MOST_WALLS; ++k) keeps += wallPushes[2 * (MOST_WALLS * sphere + k)].xyz;
-#endif
-    vec3 before = known[sphere].xyz;
-    float weight = uintBitsToFloat(fetch(motions, sphere).w & ~FRESH);
-    float otherwise = length(keeps - before) * weight;
-    totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, otherwise > max(wakeSpeed, 0.25 * length(before) * weight) ? 1.0 : 0.0);
     known[sphere].w = float(kept) + fract(known[sphere].w);
+    return hasLost;
+}
+
+void main()
+{
+    if (gl_GlobalInvocationID.x >= marked) return;
+    int slot = int(texelFetch(markedSlots, int(gl_GlobalInvocationID.x)).x);
+    if (!restsAt(slot)) return;
+    loadSphere(slot);
+    int sphere = sphereOf(slot);
+    if (calm[sphere].w < 0.0) calm[sphere].w = rememberedBy(sphere).lengths;
+    bool hasLost = renew(slot, sphere);
+    Pushes now = rememberedBy(sphere);
+    float most = wakeSpeed / uintBitsToFloat(fetch(motions, sphere).w & ~FRESH);  // infinite where it is held
+    bool more = now.lengths - calm[sphere].w > max(most, 0.25 * calm[sphere].w);
+    vec3 before = known[sphere].xyz;
+    bool otherwise = length(now.sum - before) > max(most, 0.1 * length(before));
+    totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, more || (hasLost && otherwise) ? 1.0 : 0.0);
 }

@@ -173,18 +173,25 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
     settled();
 }
 
+// m/s: a tenth of what gravity adds in a step.
+float MoleculeContact::wakeSpeed(const Times& times) const {
+    return float(std::max(times.restSpeed / 20, *contact_->settings.rest));
+}
+
 // What rests takes over what is awake has worked out.
 void MoleculeContact::weigh(const Times& times) {
     Textures textures = bindResponse(weigh_, times);
-    textures.add("pushes", pushes_[0].texture).add("anchors", anchors_.texture).add("slots", slots_.texture);
-    // three quarters of its own weight, so that it wakes when nothing holds it
-    weigh_.set("wakeSpeed", float(std::max(times.restSpeed * 0.375, *contact_->settings.rest)));
+    textures.add("pushes", pushes_[0].texture)
+        .add("anchors", anchors_.texture)
+        .add("slots", slots_.texture)
+        .add("markedSlots", markedSlots_.texture);
+    weigh_.set("wakeSpeed", wakeSpeed(times));
     weigh_.storage("Totals", 0, totals_[0].buffer);
     weigh_.storage("Partners", 1, partners_.buffer);
     weigh_.storage("OldPushes", 2, oldPushes_.buffer);
     weigh_.storage("Known", 3, known_.buffer);
     weigh_.storage("OldAnchors", 4, oldAnchors_.buffer);
-    weigh_.storage("MarkedSlots", 5, markedSlots_.buffer);
+    weigh_.storage("Calm", 5, calm_.buffer);
     if (walls_) weigh_.storage("WallPushes", 6, wallPushes_.buffer);
     weigh_.storage("MarkGroups", 7, markGroups_);
     ++dispatches_;
@@ -209,8 +216,7 @@ void MoleculeContact::rest(Buffers& state, const Times& times) {
         program.set("stepTime", float(times.step));
         program.set("restTime", float(ContactPlan::restTime));
         program.set("restDistance", float(*contact_->settings.rest * ContactPlan::restTime));
-        // a tenth of what gravity adds
-        program.set("wakeSpeed", float(std::max(times.restSpeed / 20, *contact_->settings.rest)));
+        program.set("wakeSpeed", wakeSpeed(times));
         program.set("probes", int(groups_[g].probes));
         program.set("wakes", int(wakes_));
         program.storage("Loads", 1, loads_.buffer);

@@ -124,6 +124,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void rest(Buffers& state, const Times& times) override;
     void weigh(const Times& times);
     bool rests() const { return contact_->settings.rest.has_value(); }
+    float wakeSpeed(const Times& times) const;
     // run(number of the group with contact, its buffers, part, the part's spheres)
     template <typename Run>
     void forParts(Buffers& state, const Run& run) {

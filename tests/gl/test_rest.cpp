@@ -153,6 +153,52 @@ TEST_CASE("what rests wakes when something heavy is laid on it", "[rest]") {
     CHECK(now.positions[1].x > 0.15);
 }
 
+TEST_CASE("a heap in a box comes to rest as a whole", "[rest]") {
+    if (!canFuse()) return;
+    constexpr int side = 10;
+    std::vector<dvec3> places;
+    for (int layer = 0; layer < 6; ++layer)
+        for (int i = 0; i < side * side; ++i)
+            places.emplace_back(0.1 * (i % side) + 0.002 * (layer % 3), 0.051 + 0.102 * layer,
+                                0.1 * (i / side) + 0.003 * (layer % 2));
+    Scene scene = marbles(places);
+    for (const dvec3& normal : {dvec3(1, 0, 0), dvec3(-1, 0, 0), dvec3(0, 0, 1), dvec3(0, 0, -1)}) {
+        PlaneCollider wall;
+        wall.normal = normal;
+        wall.point = dvec3(0.05 * (side - 1)) - normal * (0.05 * side + 0.005);
+        Collider& collider = scene.colliders.emplace_back();
+        collider.shape = wall;
+        collider.thickness = 0.05;
+    }
+    Simulation simulation = fusedOf(scene);
+    run(simulation, 240);
+    CHECK(resting(simulation) == places.size());
+    // nothing hangs: each lies on the floor or touches one below
+    const std::vector<dvec3> now = simulation.snapshot(0).positions;
+    for (const dvec3& p : now)
+        CHECK((p.y < 0.0505 || std::any_of(now.begin(), now.end(), [&](const dvec3& below) {
+                   return below.y < p.y && glm::distance(below, p) < 0.1 * 1.02;
+               })));
+}
+
+TEST_CASE("what rests wakes when what bears it is blown away", "[rest]") {
+    if (!canFuse()) return;
+    // one on three, which a wind that it does not feel itself moves in the end
+    Scene scene = marbles({{-0.05, 0.05, 0}, {0.05, 0.05, 0}, {0, 0.05, 0.0866}}, 0.2);
+    Group upper = scene.groups[0];
+    upper.name = "upper";
+    upper.place.items = {at({0, 0.132, 0.0289})};
+    upper.count = 1;
+    scene.groups[0].drag = {2, 2};
+    scene.groups.push_back(upper);
+    scene.fields.emplace_back().shape = OscillatingField{.velocity = {0, 0, 2}, .frequency = 0.05};
+    Simulation simulation = fusedOf(scene);
+    run(simulation, 40);
+    CHECK(resting(simulation) == 4);
+    run(simulation, 260);
+    CHECK(simulation.snapshot(1).positions[0].y < 0.06);
+}
+
 TEST_CASE("what rests wakes when a slider or a field changes what acts on it", "[rest]") {
     if (!canFuse()) return;
     Scene scene = marbles(twoLayers());
