@@ -1,6 +1,7 @@
 // A lane a marked slot (contact/marks.glsl) whose molecule rests: what touches it and is awake has worked out their impulse, and
-// its memory takes that over. It wakes where its contacts push more than when it came to rest, or where one has gone and the others
-// push otherwise. That they push less is no reason: what is awake between two that rest lets go of how these squeeze it.
+// its memory takes that over. It wakes where its contacts push more than when it came to rest, or much less, or where one has gone
+// and the others push otherwise. That they push a little less is no reason: what is awake between two that rest lets go of how these
+// squeeze it.
 #include "contact/respond.glsl"
 #include "contact/marked.glsl"
 
@@ -108,8 +109,10 @@ void main()
     bool hasLost = renew(slot, sphere);
     Pushes now = rememberedBy(sphere);
     float most = wakeSpeed / uintBitsToFloat(fetch(motions, sphere).w & ~FRESH);  // infinite where it is held
-    bool more = now.lengths - calm[sphere].w > max(most, 0.25 * calm[sphere].w);
+    float was = calm[sphere].w;
+    bool more = now.lengths - was > max(most, 0.25 * was);
+    bool less = was - now.lengths > max(7.5 * most, 0.4 * was);
     vec3 before = known[sphere].xyz;
     bool otherwise = length(now.sum - before) > max(most, 0.1 * length(before));
-    totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, more || (hasLost && otherwise) ? 1.0 : 0.0);
+    totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, more || less || (hasLost && otherwise) ? 1.0 : 0.0);
 }
