@@ -21,17 +21,13 @@ using Triangles = std::vector<unsigned>;  // three welded vertices each
 
 constexpr double flat = 1e-3;  // smallest extent by largest: below, quadrics see a plane
 
-// Welded, without triangles that have become edges, each once.
+// Welded, without triangles that have become edges.
 Triangles weldedTriangles(const Mesh& mesh) {
     Triangles out;
-    std::set<std::array<int, 3>> seen;
     for (const glm::ivec3& t : mesh.triangles) {
-        std::array<int, 3> corners = {mesh.weld[size_t(t.x)], mesh.weld[size_t(t.y)], mesh.weld[size_t(t.z)]};
+        const std::array<int, 3> corners = {mesh.weld[size_t(t.x)], mesh.weld[size_t(t.y)],
+                                            mesh.weld[size_t(t.z)]};
         if (corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-        // turned so that the least comes first: the two sides of a sheet stay two
-        std::array<int, 3> key = corners;
-        std::rotate(key.begin(), std::min_element(key.begin(), key.end()), key.end());
-        if (!seen.insert(key).second) continue;
         for (const int corner : corners)
             out.push_back(unsigned(corner));
     }

@@ -192,11 +192,25 @@ struct TornSkin : Error {
     using Error::Error;
 };
 
+// Returns what a molecule is made of, of which the skin keeps all.
+Mesh withoutDoubledWalls(Mesh mesh) {
+    const std::vector<char> doubled = doubledWalls(mesh);
+    std::vector<glm::ivec3> kept;
+    for (size_t t = 0; t < doubled.size(); ++t)
+        if (!doubled[t]) kept.push_back(mesh.triangles[t]);
+    if (kept.size() == mesh.triangles.size()) return mesh;
+    mesh.triangles = std::move(kept);
+    mesh.objects.clear();
+    mesh.parts.clear();
+    return mesh;
+}
+
 // One run of makeMolecule, step by step.
 class Maker {
   public:
-    Maker(const Mesh& mesh, const FromMesh& options)
-        : options_(options), mesh_(placed(mesh, options)), shape_(withoutDoubledWalls(mesh_)) {}
+    // `mesh`: placed; `shape`: the same without what is there twice.
+    Maker(const Mesh& mesh, const Mesh& shape, const FromMesh& options)
+        : options_(options), mesh_(mesh), shape_(shape) {}
 
     MadeMolecule run() {
         if (shape_.triangles.size() < mesh_.triangles.size())
@@ -215,19 +229,6 @@ class Maker {
 
   private:
     Molecule& molecule() { return made_.molecule; }
-
-    // Returns what the molecule is made of, of which the skin keeps all.
-    static Mesh withoutDoubledWalls(Mesh mesh) {
-        const std::vector<char> doubled = doubledWalls(mesh);
-        std::vector<glm::ivec3> kept;
-        for (size_t t = 0; t < doubled.size(); ++t)
-            if (!doubled[t]) kept.push_back(mesh.triangles[t]);
-        if (kept.size() == mesh.triangles.size()) return mesh;
-        mesh.triangles = std::move(kept);
-        mesh.objects.clear();
-        mesh.parts.clear();
-        return mesh;
-    }
 
     void examine() {
         SurfaceReport report = examineSurface(shape_);
@@ -540,15 +541,16 @@ void checkOptions(const FromMesh& o) {
 
 MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     checkOptions(options);
+    const Mesh all = placed(mesh, options), shape = withoutDoubledWalls(all);
     if (options.springs != FromMesh::Springs::automatic || options.rings || !options.skin)
-        return Maker(mesh, options).run();
+        return Maker(all, shape, options).run();
     // Beyond, what hangs over the ends of the simulated surface swings about, or hangs on another part's; and
     // what is far from all simulated vertices does not bend. The reach is a share of the size.
     constexpr double mostLever = 2, mostReach = 0.25;
     std::string why;
     std::optional<MadeMolecule> plain;
     try {
-        plain = Maker(mesh, options).run();
+        plain = Maker(all, shape, options).run();
         const double reach = plain->skinReach / glm::length(plain->extent);
         if (plain->skinLever <= mostLever && reach <= mostReach) return std::move(*plain);
         why = concat("with ", plain->molecule.vertices.size(), " vertices along the surface ",
@@ -563,7 +565,7 @@ MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     FromMesh inCage = options;
     inCage.springs = FromMesh::Springs::cage;
     try {
-        MadeMolecule made = Maker(mesh, inCage).run();
+        MadeMolecule made = Maker(all, shape, inCage).run();
         made.notes.push_back(concat(why, ": a cage of cells around the mesh holds it instead"));
         return made;
     } catch (const Error& error) {
