@@ -351,4 +351,27 @@ std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wa
     return thickness;
 }
 
+double medianThickness(const Mesh& mesh) {
+    std::vector<double> areas(mesh.weldedPositions.size());
+    for (const glm::ivec3& t : mesh.triangles) {
+        const glm::dvec3 a = mesh.positions[size_t(t[0])];
+        const double area =
+            0.5 * glm::length(glm::cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
+        for (int i = 0; i < 3; ++i)
+            areas[size_t(mesh.weld[size_t(t[i])])] += area / 3;
+    }
+    const std::vector<double> thickness = localThickness(mesh);
+    std::vector<size_t> order;
+    double half = 0;
+    for (size_t v = 0; v < thickness.size(); ++v)
+        if (std::isfinite(thickness[v])) {
+            order.push_back(v);
+            half += 0.5 * areas[v];
+        }
+    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return thickness[a] < thickness[b]; });
+    for (const size_t v : order)
+        if (half -= areas[v]; half <= 0) return thickness[v];
+    return 0;
+}
+
 }  // namespace shoal

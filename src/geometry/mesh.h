@@ -126,5 +126,8 @@ std::string whyOpen(const SurfaceReport& report);
 // Infinite where no ray finds a way out (open surfaces) and for vertices that are not `wanted` (one flag
 // each; empty: all). O((V + T) log T).
 std::vector<double> localThickness(const Mesh& mesh, const std::vector<char>& wanted = {});
+// Returns the local thickness that half of the surface stays below, by area, m; 0 where all of it is
+// infinite.
+double medianThickness(const Mesh& mesh);
 
 }  // namespace shoal

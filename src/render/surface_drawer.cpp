@@ -173,30 +173,6 @@ static bool refracting(const SurfaceMaterial& material) {
     return blended(material) && material.refraction > 1;
 }
 
-// Returns the thickness that half of a closed mesh's surface stays below, m; 0 of one that is open.
-static double thicknessOf(const Mesh& mesh) {
-    std::vector<double> areas(mesh.weldedPositions.size());
-    for (const glm::ivec3& t : mesh.triangles) {
-        const glm::dvec3 a = mesh.positions[size_t(t[0])];
-        const double area =
-            0.5 * glm::length(glm::cross(mesh.positions[size_t(t[1])] - a, mesh.positions[size_t(t[2])] - a));
-        for (int i = 0; i < 3; ++i)
-            areas[size_t(mesh.weld[size_t(t[i])])] += area / 3;
-    }
-    const std::vector<double> thickness = localThickness(mesh);
-    std::vector<size_t> order;
-    double half = 0;
-    for (size_t v = 0; v < thickness.size(); ++v)
-        if (std::isfinite(thickness[v])) {
-            order.push_back(v);
-            half += 0.5 * areas[v];
-        }
-    std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return thickness[a] < thickness[b]; });
-    for (const size_t v : order)
-        if (half -= areas[v]; half <= 0) return thickness[v];
-    return 0;
-}
-
 bool SurfaceDrawer::blends(const Scene& scene) {
     return std::any_of(scene.models.begin(), scene.models.end(), [](const Model& model) {
         return model.draw && std::any_of(model.mesh.materials.begin(), model.mesh.materials.end(), blended);
@@ -240,7 +216,7 @@ SurfaceDrawer::SurfaceDrawer(gpu::Context& context, const std::string& shaderRoo
             look.material.color *= glm::dvec4(model.color, 1);
             if (model.roughness) look.material.roughness = *model.roughness;
             if (refracting(look.material)) {
-                if (!thickness) thickness = thicknessOf(model.mesh);
+                if (!thickness) thickness = medianThickness(model.mesh);
                 look.plate = *thickness;
                 refracts_ = true;
             }

@@ -50,6 +50,15 @@ TEST_CASE("the faces of a slab are as thick as the slab", "[thickness]") {
 TEST_CASE("an open surface has no thickness", "[thickness]") {
     for (const double t : localThickness(square(2)))
         CHECK(t == std::numeric_limits<double>::infinity());
+    CHECK(medianThickness(square(2)) == 0);
+}
+
+TEST_CASE("the median thickness is that of the larger part", "[thickness]") {
+    Mesh mesh;
+    addTube(mesh, "glass", {0, 0, 0}, 0.1, 4, 32, 80);
+    addTube(mesh, "foot", {3, 0, 0}, 0.2, 0.5, 32, 20);  // a quarter of the surface
+    completeMesh(mesh);
+    CHECK(medianThickness(mesh) == Approx(0.2).epsilon(0.05));
 }
 
 TEST_CASE("thinnest picks the thinner of two tubes", "[thickness]") {
