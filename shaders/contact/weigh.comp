@@ -111,7 +111,7 @@ void main()
     float most = wakeSpeed / uintBitsToFloat(fetch(motions, sphere).w & ~FRESH);  // infinite where it is held
     float was = calm[sphere].w;
     bool more = now.lengths - was > max(most, 0.25 * was);
-    bool less = was - now.lengths > max(7.5 * most, 0.4 * was);
+    bool less = was - now.lengths > max(7.5 * most, 0.4 * was);  // three quarters of its weight
     vec3 before = known[sphere].xyz;
     bool otherwise = length(now.sum - before) > max(most, 0.1 * length(before));
     totals[2 * slot + 1] = vec4(0.0, 0.0, 0.0, more || less || (hasLost && otherwise) ? 1.0 : 0.0);
