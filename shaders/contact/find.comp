@@ -17,11 +17,11 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= marked) return;
     int slot = int(markedSlots[gl_GlobalInvocationID.x]);
-    bool touched = (marks[slot] & TOUCHED) != 0u;
+    bool touched = (marks[slot] & TOUCHED) != 0u || marks[slot] == BESIDE;
     if (touched) search(slot);
     if (!touched) recall(slot);
-    if (marks[slot] > TOUCHED) finish(slot);
-    if (marks[slot] == TOUCHED) counts[slot] = uint(found);  // to contact/weigh.comp
+    if (marksWoken(marks[slot])) finish(slot);
+    if (!marksWoken(marks[slot])) counts[slot] = uint(found);  // to contact/weigh.comp
 }
 #elif defined(RESTING)
 uniform usamplerBuffer awakeSlots;

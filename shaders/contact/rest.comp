@@ -62,7 +62,7 @@ bool isWoken(int sphere)
     for (int k = 0; k < SPHERES; ++k) {
         int slot = int(texelFetch(slots, sphere + k).x);
         uint mark = texelFetch(marks, slot).x;
-        woken = woken || mark > TOUCHED || (mark == TOUCHED && texelFetch(totals, 2 * slot + 1).w > 0.0);
+        woken = woken || marksWoken(mark) || (mark != 0u && texelFetch(totals, 2 * slot + 1).w > 0.0);
     }
     return woken;
 }

@@ -17,8 +17,8 @@ void wakePartners(int sphere)
     int listed = int(texelFetch(known, sphere).w);
     for (int e = 0; e < listed; ++e) {
         int slot = int(texelFetch(slots, int(texelFetch(partners, e * listStride + sphere).x)).x);
-        if ((texelFetch(cells, slot).w & RESTS) != 0u && marks[slot] <= TOUCHED)
-            mark(slot, last ? TOUCHED : STRUCK << (contactsAway + 1));
+        if ((texelFetch(cells, slot).w & RESTS) != 0u && !marksWoken(marks[slot]))
+            mark(slot, last ? BESIDE : STRUCK << (contactsAway + 1));
     }
 }
 
