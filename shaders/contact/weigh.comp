@@ -29,11 +29,18 @@ bool restsAt(int slot)
     return isResting(fetch(cells, slot).w, fetch(marks, slot).x);
 }
 
+// Returns where the list of a slot has another, or -1.
+int placeOf(int slot, int other)
+{
+    int at = -1;
+    for (int e = 0; e < listedOf(slot); ++e) at = entryOf(slot, e) == other ? e : at;
+    return at;
+}
+
 // The contact of a slot as the list of the other one has it.
 Entry mirrored(int slot, int other)
 {
-    int at = -1;
-    for (int e = 0; e < listedOf(other); ++e) at = entryOf(other, e) == slot ? e : at;
+    int at = placeOf(other, slot);
     if (at < 0) return Entry(vec4(0.0), vec4(0.0, 0.0, 0.0, -1.0));
     vec4 push = entry(pushes, other, at);
     vec4 anchor = entry(anchors, other, at);
@@ -63,13 +70,6 @@ Pushes rememberedBy(int sphere)
     return all;
 }
 
-bool isListed(int slot, int sphere)
-{
-    bool is = false;
-    for (int e = 0; e < listedOf(slot); ++e) is = is || sphereOf(entryOf(slot, e)) == sphere;
-    return is;
-}
-
 void remember(int sphere, int e, uint partner, Entry entry)
 {
     int at = e * listStride + sphere;
@@ -85,9 +85,10 @@ bool renew(int slot, int sphere)
     int kept = 0;
     for (int e = 0; e < int(known[sphere].w); ++e) {
         int at = e * listStride + sphere;
-        bool rests = restsAt(int(texelFetch(slots, int(partners[at])).x));
+        int other = int(texelFetch(slots, int(partners[at])).x);
+        bool rests = restsAt(other);
+        hasLost = hasLost || !(rests || placeOf(slot, other) >= 0);
         if (rests) remember(sphere, kept++, partners[at], Entry(oldPushes[at], oldAnchors[at]));
-        hasLost = hasLost || !(rests || isListed(slot, int(partners[at])));
     }
     for (int e = 0; e < listedOf(slot); ++e) {
         int other = entryOf(slot, e);
