@@ -207,7 +207,7 @@ TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
     test::holds("a pile of tetrahedra with `rest` stays", [](const Solver& solver, Judge& judge) {
         Scene scene = pile(solver);
         scene.contact.rest = 0.005;
-        judgeRest(scene, judge, 0.01);
+        judgeRest(scene, judge, 0);
     });
 }
 
