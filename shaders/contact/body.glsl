@@ -25,7 +25,7 @@ vec3 motionAt(BodySphere at, BodyMotion motion)
     return motion.shift + cross(motion.turn, at.arm);
 }
 
-// The same of a way that is not small, m, turned so that no body is stretched (Cayley's rotation).
+// Returns the way of a motion that is not small, m, turned so that no body is stretched (Cayley's rotation).
 vec3 wayAt(BodySphere at, BodyMotion motion)
 {
     vec3 across = cross(motion.turn, at.arm);

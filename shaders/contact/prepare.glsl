@@ -63,7 +63,7 @@ struct OldWall {
 };
 
 // Returns what the contact with a collider remembers, N s: that of the one in the last step whose normal was nearly the same.
-// Of what touches nothing else, its own step answers the collider.
+// A sphere that touches nothing else has its collider answered by its own step.
 vec3 prepareWall(int slot, Wall wall, OldWall old[MOST_WALLS])
 {
     vec3 push = vec3(0.0);

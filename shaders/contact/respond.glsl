@@ -70,7 +70,7 @@ vec2 ownWeights(vec3 n)
 #endif
 }
 
-// The same of the two spheres' relative velocity. `shares`: among how many contacts each of the two is shared.
+// Returns what it changes of the two spheres' relative velocity. `shares`: among how many contacts each of the two is shared.
 vec2 weightsBetween(Meeting with, vec3 n, vec2 shares)
 {
     vec2 other = vec2(with.sphere.weight);

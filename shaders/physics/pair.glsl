@@ -117,7 +117,7 @@ float effectiveCount(ContactSum sum)
     return sum.number < 1.5f ? 1.0f : max(sqrt(sqrt(sqrt(traceOf(fourth, fourth)))), 1.01f);
 }
 
-// The same for a rigid body, whose motion has six components: of the matrix (a b; c d), up to 1.25 times the eigenvalue.
+// Returns the same for a rigid body, whose motion has six components, from the matrix (a b; c d): up to 1.25 times the eigenvalue.
 float effectiveCount(mat3 a, mat3 b, mat3 c, mat3 d)
 {
     for (int i = 0; i < 2; ++i) {

@@ -71,7 +71,7 @@ float placeEvenly(float first, float elapsed, float framesPerSecond)
     return first + elapsed * framesPerSecond;
 }
 
-// Likewise for a sequence that is not even. Samples base .. base + frames - 1: from each frame to the next,
+// Returns the place in a sequence that is not even. Samples base .. base + frames - 1: from each frame to the next,
 // from the last to the first where the sequence repeats; period: then of all of it, else 0.
 float placeAmong(float first, float elapsed, int base, int frames, float period)
 {

@@ -18,7 +18,7 @@ class Document {
   public:
     // Error: readMolecule's.
     explicit Document(const std::string& file);
-    // Of a file that saving makes. Error: it cannot be written, or is there.
+    // Begins a file that saving makes. Error: it cannot be written, or is there.
     Document(const std::string& file, Molecule begin);
 
     const Draft& draft() const { return now_; }

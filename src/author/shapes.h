@@ -21,8 +21,8 @@ std::vector<std::string> shapeNames();
 // Error: unknown, with the nearest.
 const Shape& shapeNamed(const std::string& name);
 
-// Of a longest side of 1 m, about the origin, with texture coordinates. `divisions`: of its longest side, 1
-// to the shape's most. Error: others.
+// Returns a mesh about the origin whose longest side is 1 m, with texture coordinates. `divisions`: of that
+// side, 1 to the shape's most. Error: others.
 Mesh shapeMesh(const Shape& shape, int divisions);
 // What else to ask of makeMolecule() for the shape's mesh: all of its vertices, no skin, and where nothing is
 // said a size of 0.2 m and its material.

@@ -79,7 +79,7 @@ SkinMesh packed(const SkinMesh& mesh) {
 
 Skin bindToCells(const Molecule& molecule, const SkinMesh& mesh,
                  const std::vector<std::array<int, 4>>& cells) {
-    // Of a cell: the point's weights follow from its first corner and these.
+    // A cell's first corner and the matrix from which a point's weights follow.
     struct Frame {
         glm::dvec3 first{0};
         glm::dmat3 toWeights{1};

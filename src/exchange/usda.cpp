@@ -85,7 +85,7 @@ std::string identifier(const std::string& name) {
 // Text that may be too long for memory: appended to a file without a name, and copied in the end.
 class Spool {
   public:
-    // Beside the file that it becomes a part of.
+    // The file without a name lies in the folder of `target`, the file that it becomes a part of.
     explicit Spool(const fs::path& target) : file_(unnamedFile(target)) {}
     void add(const std::string& piece) {
         if (std::fwrite(piece.data(), 1, piece.size(), file_.get()) != piece.size())

@@ -38,9 +38,9 @@ struct KernelOptions {
 // Returns the GLSL of what a frame in fragments stores of a molecule, a 4-vector each: its state and, where
 // that changes, its record.
 std::vector<std::string> storedInFragments(const GroupPlan& group);
-// Likewise of a newborn: its constants as well.
+// Returns the same of a newborn, and its constants.
 std::vector<std::string> storedAtBirth(const GroupPlan& group);
-// So many 4-vectors by draws of at most so many targets.
+// Returns the draws, of at most so many targets each, that store so many 4-vectors.
 std::vector<KernelOptions::Targets> drawsOf(size_t values, int targets);
 
 constexpr int birthLanes = 64;  // of a workgroup of births (shaders/particles/bits_scan.comp counts with it)

@@ -136,8 +136,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
                                 part.count * group.spheresOf});
         }
     }
-    // The same for stages that know of a rigid body no more than its spheres: groups of bodies with as many
-    // go together, as a dispatch takes a GPU longer than what it does for a few. run(the first group, part,
+    // Runs a stage that knows of a rigid body no more than its spheres, once for all groups whose bodies have
+    // equally many: a dispatch takes a GPU longer than what it does for a few. run(the first group, part,
     // spheres)
     template <typename Run>
     void forBodies(Buffers& state, const Run& run) {

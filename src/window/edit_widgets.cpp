@@ -90,7 +90,7 @@ bool slideSpan(const Row& row, const Limit& limit, glm::dvec2& span) {
     return true;
 }
 
-// Beside its label there is no room for several numbers with all their digits.
+// Several numbers with all their digits have no room beside a label, and take a line of their own.
 bool drag(const Row& row, const Limit& limit, double* values, int count, double speed) {
     if (count == 1) {
         beginRow(row);

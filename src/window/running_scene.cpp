@@ -86,7 +86,8 @@ std::unique_ptr<Simulation> RunningScene::simulateAsBefore(const Plan& plan, Pat
     }
 }
 
-// Beside what runs. Programs of a picture are made when it is drawn: one picture tells whether they can be.
+// What runs stays until the new one is whole. Programs of a picture are made when it is drawn, so one picture
+// tells whether they can be.
 std::vector<std::string> RunningScene::build(Scene next, const Plan& plan, Path path) {
     std::unique_ptr<Simulation> simulation = simulateAsBefore(plan, path);
     tellWarnings(simulation->warnings());
