@@ -2,7 +2,8 @@
 #include "contact/touching.glsl"
 #include "contact/relax.glsl"
 
-uniform ENTRIES anchors;
+uniform ENTRIES normals;  // contact/constraint.glsl
+uniform ENTRIES amounts;
 uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since the last step
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
@@ -22,12 +23,11 @@ void main()
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         int at = e * listStride + slot;
-        vec4 now = pushes[at];
-        vec3 n;
-        vec4 push = relax(slot, entryOf(slot, e), now, earlierPushes[at], entry(anchors, slot, e), n);
+        Constraint asked = constraintOf(entry(normals, slot, e), entry(amounts, slot, e));
+        vec4 push = relax(entryOf(slot, e), asked, pushes[at], earlierPushes[at]);
         earlierPushes[at] = push;
         impulse += push.xyz;
-        shift += n * abs(push.w);
+        shift += asked.normal * abs(push.w);
     }
 #ifdef WALLS
     for (int k = 0; k < MOST_WALLS; ++k) {

@@ -4,7 +4,8 @@
 uniform int firstEntry;
 uniform ENTRIES pushes;
 uniform ENTRIES earlierPushes;
-uniform ENTRIES anchors;
+uniform ENTRIES normals;  // contact/constraint.glsl
+uniform ENTRIES amounts;
 
 layout(location = 0) out vec4 newPushes[ENTRIES_A_DRAW];
 
@@ -17,11 +18,10 @@ void main()
     vec4 next[ENTRIES_A_DRAW];
     for (int i = 0; i < ENTRIES_A_DRAW; ++i) {
         int e = firstEntry + i;
-        vec3 n;
         next[i] = vec4(0.0);
         if (e < listed)
-            next[i] = relax(slot, entryOf(slot, e), entry(pushes, slot, e), entry(earlierPushes, slot, e),
-                            entry(anchors, slot, e), n);
+            next[i] = relax(entryOf(slot, e), constraintOf(entry(normals, slot, e), entry(amounts, slot, e)), entry(pushes, slot, e),
+                            entry(earlierPushes, slot, e));
     }
     newPushes = next;
 }

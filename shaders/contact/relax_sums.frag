@@ -2,7 +2,7 @@
 #include "contact/relax.glsl"
 
 uniform ENTRIES pushes;
-uniform ENTRIES anchors;
+uniform ENTRIES normals;  // contact/constraint.glsl
 uniform FLOATS known;  // N s, by slot: xyz what has acted as a force since the last step; w contact/memory.glsl
 #ifdef WALLS
 uniform sampler2DArray wallPushes;  // by slot
@@ -27,7 +27,7 @@ void main()
     for (int e = 0; e < listed; ++e) {
         vec4 push = entry(pushes, slot, e);
         impulse += push.xyz;
-        shift += meetingAs(slot, entryOf(slot, e), entry(anchors, slot, e)).contact.normal * abs(push.w);
+        shift += entry(normals, slot, e).xyz * abs(push.w);
     }
 #ifdef WALLS
     vec4 ofWalls[MOST_WALLS];

@@ -65,6 +65,7 @@ class ContactPasses : public ContactResult {
     virtual void runNearest(State& state, const Times& times) = 0;
     // The stages of shaders/contact/respond.glsl; an iteration goes on by `momentum` beyond the last.
     virtual void prepare(State& state, const Times& times) = 0;
+    virtual void constrain(const Times& times) = 0;
     virtual void relax(State& state, const Times& times, float momentum) = 0;
     virtual void settle(State& state, const Times& times) = 0;
     virtual void apply(State& state, const Times& times) = 0;  // into the state
@@ -128,6 +129,7 @@ class ContactPasses : public ContactResult {
     void respond(State& state, const Times& times) {
         if (contact_->remembers()) {
             prepare(state, times);
+            constrain(times);
             const int iterations = contact_->settings.iterations;
             for (int i = 0; i < iterations; ++i)
                 relax(state, times, ContactPlan::momentum(i, iterations));

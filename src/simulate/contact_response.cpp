@@ -81,6 +81,16 @@ void MoleculeContact::countEffective(Buffers& state) {
     settled();
 }
 
+void MoleculeContact::constrain(const Times& times) {
+    bindResponse(constrain_, times)
+        .add("effectiveCounts", effectiveCounts_.texture)
+        .add("anchors", anchors_.texture);
+    constrain_.storage("Normals", 0, normals_.buffer);
+    constrain_.storage("Amounts", 1, amounts_.buffer);
+    dispatchTouching(constrain_);
+    settled();
+}
+
 void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) {
     // without momentum the earlier ones do not count, and nobody may have written them yet
     const Array& earlier = totals_[momentum == 0 ? 0 : 1];
@@ -88,7 +98,8 @@ void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) 
     Textures textures = bindResponse(relax_, times);
     textures.add("effectiveCounts", effectiveCounts_.texture)
         .add("known", known_.texture)
-        .add("anchors", anchors_.texture);
+        .add("normals", normals_.texture)
+        .add("amounts", amounts_.texture);
     if (spreads_)
         textures.add("motionsNow", motionsNow_.texture);
     else

@@ -139,6 +139,8 @@ void MoleculeContact::makeMemory() {
     oldPushes_ = array(entries, Texel::float4, "remembered pushes");
     oldAnchors_ = array(entries, Texel::float4, "remembered anchors");
     anchors_ = array(entries, Texel::float4, "contact anchors");
+    normals_ = array(entries, Texel::float4, "contact normals");
+    amounts_ = array(entries, Texel::float4, "contact amounts");
     for (Array& pushes : pushes_)
         pushes = array(entries, Texel::float4, "contact pushes");
     loads_ = array(padded_, Texel::float4, "contact loads");
@@ -196,6 +198,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         weigh_ = make("weigh");
     }
     prepare_ = make("prepare");
+    constrain_ = make("constrain");
     relax_ = make("relax");
     settle_ = make("settle");
 }
@@ -588,7 +591,7 @@ size_t MoleculeContact::bytes() const {
           &places_,      &loads_,      &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_,
           &wallPushes_,  &slots_,      &counts_,          &lists_,       &anchors_,    &known_,
           &nearWalls_,   &partners_,   &oldPushes_,       &oldAnchors_,  &calm_,       &marks_,
-          &markedSlots_, &awakeSlots_})
+          &markedSlots_, &awakeSlots_, &normals_,         &amounts_})
         add(*array);
     std::for_each(pushes_.begin(), pushes_.end(), add);
     std::for_each(totals_.begin(), totals_.end(), add);

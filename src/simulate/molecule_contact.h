@@ -10,8 +10,9 @@
 //                      sift      before it, what rests and has touched what is awake
 //                      wake      what an impact wakes
 //   contact response   prepare   what contacts remember of the last step
+//                      constrain what each contact asks of its impulse
 //                      relax     the impulses of all contacts, in Jacobi iterations
-//                      settle    what they remember for the next (or, of all three, `nearest`: UberFlow's)
+//                      settle    what they remember for the next (or, of all four, `nearest`: UberFlow's)
 //                      apply     into the state
 //                      weigh     what pushes on what rests
 //                      rest      which molecules rest, and cost nothing more
@@ -117,6 +118,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void runNearest(Buffers& state, const Times& times) override;
     void prepare(Buffers& state, const Times& times) override;
     void countEffective(Buffers& state);
+    void constrain(const Times& times) override;
     void relax(Buffers& state, const Times& times, float momentum) override;
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
@@ -168,7 +170,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     size_t padded_;  // spheres, to whole workgroups
     std::vector<GroupPrograms> groups_;
     gpu::Program starts_, collect_, order_, find_, findStaggered_, findResting_, sift_, wake_, weigh_,
-        nearest_, prepare_, relax_, settle_;
+        nearest_, prepare_, constrain_, relax_, settle_;
     bool wakes_ = false;  // all that rests, in this step
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted
@@ -185,6 +187,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     Array calm_;   // shaders/contact/rest.comp
     // Within a step.
     Array slots_, counts_, lists_, anchors_, nearWalls_;
+    Array normals_, amounts_;                 // shaders/contact/constraint.glsl
     Array marks_, markedSlots_, awakeSlots_;  // shaders/contact/marks.glsl
     gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
     std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before

@@ -81,6 +81,8 @@ void TextureContact::makeTextures(gpu::Context& context) {
     effectiveCounts_ = texture(Format::r32ui, "effective contact counts");
     for (Texture& pushes : pushes_)
         pushes = texture(Format::rgba32f, "contact pushes", longestList);
+    normals_ = texture(Format::rgba32f, "contact normals", longestList);
+    amounts_ = texture(Format::rgba32f, "contact amounts", longestList);
     if (walls_)
         for (Texture& pushes : wallPushes_)
             pushes = texture(Format::rgba32f, "wall pushes", ContactPlan::mostWalls);
@@ -141,6 +143,7 @@ void TextureContact::makePrograms(gpu::Context& context, const std::string& shad
     }
     prepare_ = make("prepare");
     prepareSums_ = make("prepare_sums");
+    constrain_ = make("constrain");
     relax_ = make("relax");
     relaxSums_ = make("relax_sums");
     settle_ = make("settle");
@@ -467,9 +470,10 @@ std::vector<std::pair<int, int>> TextureContact::found() const {
 size_t TextureContact::bytes() const {
     size_t out = 2 * sort_.pairs().bytes() * (staggered_ ? 2 : 1);
     const auto add = [&](const Texture& texture) { out += texture ? texture.bytes() : 0; };
-    for (const Texture* texture : {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_,
-                                   &cells_, &startsOf_, &materials_, &apart_, &groupsOf_, &loads_,
-                                   &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_, &gains_})
+    for (const Texture* texture :
+         {&spherePlaces_, &sphereMotions_, &sphereCells_, &places_, &motions_, &cells_, &startsOf_,
+          &materials_, &apart_, &groupsOf_, &loads_, &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_,
+          &gains_, &normals_, &amounts_})
         add(*texture);
     for (const auto* sides : {&slots_, &counts_, &lists_, &anchors_, &known_, &nearWalls_})
         std::for_each(sides->begin(), sides->end(), add);

@@ -10,7 +10,8 @@
 //                      order     records in the order of the keys
 //                      slots     of a sphere: its place in that order
 //   contact search     find      the spheres that each touches (or `neighbors`: some of them)
-//   contact response   prepare, relax, settle (or `nearest`), each in a draw or several, as many entries a
+//   contact response   prepare, constrain, relax, settle (or `nearest`), each in a draw or several, as many
+//   entries a
 //                      draw as there are targets, and then their sums
 //                      gains     what all that does to a vertex
 //                      apply     into the state
@@ -98,6 +99,7 @@ class TextureContact : public ContactPasses<ContactState> {
     void runNearest(ContactState& state, const Times& times) override;
     void prepare(ContactState& state, const Times& times) override;
     void countEffective();
+    void constrain(const Times& times) override;
     void relax(ContactState& state, const Times& times, float momentum) override;
     void spread(ContactState& state, const gpu::Texture& earlier, float momentum);
     void settle(ContactState& state, const Times& times) override;
@@ -110,7 +112,7 @@ class TextureContact : public ContactPasses<ContactState> {
     int rowBits_;
     std::vector<OfGroup> groups_;  // with contact
     gpu::Program keys_, starts_, order_, slot_, find_, nearest_;
-    gpu::Program prepare_, prepareSums_, relax_, relaxSums_, settle_;
+    gpu::Program prepare_, prepareSums_, constrain_, relax_, relaxSums_, settle_;
     NetworkSort sort_;
     std::optional<NetworkSort> staggered_;
     gpu::Texture spherePlaces_, sphereMotions_, sphereCells_, places_, motions_, cells_;
@@ -119,6 +121,7 @@ class TextureContact : public ContactPasses<ContactState> {
     size_t now_ = 0;
     std::array<gpu::Texture, 2> slots_, counts_, lists_, anchors_, known_, nearWalls_;
     gpu::Texture loads_;
+    gpu::Texture normals_, amounts_;  // shaders/contact/constraint.glsl
     // In turn: the last stage's, those before, the next.
     std::array<gpu::Texture, 3> pushes_, wallPushes_, totals_;
     gpu::Texture effectiveCounts_, contactSums_, motionsNow_, bodies_, gains_;

@@ -108,6 +108,20 @@ void TextureContact::countEffective() {
     }
 }
 
+void TextureContact::constrain(const Times& times) {
+    int unit = bindResponse(constrain_, times);
+    constrain_.texture("effectiveCounts", unit++, effectiveCounts_);
+    constrain_.texture("anchors", unit++, anchors_[now_]);
+    constexpr int together = entriesADraw / 2;
+    for (int first = 0; first < longestList; first += together) {
+        constrain_.set("firstEntry", first);
+        Into into;
+        addLayers(into, normals_, first, together);
+        addLayers(into, amounts_, first, together);
+        drawAll(into);
+    }
+}
+
 void TextureContact::relax(ContactState& state, const Times& times, float momentum) {
     // without momentum the earlier ones do not count, and nobody may have written them yet
     const size_t earlier = momentum == 0 ? 0 : 1;
@@ -115,7 +129,7 @@ void TextureContact::relax(ContactState& state, const Times& times, float moment
     const auto bind = [&](const Program& program) {
         int unit = bindResponse(program, times);
         program.texture("effectiveCounts", unit++, effectiveCounts_);
-        program.texture("anchors", unit++, anchors_[now_]);
+        program.texture("normals", unit++, normals_);
         program.texture("pushes", unit++, pushes_[0]);
         if (spreads_) {
             program.texture("motionsNow", unit++, motionsNow_);
@@ -127,6 +141,7 @@ void TextureContact::relax(ContactState& state, const Times& times, float moment
         return unit;
     };
     int unit = bind(relax_);
+    relax_.texture("amounts", unit++, amounts_);
     relax_.texture("earlierPushes", unit, pushes_[earlier]);
     for (int first = 0; first < longestList; first += entriesADraw) {
         relax_.set("firstEntry", first);

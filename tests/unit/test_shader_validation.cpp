@@ -314,7 +314,7 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
         for (Defines set : combinations({"WALLS"})) {
             set.insert(set.end(), spread.begin(), spread.end());
             set.emplace_back("REMEMBERS");
-            for (const char* file : {"prepare", "prepare_sums", "relax", "relax_sums", "settle"})
+            for (const char* file : {"prepare", "prepare_sums", "constrain", "relax", "relax_sums", "settle"})
                 contact(file, set);
         }
     }
@@ -653,10 +653,10 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
         validator.add(concat("contact/", file, ".comp"), more, gpu::header430());
     };
     for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
-        for (const char* file : {"order", "find", "prepare", "relax", "settle"})
+        for (const char* file : {"order", "find", "prepare", "constrain", "relax", "settle"})
             add(file, set);
         for (const Defines& spread : {Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}})
-            for (const char* file : {"prepare", "relax", "settle"})
+            for (const char* file : {"prepare", "constrain", "relax", "settle"})
                 add(file, set, spread);
     }
     for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {

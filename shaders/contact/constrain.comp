@@ -1,0 +1,21 @@
+// A lane a slot that takes part: contact/constrain.glsl.
+#include "contact/touching.glsl"
+#include "contact/constrain.glsl"
+
+uniform ENTRIES anchors;
+
+layout(std430, binding = 0) writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = 1) writeonly buffer Amounts { vec4 amounts[]; };
+
+void main()
+{
+    int slot = touchingSlot();
+    if (slot < 0) return;
+    loadSphere(slot);
+    int listed = listedOf(slot);
+    for (int e = 0; e < listed; ++e) {
+        vec4 one[2] = texelsOf(constrain(slot, entryOf(slot, e), entry(anchors, slot, e)));
+        normals[e * listStride + slot] = one[0];
+        amounts[e * listStride + slot] = one[1];
+    }
+}

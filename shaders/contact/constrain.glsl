@@ -1,0 +1,17 @@
+// The stage of contact/respond.glsl before the iterations. Needs loadSphere(slot).
+#include "contact/respond.glsl"
+#include "contact/constraint.glsl"
+#include "contact/shares.glsl"
+
+// `anchor`: of the entry, from prepare().
+Constraint constrain(int slot, int other, vec4 anchor)
+{
+    Meeting with = meetingAs(slot, other, anchor);
+    PairContact contact = with.contact;
+    vec2 shares = vec2(shareOf(slot, own), shareOf(other, with.sphere));
+    vec2 weights = stepWeights(weightsBetween(with, contact.normal, shares), max(shares.x, shares.y));
+    float target = contact.impact ? -with.material.x * contact.speed
+                                  : partingSpeed(contact.depth, own.radius + with.sphere.radius);
+    float lacks = contact.impact ? -1e30 : min(contact.depth, pushSpeed * stepTime);
+    return Constraint(contact.normal, target, weights, lacks, with.meets ? with.material.y : -1.0);
+}
