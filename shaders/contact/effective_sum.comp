@@ -1,4 +1,4 @@
-// A lane a sphere of one group: contact/effective_sum.glsl.
+// A lane a sphere of one group, or with RIGID a molecule: contact/effective_sum.glsl.
 #include "contact/shape.glsl"
 #include "contact/effective_sum.glsl"
 #ifdef RESTING
@@ -7,19 +7,44 @@
 
 layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
 
+int slotOf(int sphere)
+{
+    return int(fetch(slots, sphere).x);
+}
+
+bool takesPart(int slot)
+{
+#ifdef RESTING
+    return !rests(slot);
+#else
+    return true;
+#endif
+}
+
+#ifdef RIGID
+void main()
+{
+    int molecule = min(int(gl_GlobalInvocationID.x), partSpheres / SPHERES - 1);
+    int first = firstSphere + molecule * SPHERES;
+    bool isLeft = takesPart(slotOf(first));
+    while (isLeft) {
+        float sum = effectiveSum(first);
+        for (int k = 0; k < SPHERES; ++k) effectiveCounts[slotOf(first + k)] = floatBitsToUint(sum);
+        isLeft = false;
+    }
+}
+#else
 void main()
 {
     int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
     int molecule = lane / SPHERES;
     int moleculeSphere = firstSphere + molecule * SPHERES;
     int k = lane - molecule * SPHERES;
-    int slot = int(fetch(slots, moleculeSphere + k).x);
-    bool takesPart = true;
-#ifdef RESTING
-    takesPart = !rests(slot);
-#endif
-    while (takesPart) {
+    int slot = slotOf(moleculeSphere + k);
+    bool isLeft = takesPart(slot);
+    while (isLeft) {
         effectiveCounts[slot] = floatBitsToUint(effectiveSum(moleculeSphere, k));
-        takesPart = false;
+        isLeft = false;
     }
 }
+#endif

@@ -10,6 +10,11 @@ void main()
     int lane = ownSphere() - firstSphere;
     if (lane < 0 || lane >= partSpheres) discard;
     int molecule = lane / SPHERES;
-    float sum = effectiveSum(firstSphere + molecule * SPHERES, lane - molecule * SPHERES);
+    int first = firstSphere + molecule * SPHERES;
+#ifdef RIGID
+    float sum = effectiveSum(first);
+#else
+    float sum = effectiveSum(first, lane - molecule * SPHERES);
+#endif
     newEffectiveCount = uvec4(floatBitsToUint(sum), 0u, 0u, 0u);
 }

@@ -29,10 +29,10 @@ ContactSum contactsOf(int sphere)
 #ifdef RIGID
 #include "contact/body_sums.glsl"
 
-// Returns it for sphere k of the molecule whose first is `moleculeSphere`: all contacts of the molecule act on it. With X the
+// Returns it for all spheres of the molecule whose first is `moleculeSphere`: all contacts of the molecule act on each. With X the
 // matrix of a cross product with a sphere's arm and S the sum of its contacts, the matrix of its body is the sum over the spheres
 // of (S, S X^T; I^-1 M X S, I^-1 M X S X^T).
-float effectiveSum(int moleculeSphere, int k)
+float effectiveSum(int moleculeSphere)
 {
     mat3 a = mat3(0.0);
     mat3 b = a;
@@ -62,6 +62,7 @@ float countOf(int vertex, int moleculeSphere)
     return effectiveCount(sum);
 }
 
+// Returns it for sphere k of the molecule whose first is `moleculeSphere`.
 float effectiveSum(int moleculeSphere, int k)
 {
     if (!touches(moleculeSphere + k)) return 0.0;

@@ -92,27 +92,44 @@ Total totalAt(int sphere)
 #ifdef RIGID
 #include "contact/body_sums.glsl"
 
+// How they change a body.
+struct BodyTotal {
+    BodyMotion impulse;
+    BodyMotion shift;
+    BodyMotion load;
+};
+
+BodyTotal totalOfBody(int molecule)
+{
+    BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
+    BodyTotal sum = BodyTotal(none, none, none);
+    for (int k = 0; k < SPHERES; ++k) {
+        int sphere = firstSphere + molecule * SPHERES + k;
+        Total total = totalAt(sphere);
+        BodySphere at = bodySphereAt(sphere);
+        add(sum.impulse, at, total.impulse);
+        add(sum.shift, at, total.shift);
+        add(sum.load, at, total.load);
+    }
+    return sum;
+}
+
+// Returns how that changes sphere k of its molecule.
+Total changeIn(BodyTotal body, int molecule, int k)
+{
+    BodySphere at = bodySphereAt(firstSphere + molecule * SPHERES + k);
+#ifdef APPLIES
+    vec3 shift = wayAt(at, body.shift);
+#else
+    vec3 shift = motionAt(at, body.shift);
+#endif
+    return Total(motionAt(at, body.impulse), shift, motionAt(at, body.load));
+}
+
 // Returns how they change sphere k of a molecule.
 Total changeOf(int molecule, int k)
 {
-    int first = firstSphere + molecule * SPHERES;
-    BodyMotion motion = BodyMotion(vec3(0.0), vec3(0.0));
-    BodyMotion move = motion;
-    BodyMotion load = motion;
-    for (int j = 0; j < SPHERES; ++j) {
-        Total total = totalAt(first + j);
-        BodySphere at = bodySphereAt(first + j);
-        add(motion, at, total.impulse);
-        add(move, at, total.shift);
-        add(load, at, total.load);
-    }
-    BodySphere own = bodySphereAt(first + k);
-#ifdef APPLIES
-    vec3 shift = wayAt(own, move);
-#else
-    vec3 shift = motionAt(own, move);
-#endif
-    return Total(motionAt(own, motion), shift, motionAt(own, load));
+    return changeIn(totalOfBody(molecule), molecule, k);
 }
 #else
 // Returns how its own contacts and those of the triangles around it change a vertex.

@@ -13,6 +13,12 @@ void MoleculeContact::dispatchTouching(const Program& program) const {
     program.dispatchIndirect(touchingGroups_, 0);
 }
 
+// Runs a lane a sphere, or a rigid body.
+void MoleculeContact::dispatchBodies(const Program& program, size_t group, const SphereRange& range) const {
+    const size_t spheres = setSpheres(program, range);
+    dispatch(program, isRigid(group) ? spheres / size_t(contact_->groups[group].spheresOf) : spheres);
+}
+
 // Binds what all stages of the response read.
 MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, const Times& times) const {
     Textures textures(program);
@@ -76,7 +82,7 @@ void MoleculeContact::countEffective(Buffers& state) {
         if (isRigid(g)) textures.add("bodies", bodies_.texture);
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.storage("EffectiveCounts", 0, effectiveCounts_.buffer);
-        dispatch(program, setSpheres(program, range));
+        dispatchBodies(program, g, range);
     });
     settled();
 }
@@ -130,7 +136,7 @@ void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentu
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.set("momentum", momentum);
         program.storage("MotionsNow", 0, motionsNow_.buffer);
-        dispatch(program, setSpheres(program, range));
+        dispatchBodies(program, g, range);
     });
     settled();
 }

@@ -163,6 +163,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     static void settled();  // before what reads what dispatches have written
     void dispatch(const gpu::Program& program, size_t lanes) const;
     void dispatchTouching(const gpu::Program& program) const;
+    void dispatchBodies(const gpu::Program& program, size_t group, const SphereRange& range) const;
 
     gpu::Context* context_;
     mutable int dispatches_ = 0;
