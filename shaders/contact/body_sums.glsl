@@ -1,4 +1,4 @@
-// Impulses on the spheres of rigid bodies add up here to the motions of the bodies.
+// The spheres of rigid bodies.
 #include "contact/body.glsl"
 #include "physics/pair.glsl"
 
@@ -15,11 +15,4 @@ BodySphere bodySphereAt(int sphere)
     vec4 arm = bodyTexel(sphere, 0);
     vec4 d = bodyTexel(sphere, 1);
     return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodyTexel(sphere, 2).xyz), d.w);
-}
-
-void add(inout BodyMotion motion, BodySphere at, vec3 impulse)
-{
-    BodyMotion more = bodyMotion(at, impulse);
-    motion.shift += more.shift;
-    motion.turn += more.turn;
 }

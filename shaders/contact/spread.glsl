@@ -101,17 +101,19 @@ struct BodyTotal {
 
 BodyTotal totalOfBody(int molecule)
 {
-    BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
-    BodyTotal sum = BodyTotal(none, none, none);
+    BodyImpulse impulse = BodyImpulse(vec3(0.0), vec3(0.0));
+    BodyImpulse shift = impulse;
+    BodyImpulse load = impulse;
     for (int k = 0; k < SPHERES; ++k) {
         int sphere = firstSphere + molecule * SPHERES + k;
         Total total = totalAt(sphere);
-        BodySphere at = bodySphereAt(sphere);
-        add(sum.impulse, at, total.impulse);
-        add(sum.shift, at, total.shift);
-        add(sum.load, at, total.load);
+        vec3 arm = bodySphereAt(sphere).arm;
+        add(impulse, arm, total.impulse);
+        add(shift, arm, total.shift);
+        add(load, arm, total.load);
     }
-    return sum;
+    BodySphere at = bodySphereAt(firstSphere + molecule * SPHERES);
+    return BodyTotal(motionBy(at, impulse), motionBy(at, shift), motionBy(at, load));
 }
 
 // Returns how that changes sphere k of its molecule.
