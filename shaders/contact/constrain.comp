@@ -14,8 +14,8 @@ void main()
     loadSphere(slot);
     int listed = listedOf(slot);
     for (int e = 0; e < listed; ++e) {
-        vec4 one[2] = texelsOf(constrain(slot, entryOf(slot, e), entry(anchors, slot, e)));
-        normals[e * listStride + slot] = one[0];
-        amounts[e * listStride + slot] = one[1];
+        vec4 one[2] = texelsOf(constrain(slot, entryOf(slot, e), texelFetch(anchors, OWN_ENTRY(e))));
+        normals[OWN_ENTRY(e)] = one[0];
+        amounts[OWN_ENTRY(e)] = one[1];
     }
 }

@@ -28,8 +28,8 @@ void main()
         Meeting with = meetingAs(slot, other, known.anchor);
         if (with.meets) countIn(with.contact.normal);
         impulse += known.push.xyz;
-        pushes[e * listStride + slot] = known.push;
-        anchors[e * listStride + slot] = known.anchor;
+        pushes[OWN_ENTRY(e)] = known.push;
+        anchors[OWN_ENTRY(e)] = known.anchor;
     }
     float start = 0.0;  // of all that colliders push
 #ifdef WALLS

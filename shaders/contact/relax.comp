@@ -22,8 +22,8 @@ void main()
     vec3 impulse = -fetch(known, sphereOf(slot)).xyz;
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
-        int at = e * listStride + slot;
-        Constraint asked = constraintOf(entry(normals, slot, e), entry(amounts, slot, e));
+        int at = OWN_ENTRY(e);
+        Constraint asked = constraintOf(texelFetch(normals, at), texelFetch(amounts, at));
         vec4 push = relax(entryOf(slot, e), asked, pushes[at], earlierPushes[at]);
         earlierPushes[at] = push;
         impulse += push.xyz;

@@ -30,7 +30,7 @@ void main()
     for (int e = 0; e < listed; ++e) {
         int other = entryOf(slot, e);
         Entry kept;
-        shift += settle(slot, other, Entry(entry(pushes, slot, e), entry(anchors, slot, e)), kept);
+        shift += settle(slot, other, Entry(texelFetch(pushes, OWN_ENTRY(e)), texelFetch(anchors, OWN_ENTRY(e))), kept);
         keeps += kept.push.xyz;
         int at = e * listStride + sphere;
         partners[at] = uint(sphereOf(other));

@@ -32,3 +32,6 @@ int touchingSlot()
     uint lane = gl_GlobalInvocationID.x;
     return lane < touching ? int(touchingSlots[lane]) : -1;
 }
+
+// Where an entry of this lane's slot lies in what only the response keeps of it, close together whether many touch or few.
+#define OWN_ENTRY(e) ((e) * listStride + int(gl_GlobalInvocationID.x))

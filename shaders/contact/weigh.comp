@@ -5,8 +5,6 @@
 #include "contact/respond.glsl"
 #include "contact/marked.glsl"
 
-uniform ENTRIES pushes;
-uniform ENTRIES anchors;
 uniform float wakeSpeed;  // m/s
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 totals[]; };
@@ -29,21 +27,21 @@ bool restsAt(int slot)
     return isResting(fetch(cells, slot).w, fetch(marks, slot).x);
 }
 
-// Returns where the list of a slot has another, or -1.
-int placeOf(int slot, int other)
+bool isListed(int slot, int other)
 {
-    int at = -1;
-    for (int e = 0; e < listedOf(slot); ++e) at = entryOf(slot, e) == other ? e : at;
-    return at;
+    bool is = false;
+    for (int e = 0; e < listedOf(slot); ++e) is = is || entryOf(slot, e) == other;
+    return is;
 }
 
-// The contact of a slot as the list of the other one has it.
-Entry mirrored(int slot, int other)
+// The contact of two spheres as the memory of the other one has it.
+Entry mirrored(int sphere, int other)
 {
-    int at = placeOf(other, slot);
+    int at = -1;
+    for (int e = 0; e < int(known[other].w); ++e) at = int(partners[e * listStride + other]) == sphere ? e : at;
     if (at < 0) return Entry(vec4(0.0), vec4(0.0, 0.0, 0.0, -1.0));
-    vec4 push = entry(pushes, other, at);
-    vec4 anchor = entry(anchors, other, at);
+    vec4 push = oldPushes[at * listStride + other];
+    vec4 anchor = oldAnchors[at * listStride + other];
     return Entry(vec4(-push.xyz, push.w), vec4(-anchor.xyz, anchor.w));
 }
 
@@ -87,13 +85,13 @@ bool renew(int slot, int sphere)
         int at = e * listStride + sphere;
         int other = int(texelFetch(slots, int(partners[at])).x);
         bool rests = restsAt(other);
-        hasLost = hasLost || !(rests || placeOf(slot, other) >= 0);
+        hasLost = hasLost || !(rests || isListed(slot, other));
         if (rests) remember(sphere, kept++, partners[at], Entry(oldPushes[at], oldAnchors[at]));
     }
     for (int e = 0; e < listedOf(slot); ++e) {
         int other = entryOf(slot, e);
         if (!restsAt(other) && kept < LIST)
-            remember(sphere, kept++, uint(sphereOf(other)), remembered(mirrored(slot, other), sphereAt(other)));
+            remember(sphere, kept++, uint(sphereOf(other)), mirrored(sphere, sphereOf(other)));
     }
     known[sphere].w = float(kept) + fract(known[sphere].w);
     return hasLost;

@@ -198,10 +198,7 @@ float MoleculeContact::wakeSpeed(const Times& times) const {
 // What rests takes over what is awake has worked out.
 void MoleculeContact::weigh(const Times& times) {
     Textures textures = bindResponse(weigh_, times);
-    textures.add("pushes", pushes_[0].texture)
-        .add("anchors", anchors_.texture)
-        .add("slots", slots_.texture)
-        .add("markedSlots", markedSlots_.texture);
+    textures.add("slots", slots_.texture).add("markedSlots", markedSlots_.texture);
     weigh_.set("wakeSpeed", wakeSpeed(times));
     weigh_.storage("Totals", 0, totals_[0].buffer);
     weigh_.storage("Partners", 1, partners_.buffer);
