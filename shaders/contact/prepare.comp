@@ -24,8 +24,8 @@ void main()
     vec3 impulse = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         int other = entryOf(slot, e);
-        Entry known = prepare(slot, other);
-        Meeting with = meetingAs(slot, other, known.anchor);
+        Meeting with;
+        Entry known = prepare(slot, other, with);
         if (with.meets) countIn(with.contact.normal);
         impulse += known.push.xyz;
         pushes[OWN_ENTRY(e)] = known.push;

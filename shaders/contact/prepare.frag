@@ -16,7 +16,8 @@ void main()
     vec4 place[ENTRIES_A_DRAW / 2];
     for (int i = 0; i < ENTRIES_A_DRAW / 2; ++i) {
         Entry one = Entry(vec4(0.0), vec4(0.0));
-        if (firstEntry + i < listed) one = prepare(slot, entryOf(slot, firstEntry + i));
+        Meeting with;
+        if (firstEntry + i < listed) one = prepare(slot, entryOf(slot, firstEntry + i), with);
         known[i] = one.push;
         place[i] = one.anchor;
     }

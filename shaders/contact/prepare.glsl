@@ -14,7 +14,8 @@ void loadOld(int slot)
     oldListed = remembers ? countAt(memory) : 0;
 }
 
-Entry prepare(int slot, int other)
+// Returns a contact's entry as the step begins with it. `with`: the meeting of that entry, as meetingAs() has it.
+Entry prepare(int slot, int other, out Meeting with)
 {
     int otherMemory = memoryOf(sphereOf(other));
     int at = -1;
@@ -22,7 +23,7 @@ Entry prepare(int slot, int other)
     Entry old = Entry(entry(oldPushes, memory, max(at, 0)), entry(oldAnchors, memory, max(at, 0)));
     bool isOld = at >= 0 && old.anchor.w >= 0.0 && (fetch(motions, motionOf(other)).w & FRESH) == 0u;
     // what is remembered is no impact, however fast it closes
-    Meeting with = meetingOf(slot, other, isOld ? 1e30 : restSpeed);
+    with = meetingOf(slot, other, isOld ? 1e30 : restSpeed);
     PairContact contact = with.contact;
     float reach = own.radius + with.sphere.radius;
     // a little along the normal as well, which is then known where centres coincide
@@ -33,6 +34,7 @@ Entry prepare(int slot, int other)
     bool comes = !isOld && contact.depth <= 0.0 && contact.speed < -restSpeed;
     if (comes || !with.meets) {
         known.anchor.w = -1.0;
+        with.meets = false;
         return known;
     }
     if (isOld) {
