@@ -9,6 +9,12 @@ uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since t
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
 layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // those before them, then the next
+#ifndef SPREAD
+uniform TOTALS totals;       // of the last iteration
+uniform float nextMomentum;  // of the next
+
+layout(std430, binding = 3) writeonly buffer MotionsNext { vec4 motionsNext[]; };
+#endif
 #ifdef WALLS
 layout(std430, binding = 7) buffer WallPushes { vec4 wallPushes[]; };  // contact/prepare.comp
 #endif
@@ -44,4 +50,10 @@ void main()
 #endif
     newTotals[2 * slot] = vec4(impulse, 0.0);
     newTotals[2 * slot + 1] = vec4(shift, 0.0);
+#ifndef SPREAD
+    vec3 further = impulse + (impulse - firstTotal(totals, slot)) * nextMomentum;
+    motionsNext[2 * slot] = vec4(own.velocity + further * own.weight, 0.0);
+    further = shift + (shift - secondTotal(totals, slot)) * nextMomentum;
+    motionsNext[2 * slot + 1] = vec4(further * own.weight, 0.0);
+#endif
 }

@@ -5,11 +5,11 @@
 #include "contact/shares.glsl"
 
 uniform float momentum;     // Nesterov's: by how much of its last change an iteration goes on first
-#ifdef SPREAD
-uniform TOTALS motionsNow;  // contact/spread.glsl
-#else
+#if defined(TEXTURES) && !defined(SPREAD)
 uniform TOTALS totals;
 uniform TOTALS earlier;     // the same an iteration before
+#else
+uniform TOTALS motionsNow;  // m/s and m, by slot, as the last iteration leaves them and the momentum of this one takes them on
 #endif
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
@@ -28,12 +28,15 @@ vec3 ahead(vec3 now, vec3 before)
 
 Moved movedAt(int slot)
 {
-#ifdef SPREAD
-    return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));
-#else
+#if defined(TEXTURES) && !defined(SPREAD)
     Sphere sphere = sphereAt(slot);
     return Moved(sphere.velocity + ahead(firstTotal(totals, slot), firstTotal(earlier, slot)) * sphere.weight,
                  ahead(secondTotal(totals, slot), secondTotal(earlier, slot)) * sphere.weight);
+#else
+#if defined(RESTING) && !defined(SPREAD)
+    if (isResting(fetch(cells, slot).w, fetch(marks, slot).x)) return Moved(vec3(0.0), vec3(0.0));
+#endif
+    return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));
 #endif
 }
 

@@ -63,10 +63,14 @@ class ContactPasses : public ContactResult {
     virtual void buildGrid(const Frame& frame, State& state) = 0;
     virtual void search(State& state, const Times& times) = 0;
     virtual void runNearest(State& state, const Times& times) = 0;
-    // The stages of shaders/contact/respond.glsl; an iteration goes on by `momentum` beyond the last.
+    // By how much of its last change an iteration goes on first, and by how much the next one will.
+    struct Momentum {
+        float now = 0, next = 0;
+    };
+    // The stages of shaders/contact/respond.glsl.
     virtual void prepare(State& state, const Times& times) = 0;
     virtual void constrain(const Times& times) = 0;
-    virtual void relax(State& state, const Times& times, float momentum) = 0;
+    virtual void relax(State& state, const Times& times, Momentum momentum) = 0;
     virtual void settle(State& state, const Times& times) = 0;
     virtual void apply(State& state, const Times& times) = 0;  // into the state
     virtual void rest(State&, const Times&) {}                 // what stays where it is
@@ -132,7 +136,8 @@ class ContactPasses : public ContactResult {
             constrain(times);
             const int iterations = contact_->settings.iterations;
             for (int i = 0; i < iterations; ++i)
-                relax(state, times, ContactPlan::momentum(i, iterations));
+                relax(state, times,
+                      {ContactPlan::momentum(i, iterations), ContactPlan::momentum(i + 1, iterations)});
             settle(state, times);
         } else {
             runNearest(state, times);

@@ -88,36 +88,41 @@ void MoleculeContact::countEffective(Buffers& state) {
 }
 
 void MoleculeContact::constrain(const Times& times) {
-    bindResponse(constrain_, times)
-        .add("effectiveCounts", effectiveCounts_.texture)
-        .add("anchors", anchors_.texture);
+    Textures textures = bindResponse(constrain_, times);
+    textures.add("effectiveCounts", effectiveCounts_.texture).add("anchors", anchors_.texture);
+    if (!spreads_) {
+        textures.add("totals", totals_[0].texture);
+        constrain_.storage("MotionsNow", 2, motionsNow_[0].buffer);
+    }
     constrain_.storage("Normals", 0, normals_.buffer);
     constrain_.storage("Amounts", 1, amounts_.buffer);
     dispatchTouching(constrain_);
     settled();
 }
 
-void MoleculeContact::relax(Buffers& state, const Times& times, float momentum) {
+void MoleculeContact::relax(Buffers& state, const Times& times, Momentum momentum) {
     // without momentum the earlier ones do not count, and nobody may have written them yet
-    const Array& earlier = totals_[momentum == 0 ? 0 : 1];
-    if (spreads_) spread(state, earlier, momentum);
+    if (spreads_) spread(state, totals_[momentum.now == 0 ? 0 : 1], momentum.now);
     Textures textures = bindResponse(relax_, times);
     textures.add("effectiveCounts", effectiveCounts_.texture)
         .add("known", known_.texture)
         .add("normals", normals_.texture)
         .add("amounts", amounts_.texture);
-    if (spreads_)
-        textures.add("motionsNow", motionsNow_.texture);
-    else
-        textures.add("totals", totals_[0].texture).add("earlier", earlier.texture);
+    textures.add("motionsNow", motionsNow_[0].texture);
+    if (!spreads_) {
+        textures.add("totals", totals_[0].texture);
+        relax_.set("nextMomentum", momentum.next);
+        relax_.storage("MotionsNext", 3, motionsNow_[1].buffer);
+    }
     bindWalls(relax_, textures);
-    relax_.set("momentum", momentum);
+    relax_.set("momentum", momentum.now);
     relax_.storage("Totals", 0, totals_[2].buffer);
     relax_.storage("Pushes", 1, pushes_[0].buffer);
     relax_.storage("Earlier", 2, pushes_[1].buffer);
     dispatchTouching(relax_);
     settled();
     std::swap(pushes_[0], pushes_[1]);
+    if (!spreads_) std::swap(motionsNow_[0], motionsNow_[1]);
     std::rotate(totals_.begin(), totals_.begin() + 2, totals_.end());
 }
 
@@ -135,7 +140,7 @@ void MoleculeContact::spread(Buffers& state, const Array& earlier, float momentu
         if (isRigid(g)) textures.add("bodies", bodies_.texture);
         if (rests()) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         program.set("momentum", momentum);
-        program.storage("MotionsNow", 0, motionsNow_.buffer);
+        program.storage("MotionsNow", 0, motionsNow_[0].buffer);
         dispatchBodies(program, g, range);
     });
     settled();

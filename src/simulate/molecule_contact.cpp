@@ -159,9 +159,9 @@ void MoleculeContact::makeMemory() {
         wallPushes_ = array(texels, Texel::float4, "wall pushes");
     }
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
-    if (!spreads_) return;
-    contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
-    motionsNow_ = array(2 * padded_, Texel::float4, "contact motions now");
+    for (Array& motions : motionsNow_)
+        motions = array(2 * padded_, Texel::float4, "contact motions now");
+    if (spreads_) contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
 }
 
 void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCache* cache) {
@@ -586,15 +586,16 @@ size_t MoleculeContact::bytes() const {
     size_t out = touching_.bytes() + (counted_ ? cellCounts_.bytes() : 0);
     const auto add = [&](const Array& array) { out += array.buffer ? array.buffer.bytes() : 0; };
     for (const Array* array :
-         {&arrivals_,    &cellStarts_, &members_,         &pairs_,       &staggered_,  &apart_,
-          &groupsOf_,    &materials_,  &spherePlaces_,    &sphereCells_, &motions_,    &cells_,
-          &places_,      &loads_,      &effectiveCounts_, &contactSums_, &motionsNow_, &bodies_,
-          &wallPushes_,  &slots_,      &counts_,          &lists_,       &anchors_,    &known_,
-          &nearWalls_,   &partners_,   &oldPushes_,       &oldAnchors_,  &calm_,       &marks_,
-          &markedSlots_, &awakeSlots_, &normals_,         &amounts_})
+         {&arrivals_,   &cellStarts_, &members_,         &pairs_,       &staggered_, &apart_,
+          &groupsOf_,   &materials_,  &spherePlaces_,    &sphereCells_, &motions_,   &cells_,
+          &places_,     &loads_,      &effectiveCounts_, &contactSums_, &bodies_,    &wallPushes_,
+          &slots_,      &counts_,     &lists_,           &anchors_,     &known_,     &nearWalls_,
+          &partners_,   &oldPushes_,  &oldAnchors_,      &calm_,        &marks_,     &markedSlots_,
+          &awakeSlots_, &normals_,    &amounts_})
         add(*array);
     std::for_each(pushes_.begin(), pushes_.end(), add);
     std::for_each(totals_.begin(), totals_.end(), add);
+    std::for_each(motionsNow_.begin(), motionsNow_.end(), add);
     return out;
 }
 

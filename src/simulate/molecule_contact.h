@@ -119,7 +119,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void prepare(Buffers& state, const Times& times) override;
     void countEffective(Buffers& state);
     void constrain(const Times& times) override;
-    void relax(Buffers& state, const Times& times, float momentum) override;
+    void relax(Buffers& state, const Times& times, Momentum momentum) override;
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
     void apply(Buffers& state, const Times& times) override;
@@ -193,7 +193,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
     std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before
     std::array<Array, 3> totals_;             // in turn: the last stage's, those before, the next
-    Array effectiveCounts_, contactSums_, motionsNow_, bodies_;
+    std::array<Array, 2> motionsNow_;         // in turn: this iteration's, the next
+    Array effectiveCounts_, contactSums_, bodies_;
 };
 
 }  // namespace shoal

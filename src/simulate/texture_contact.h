@@ -100,7 +100,7 @@ class TextureContact : public ContactPasses<ContactState> {
     void prepare(ContactState& state, const Times& times) override;
     void countEffective();
     void constrain(const Times& times) override;
-    void relax(ContactState& state, const Times& times, float momentum) override;
+    void relax(ContactState& state, const Times& times, Momentum momentum) override;
     void spread(ContactState& state, const gpu::Texture& earlier, float momentum);
     void settle(ContactState& state, const Times& times) override;
     void apply(ContactState& state, const Times& times) override;

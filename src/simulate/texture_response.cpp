@@ -122,10 +122,10 @@ void TextureContact::constrain(const Times& times) {
     }
 }
 
-void TextureContact::relax(ContactState& state, const Times& times, float momentum) {
+void TextureContact::relax(ContactState& state, const Times& times, Momentum momentum) {
     // without momentum the earlier ones do not count, and nobody may have written them yet
-    const size_t earlier = momentum == 0 ? 0 : 1;
-    if (spreads_) spread(state, totals_[earlier], momentum);
+    const size_t earlier = momentum.now == 0 ? 0 : 1;
+    if (spreads_) spread(state, totals_[earlier], momentum.now);
     const auto bind = [&](const Program& program) {
         int unit = bindResponse(program, times);
         program.texture("effectiveCounts", unit++, effectiveCounts_);
@@ -137,7 +137,7 @@ void TextureContact::relax(ContactState& state, const Times& times, float moment
             program.texture("totals", unit++, totals_[0]);
             program.texture("earlier", unit++, totals_[earlier]);
         }
-        program.set("momentum", momentum);
+        program.set("momentum", momentum.now);
         return unit;
     };
     int unit = bind(relax_);
