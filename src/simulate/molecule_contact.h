@@ -44,6 +44,8 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     // Lists are as long as the plan's, or as the context has room for, but no shorter than this: as many as
     // touch a sphere of their size at once without overlap.
     static constexpr size_t shortestList = 12;
+    // Cells that a workgroup adds up (shaders/contact/starts.comp).
+    static constexpr size_t cellTile = 1024;
     // Spheres that a context holds, with the shortest lists.
     static size_t most(const gpu::ContextInfo& info, const ContactPlan& contact);
 
