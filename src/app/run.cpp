@@ -189,8 +189,8 @@ class HeadlessRun {
         for (const GroupLives& lives : report_.lives)
             std::cout << text(lives) << "\n";
         for (const gpu::PassTime& pass : passTimes())
-            std::cout << "  " << pass.name << ": " << pass.calls << " a frame, min " << pass.min * 1e3
-                      << " ms, median " << pass.median * 1e3 << " ms\n";
+            std::cout << "  " << pass.name << ": min " << pass.min * 1e3 << ", median " << pass.median * 1e3
+                      << " ms a frame, in " << many(pass.calls, "call", "calls") << "\n";
         if (options_.timings && drawn_ > 0)
             std::cout << "  molecules in the last picture: " << renderer_->drawnPrimitives()
                       << " points and triangles\n";
