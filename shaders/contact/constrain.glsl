@@ -1,4 +1,4 @@
-// The stage of contact/respond.glsl before the iterations. Needs loadSphere(slot).
+// What the first iteration of contact/respond.glsl works out for all. Needs loadSphere(slot).
 #include "contact/respond.glsl"
 #include "contact/constraint.glsl"
 #include "contact/shares.glsl"

@@ -1,5 +1,5 @@
-// What a contact asks of its impulse, the same in all iterations of a step: worked out once (contact/constrain.comp, .frag), as two
-// 4-vectors an entry.
+// What a contact asks of its impulse, the same in all iterations of a step: worked out once (contact/constrain.glsl), as two 4-vectors
+// an entry.
 struct Constraint {
     vec3 normal;     // unit, to this slot's sphere
     float target;    // m/s, the relative velocity along it that is wanted

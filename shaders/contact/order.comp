@@ -25,7 +25,7 @@ layout(std430, binding = 2) writeonly buffer Slots { uint slots[]; };
 
 layout(std430, binding = 3) writeonly buffer Marks { uint marks[]; };
 #endif
-#include "contact/touching.glsl"
+#include "contact/touching_groups.glsl"
 
 layout(local_size_x = 64) in;
 

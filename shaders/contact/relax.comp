@@ -1,16 +1,43 @@
-// A lane a slot that takes part: contact/relax.glsl.
+// A lane a slot that takes part: contact/relax.glsl. The FIRST iteration also works out the constraints for all.
 #include "contact/touching.glsl"
 #include "contact/relax.glsl"
 
-uniform ENTRIES normals;  // contact/constraint.glsl
+// contact/constraint.glsl
+#ifdef FIRST
+#include "contact/constrain.glsl"
+
+uniform ENTRIES anchors;
+
+layout(std430, binding = 4) writeonly buffer Normals { vec4 normals[]; };
+layout(std430, binding = 6) writeonly buffer Amounts { vec4 amounts[]; };
+
+Constraint constraintOf(int slot, int e)
+{
+    Constraint made = constrain(slot, entryOf(slot, e), texelFetch(anchors, OWN_ENTRY(e)));
+    vec4 texels[2] = texelsOf(made);
+    normals[OWN_ENTRY(e)] = texels[0];
+    amounts[OWN_ENTRY(e)] = texels[1];
+    return made;
+}
+#else
+uniform ENTRIES normals;
 uniform ENTRIES amounts;
+
+Constraint constraintOf(int slot, int e)
+{
+    return constraintOf(texelFetch(normals, OWN_ENTRY(e)), texelFetch(amounts, OWN_ENTRY(e)));
+}
+#endif
+
 uniform FLOATS known;  // contact/memory.glsl: what has acted as a force since the last step
 
 layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
 layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // those before them, then the next
 #ifndef SPREAD
+#ifndef FIRST
 uniform TOTALS totals;       // of the last iteration
+#endif
 uniform float nextMomentum;  // of the next
 
 layout(std430, binding = 3) writeonly buffer MotionsNext { vec4 motionsNext[]; };
@@ -29,7 +56,7 @@ void main()
     vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         int at = OWN_ENTRY(e);
-        Constraint asked = constraintOf(texelFetch(normals, at), texelFetch(amounts, at));
+        Constraint asked = constraintOf(slot, e);
         vec4 push = relax(entryOf(slot, e), asked, pushes[at], earlierPushes[at]);
         earlierPushes[at] = push;
         impulse += push.xyz;

@@ -4,12 +4,18 @@
 #include "contact/totals.glsl"
 #include "contact/shares.glsl"
 
+#ifdef FIRST
+const float momentum = 0.0;
+#else
 uniform float momentum;     // Nesterov's: by how much of its last change an iteration goes on first
-#if defined(TEXTURES) && !defined(SPREAD)
+#endif
+#ifdef SPREAD
+uniform TOTALS motionsNow;  // m/s and m, by slot, as the last iteration leaves them and the momentum of this one takes them on
+#elif defined(TEXTURES) || defined(FIRST)
 uniform TOTALS totals;
 uniform TOTALS earlier;     // the same an iteration before
 #else
-uniform TOTALS motionsNow;  // m/s and m, by slot, as the last iteration leaves them and the momentum of this one takes them on
+uniform TOTALS motionsNow;
 #endif
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
@@ -28,12 +34,14 @@ vec3 ahead(vec3 now, vec3 before)
 
 Moved movedAt(int slot)
 {
-#if defined(TEXTURES) && !defined(SPREAD)
+#ifdef SPREAD
+    return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));
+#elif defined(TEXTURES) || defined(FIRST)
     Sphere sphere = sphereAt(slot);
     return Moved(sphere.velocity + ahead(firstTotal(totals, slot), firstTotal(earlier, slot)) * sphere.weight,
                  ahead(secondTotal(totals, slot), secondTotal(earlier, slot)) * sphere.weight);
 #else
-#if defined(RESTING) && !defined(SPREAD)
+#ifdef RESTING
     if (isResting(fetch(cells, slot).w, fetch(marks, slot).x)) return Moved(vec3(0.0), vec3(0.0));
 #endif
     return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));

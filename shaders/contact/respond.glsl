@@ -1,9 +1,8 @@
 // The impulses of all contacts of a slot at once (docs/contact.md), in stages, each a file:
 //
-//   prepare    what each contact remembers of the last step, and how many contacts act together
-//   constrain  what each contact asks of its impulse
-//   relax      one Jacobi iteration of all impulses, friction among them, and of what pushes overlaps apart
-//   settle     how far the contacts move the spheres, and what they remember for the next step
+//   prepare   what each contact remembers of the last step, and how many contacts act together
+//   relax     one Jacobi iteration of all impulses, friction among them, and of what pushes overlaps apart
+//   settle    how far the contacts move the spheres, and what they remember for the next step
 //
 // What contacts remember acts as a force over the step that follows (contact/apply.comp), so that what rests is at rest for any
 // solver; the response finds only what is missing. A contact is an entry of both spheres' lists. Both work out the same for it,

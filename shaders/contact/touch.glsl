@@ -5,7 +5,7 @@ uvec4 entries[LIST / 4];
 layout(std430, binding = 0) buffer Lists { uint lists[]; };
 layout(std430, binding = 1) buffer Counts { uint counts[]; };
 layout(std430, binding = 2) buffer Dropped { uint dropped; };  // contacts that no list had room for, so far
-#include "contact/touching.glsl"
+#include "contact/touching_groups.glsl"
 
 uniform int listStride;
 uniform bool last;  // no other search adds to what this one lists

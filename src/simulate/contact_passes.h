@@ -63,14 +63,9 @@ class ContactPasses : public ContactResult {
     virtual void buildGrid(const Frame& frame, State& state) = 0;
     virtual void search(State& state, const Times& times) = 0;
     virtual void runNearest(State& state, const Times& times) = 0;
-    // By how much of its last change an iteration goes on first, and by how much the next one will.
-    struct Momentum {
-        float now = 0, next = 0;
-    };
     // The stages of shaders/contact/respond.glsl.
     virtual void prepare(State& state, const Times& times) = 0;
-    virtual void constrain(const Times& times) = 0;
-    virtual void relax(State& state, const Times& times, Momentum momentum) = 0;
+    virtual void relax(State& state, const Times& times, int iteration) = 0;
     virtual void settle(State& state, const Times& times) = 0;
     virtual void apply(State& state, const Times& times) = 0;  // into the state
     virtual void rest(State&, const Times&) {}                 // what stays where it is
@@ -114,6 +109,10 @@ class ContactPasses : public ContactResult {
         program.set("restSpeed", float(times.restSpeed));
     }
 
+    float momentum(int iteration) const {
+        return ContactPlan::momentum(iteration, contact_->settings.iterations);
+    }
+
     int keyMask() const { return (1 << contact_->tableBits) - 1; }
 
     // Each pair once, ascending.
@@ -133,11 +132,8 @@ class ContactPasses : public ContactResult {
     void respond(State& state, const Times& times) {
         if (contact_->remembers()) {
             prepare(state, times);
-            constrain(times);
-            const int iterations = contact_->settings.iterations;
-            for (int i = 0; i < iterations; ++i)
-                relax(state, times,
-                      {ContactPlan::momentum(i, iterations), ContactPlan::momentum(i + 1, iterations)});
+            for (int i = 0; i < contact_->settings.iterations; ++i)
+                relax(state, times, i);
             settle(state, times);
         } else {
             runNearest(state, times);

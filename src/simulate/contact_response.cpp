@@ -8,7 +8,7 @@ namespace shoal {
 using gpu::Program;
 
 void MoleculeContact::dispatchTouching(const Program& program) const {
-    useTouching(program);
+    program.storage("Touching", 5, touching_);
     ++dispatches_;
     program.dispatchIndirect(touchingGroups_, 0);
 }
@@ -87,39 +87,33 @@ void MoleculeContact::countEffective(Buffers& state) {
     settled();
 }
 
-void MoleculeContact::constrain(const Times& times) {
-    Textures textures = bindResponse(constrain_, times);
-    textures.add("effectiveCounts", effectiveCounts_.texture).add("anchors", anchors_.texture);
-    if (!spreads_) {
-        textures.add("totals", totals_[0].texture);
-        constrain_.storage("MotionsNow", 2, motionsNow_[0].buffer);
-    }
-    constrain_.storage("Normals", 0, normals_.buffer);
-    constrain_.storage("Amounts", 1, amounts_.buffer);
-    dispatchTouching(constrain_);
-    settled();
-}
-
-void MoleculeContact::relax(Buffers& state, const Times& times, Momentum momentum) {
+void MoleculeContact::relax(Buffers& state, const Times& times, int iteration) {
+    const bool first = iteration == 0;
+    const Program& program = first ? relaxFirst_ : relax_;
+    const float now = momentum(iteration);
     // without momentum the earlier ones do not count, and nobody may have written them yet
-    if (spreads_) spread(state, totals_[momentum.now == 0 ? 0 : 1], momentum.now);
-    Textures textures = bindResponse(relax_, times);
-    textures.add("effectiveCounts", effectiveCounts_.texture)
-        .add("known", known_.texture)
-        .add("normals", normals_.texture)
-        .add("amounts", amounts_.texture);
-    textures.add("motionsNow", motionsNow_[0].texture);
+    if (spreads_) spread(state, totals_[now == 0 ? 0 : 1], now);
+    Textures textures = bindResponse(program, times);
+    textures.add("effectiveCounts", effectiveCounts_.texture).add("known", known_.texture);
+    if (first) {
+        textures.add("anchors", anchors_.texture);
+        program.storage("Normals", 4, normals_.buffer);
+        program.storage("Amounts", 6, amounts_.buffer);
+    } else {
+        textures.add("normals", normals_.texture).add("amounts", amounts_.texture);
+        program.set("momentum", now);
+    }
+    if (spreads_ || !first) textures.add("motionsNow", motionsNow_[0].texture);
     if (!spreads_) {
         textures.add("totals", totals_[0].texture);
-        relax_.set("nextMomentum", momentum.next);
-        relax_.storage("MotionsNext", 3, motionsNow_[1].buffer);
+        program.set("nextMomentum", momentum(iteration + 1));
+        program.storage("MotionsNext", 3, motionsNow_[1].buffer);
     }
-    bindWalls(relax_, textures);
-    relax_.set("momentum", momentum.now);
-    relax_.storage("Totals", 0, totals_[2].buffer);
-    relax_.storage("Pushes", 1, pushes_[0].buffer);
-    relax_.storage("Earlier", 2, pushes_[1].buffer);
-    dispatchTouching(relax_);
+    bindWalls(program, textures);
+    program.storage("Totals", 0, totals_[2].buffer);
+    program.storage("Pushes", 1, pushes_[0].buffer);
+    program.storage("Earlier", 2, pushes_[1].buffer);
+    dispatchTouching(program);
     settled();
     std::swap(pushes_[0], pushes_[1]);
     if (!spreads_) std::swap(motionsNow_[0], motionsNow_[1]);

@@ -197,7 +197,7 @@ void MoleculeContact::makePrograms(const std::string& shaderRoot, gpu::ProgramCa
         weigh_ = make("weigh");
     }
     prepare_ = make("prepare");
-    constrain_ = make("constrain");
+    relaxFirst_ = make("relax", "FIRST");
     relax_ = make("relax");
     settle_ = make("settle");
 }

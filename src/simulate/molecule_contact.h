@@ -10,9 +10,8 @@
 //                      sift      before it, what rests and has touched what is awake
 //                      wake      what an impact wakes
 //   contact response   prepare   what contacts remember of the last step
-//                      constrain what each contact asks of its impulse
 //                      relax     the impulses of all contacts, in Jacobi iterations
-//                      settle    what they remember for the next (or, of all four, `nearest`: UberFlow's)
+//                      settle    what they remember for the next (or, of all three, `nearest`: UberFlow's)
 //                      apply     into the state
 //                      weigh     what pushes on what rests
 //                      rest      which molecules rest, and cost nothing more
@@ -120,8 +119,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     void runNearest(Buffers& state, const Times& times) override;
     void prepare(Buffers& state, const Times& times) override;
     void countEffective(Buffers& state);
-    void constrain(const Times& times) override;
-    void relax(Buffers& state, const Times& times, Momentum momentum) override;
+    void relax(Buffers& state, const Times& times, int iteration) override;
     void spread(Buffers& state, const Array& earlier, float momentum);
     void settle(Buffers& state, const Times& times) override;
     void apply(Buffers& state, const Times& times) override;
@@ -173,7 +171,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     size_t padded_;  // spheres, to whole workgroups
     std::vector<GroupPrograms> groups_;
     gpu::Program starts_, collect_, order_, find_, findStaggered_, findResting_, sift_, wake_, weigh_,
-        nearest_, prepare_, constrain_, relax_, settle_;
+        nearest_, prepare_, relaxFirst_, relax_, settle_;
     bool wakes_ = false;  // all that rests, in this step
     int listLength_;
     std::optional<RadixSort> sort_;  // where they are not counted

@@ -99,8 +99,8 @@ class TextureContact : public ContactPasses<ContactState> {
     void runNearest(ContactState& state, const Times& times) override;
     void prepare(ContactState& state, const Times& times) override;
     void countEffective();
-    void constrain(const Times& times) override;
-    void relax(ContactState& state, const Times& times, Momentum momentum) override;
+    void constrain(const Times& times);
+    void relax(ContactState& state, const Times& times, int iteration) override;
     void spread(ContactState& state, const gpu::Texture& earlier, float momentum);
     void settle(ContactState& state, const Times& times) override;
     void apply(ContactState& state, const Times& times) override;

@@ -91,6 +91,7 @@ void TextureContact::prepare(ContactState&, const Times& times) {
     drawAll(into);
     if (walls_) turn(wallPushes_);
     if (spreads_) countEffective();
+    constrain(times);
 }
 
 // Where contacts of several spheres act together.
@@ -108,6 +109,7 @@ void TextureContact::countEffective() {
     }
 }
 
+// What contacts ask of their impulses.
 void TextureContact::constrain(const Times& times) {
     int unit = bindResponse(constrain_, times);
     constrain_.texture("effectiveCounts", unit++, effectiveCounts_);
@@ -122,10 +124,11 @@ void TextureContact::constrain(const Times& times) {
     }
 }
 
-void TextureContact::relax(ContactState& state, const Times& times, Momentum momentum) {
+void TextureContact::relax(ContactState& state, const Times& times, int iteration) {
+    const float now = momentum(iteration);
     // without momentum the earlier ones do not count, and nobody may have written them yet
-    const size_t earlier = momentum.now == 0 ? 0 : 1;
-    if (spreads_) spread(state, totals_[earlier], momentum.now);
+    const size_t earlier = now == 0 ? 0 : 1;
+    if (spreads_) spread(state, totals_[earlier], now);
     const auto bind = [&](const Program& program) {
         int unit = bindResponse(program, times);
         program.texture("effectiveCounts", unit++, effectiveCounts_);
@@ -137,7 +140,7 @@ void TextureContact::relax(ContactState& state, const Times& times, Momentum mom
             program.texture("totals", unit++, totals_[0]);
             program.texture("earlier", unit++, totals_[earlier]);
         }
-        program.set("momentum", momentum.now);
+        program.set("momentum", now);
         return unit;
     };
     int unit = bind(relax_);

@@ -653,11 +653,14 @@ TEST_CASE("the compute shaders of contact are sound GLSL", "[shaders]") {
         validator.add(concat("contact/", file, ".comp"), more, gpu::header430());
     };
     for (const Defines& set : combinations({"RESTING", "SELF", "SWEPT", "WALLS"})) {
-        for (const char* file : {"order", "find", "prepare", "constrain", "relax", "settle"})
+        for (const char* file : {"order", "find", "prepare", "relax", "settle"})
             add(file, set);
         for (const Defines& spread : {Defines{"SPREAD"}, Defines{"SPREAD", "BODIES"}})
-            for (const char* file : {"prepare", "constrain", "relax", "settle"})
+            for (const char* file : {"prepare", "relax", "settle"})
                 add(file, set, spread);
+        for (const Defines& first :
+             {Defines{"FIRST"}, Defines{"FIRST", "SPREAD"}, Defines{"FIRST", "SPREAD", "BODIES"}})
+            add("relax", set, first);
     }
     for (const Defines& set : combinations({"SELF", "SWEPT", "WALLS", "RELEASE"})) {
         for (const char* file : {"sift", "wake", "weigh", "rest"})
