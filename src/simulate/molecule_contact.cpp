@@ -121,27 +121,29 @@ MoleculeContact::MoleculeContact(gpu::Context& context, const std::string& shade
 }
 
 void MoleculeContact::makeMemory() {
-    // Memory begins empty.
+    // All spheres begin without contacts; what there is of an entry of a list is written before it is read.
     const auto array = [&](size_t texels, Texel texel, const char* label) {
         const std::vector<uint32_t> none(texels * wordsOf(texel));
         return Array(*context_, texels, texel, label, none.data());
     };
-    const size_t entries = padded_ * size_t(listLength_);
+    const auto ofEntries = [&](Texel texel, const char* label) {
+        return Array(*context_, padded_ * size_t(listLength_), texel, label);
+    };
     slots_ = array(padded_, Texel::uint1, "slots");
     counts_ = array(padded_, Texel::uint1, "contacts");
-    lists_ = array(entries, Texel::uint1, "contact lists");
+    lists_ = ofEntries(Texel::uint1, "contact lists");
     known_ = array(padded_, Texel::float4, "known impulses");
     for (Array& totals : totals_)
         totals = array(2 * padded_, Texel::float4, "contact totals");
     if (!contact_->remembers()) return;
-    partners_ = array(entries, Texel::uint1, "contact partners");
-    oldPushes_ = array(entries, Texel::float4, "remembered pushes");
-    oldAnchors_ = array(entries, Texel::float4, "remembered anchors");
-    anchors_ = array(entries, Texel::float4, "contact anchors");
-    normals_ = array(entries, Texel::float4, "contact normals");
-    amounts_ = array(entries, Texel::float4, "contact amounts");
+    partners_ = ofEntries(Texel::uint1, "contact partners");
+    oldPushes_ = ofEntries(Texel::float4, "remembered pushes");
+    oldAnchors_ = ofEntries(Texel::float4, "remembered anchors");
+    anchors_ = ofEntries(Texel::float4, "contact anchors");
+    normals_ = ofEntries(Texel::float4, "contact normals");
+    amounts_ = ofEntries(Texel::float4, "contact amounts");
     for (Array& pushes : pushes_)
-        pushes = array(entries, Texel::float4, "contact pushes");
+        pushes = ofEntries(Texel::float4, "contact pushes");
     loads_ = array(padded_, Texel::float4, "contact loads");
     effectiveCounts_ = array(padded_, Texel::uint1, "effective contact counts");
     if (rests()) {
