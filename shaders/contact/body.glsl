@@ -14,22 +14,10 @@ struct BodyMotion {
     vec3 turn;
 };
 
-// Impulses on a body, added up.
-struct BodyImpulse {
-    vec3 sum;     // N s
-    vec3 moment;  // N s m, about the centre of mass
-};
-
-void add(inout BodyImpulse impulses, vec3 arm, vec3 impulse)
+// Returns how an impulse at a sphere changes the motion of its body.
+BodyMotion bodyMotion(BodySphere at, vec3 impulse)
 {
-    impulses.sum += impulse;
-    impulses.moment += cross(arm, impulse);
-}
-
-// Returns how they change the motion of the body. `at`: any of its spheres.
-BodyMotion motionBy(BodySphere at, BodyImpulse impulses)
-{
-    return BodyMotion(impulses.sum * at.perMass, at.perInertia * impulses.moment);
+    return BodyMotion(impulse * at.perMass, at.perInertia * cross(at.arm, impulse));
 }
 
 vec3 motionAt(BodySphere at, BodyMotion motion)

@@ -1,4 +1,4 @@
-// The spheres of rigid bodies.
+// Impulses on the spheres of rigid bodies add up here to the motions of the bodies.
 #include "contact/body.glsl"
 #include "physics/pair.glsl"
 
@@ -15,4 +15,11 @@ BodySphere bodySphereAt(int sphere)
     vec4 arm = bodyTexel(sphere, 0);
     vec4 d = bodyTexel(sphere, 1);
     return BodySphere(arm.xyz, arm.w, symmetric(d.xyz, bodyTexel(sphere, 2).xyz), d.w);
+}
+
+void add(inout BodyMotion motion, BodySphere at, vec3 impulse)
+{
+    BodyMotion more = bodyMotion(at, impulse);
+    motion.shift += more.shift;
+    motion.turn += more.turn;
 }

@@ -101,19 +101,17 @@ struct BodyTotal {
 
 BodyTotal totalOfBody(int molecule)
 {
-    BodyImpulse impulse = BodyImpulse(vec3(0.0), vec3(0.0));
-    BodyImpulse shift = impulse;
-    BodyImpulse load = impulse;
+    BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
+    BodyTotal sum = BodyTotal(none, none, none);
     for (int k = 0; k < SPHERES; ++k) {
         int sphere = firstSphere + molecule * SPHERES + k;
         Total total = totalAt(sphere);
-        vec3 arm = bodySphereAt(sphere).arm;
-        add(impulse, arm, total.impulse);
-        add(shift, arm, total.shift);
-        add(load, arm, total.load);
+        BodySphere at = bodySphereAt(sphere);
+        add(sum.impulse, at, total.impulse);
+        add(sum.shift, at, total.shift);
+        add(sum.load, at, total.load);
     }
-    BodySphere at = bodySphereAt(firstSphere + molecule * SPHERES);
-    return BodyTotal(motionBy(at, impulse), motionBy(at, shift), motionBy(at, load));
+    return sum;
 }
 
 // Returns how that changes sphere k of its molecule.
