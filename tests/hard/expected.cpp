@@ -128,7 +128,7 @@ const std::map<std::string, std::vector<Verdict>>& table() {
         {"fast pair, glancing", {P, P, P, P, P, P, P}},
         {"leaves meet at 5 m/s", {P, P, P, P, P, P, P}},
         {"a pile of tetrahedra comes to rest and stays", {P, P, P, P, P, P, P}},
-        {"a pile of tetrahedra with `rest` stays", {P, P, P, P, P, P, P}},
+        {"a pile of tetrahedra with `rest` stays to the bit", {P, P, P, P, P, P, P}},
         {"tetrahedra squeezed to half their room", {P, P, P, P, P, P, P}},
         {"marbles on a slope of 20 degrees stay", {P, P, P, P, P, P, P}},
         {"marbles on a slope of 32 degrees slide", {P, P, P, P, P, P, P}},

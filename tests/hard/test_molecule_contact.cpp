@@ -204,7 +204,7 @@ TEST_CASE("hard: fast leaves", "[hard][molecule contact][fused]") {
 TEST_CASE("hard: a pile of molecules", "[hard][molecule contact][fused]") {
     test::holds("a pile of tetrahedra comes to rest and stays",
                 [](const Solver& solver, Judge& judge) { judgeRest(pile(solver), judge, 0.2); });
-    test::holds("a pile of tetrahedra with `rest` stays", [](const Solver& solver, Judge& judge) {
+    test::holds("a pile of tetrahedra with `rest` stays to the bit", [](const Solver& solver, Judge& judge) {
         Scene scene = pile(solver);
         scene.contact.rest = 0.005;
         judgeRest(scene, judge, 0);
