@@ -2,7 +2,7 @@
 //   MANY: a lane a vertex, on which the contacts of several spheres act (contact/spread.glsl)
 //   else: a lane a slot that takes part, which is that of a vertex, and nothing else acts on it
 #include "contact/shape.glsl"
-#if defined(RESTING) && defined(MANY)
+#ifdef MANY
 #include "contact/resting.glsl"
 #endif
 #include "contact/spread.glsl"
@@ -46,9 +46,7 @@ void main()
     int lane = int(gl_GlobalInvocationID.x);
     int molecule = lane / VERTICES;
     if (molecule * SPHERES >= partSpheres) return;
-#ifdef RESTING
-    if (rests(int(texelFetch(slots, firstSphere + molecule * SPHERES).x))) return;
-#endif
+    if (rests(slotOf(firstSphere + molecule * SPHERES))) return;
     Total by = changeOf(molecule, lane - molecule * VERTICES);
     if (by.impulse != vec3(0.0) || by.shift != vec3(0.0) || by.load != vec3(0.0)) change(molecule, lane - molecule * VERTICES, by);
 }

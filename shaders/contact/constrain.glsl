@@ -1,4 +1,5 @@
-// What the first iteration of contact/respond.glsl works out for all. Needs loadSphere(slot).
+// Works out for all iterations of contact/respond.glsl what a contact asks: in the first, or in fragments in a draw before it. Needs
+// loadSphere(slot).
 #include "contact/respond.glsl"
 #include "contact/constraint.glsl"
 #include "contact/shares.glsl"

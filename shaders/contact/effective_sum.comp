@@ -1,32 +1,16 @@
 // A lane a sphere of one group, or with RIGID a molecule: contact/effective_sum.glsl.
 #include "contact/shape.glsl"
 #include "contact/effective_sum.glsl"
-#ifdef RESTING
 #include "contact/resting.glsl"
-#endif
 
 layout(std430, binding = 0) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
-
-int slotOf(int sphere)
-{
-    return int(fetch(slots, sphere).x);
-}
-
-bool takesPart(int slot)
-{
-#ifdef RESTING
-    return !rests(slot);
-#else
-    return true;
-#endif
-}
 
 #ifdef RIGID
 void main()
 {
     int molecule = min(int(gl_GlobalInvocationID.x), partSpheres / SPHERES - 1);
     int first = firstSphere + molecule * SPHERES;
-    bool isLeft = takesPart(slotOf(first));
+    bool isLeft = !rests(slotOf(first));
     while (isLeft) {
         float sum = effectiveSum(first);
         for (int k = 0; k < SPHERES; ++k) effectiveCounts[slotOf(first + k)] = floatBitsToUint(sum);
@@ -41,7 +25,7 @@ void main()
     int moleculeSphere = firstSphere + molecule * SPHERES;
     int k = lane - molecule * SPHERES;
     int slot = slotOf(moleculeSphere + k);
-    bool isLeft = takesPart(slot);
+    bool isLeft = !rests(slot);
     while (isLeft) {
         effectiveCounts[slot] = floatBitsToUint(effectiveSum(moleculeSphere, k));
         isLeft = false;

@@ -3,7 +3,6 @@
 #include "contact/flags.glsl"
 #include "physics/pair.glsl"
 
-uniform UINTS slots;  // of a sphere
 uniform UINTS counts;
 #ifdef TEXTURES
 uniform sampler2DArray contactSums;  // by slot, two layers: xyz the parts of a ContactSum, w of the first its number
@@ -15,12 +14,12 @@ uniform samplerBuffer contactSums;   // two texels a slot
 
 bool touches(int sphere)
 {
-    return (fetch(counts, int(fetch(slots, sphere).x)).x & CONTACTS) != 0u;
+    return (fetch(counts, slotOf(sphere)).x & CONTACTS) != 0u;
 }
 
 ContactSum contactsOf(int sphere)
 {
-    int slot = int(fetch(slots, sphere).x);
+    int slot = slotOf(sphere);
     if (fetch(counts, slot).x == 0u) return noContacts();
     vec4 first = contactTexel(slot, 0);
     return ContactSum(first.xyz, contactTexel(slot, 1).xyz, first.w);

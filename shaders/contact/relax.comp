@@ -35,10 +35,7 @@ layout(std430, binding = 0) writeonly buffer Totals { vec4 newTotals[]; };
 layout(std430, binding = 1) readonly buffer Pushes { vec4 pushes[]; };
 layout(std430, binding = 2) buffer Earlier { vec4 earlierPushes[]; };  // those before them, then the next
 #ifndef SPREAD
-#ifndef FIRST
-uniform TOTALS totals;       // of the last iteration
-#endif
-uniform float nextMomentum;  // of the next
+uniform float nextMomentum;  // of the next iteration
 
 layout(std430, binding = 3) writeonly buffer MotionsNext { vec4 motionsNext[]; };
 #endif

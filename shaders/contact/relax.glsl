@@ -9,14 +9,9 @@ const float momentum = 0.0;
 #else
 uniform float momentum;     // Nesterov's: by how much of its last change an iteration goes on first
 #endif
-#ifdef SPREAD
+uniform TOTALS totals;      // of the last iteration
+uniform TOTALS earlier;     // of the one before
 uniform TOTALS motionsNow;  // m/s and m, by slot, as the last iteration leaves them and the momentum of this one takes them on
-#elif defined(TEXTURES) || defined(FIRST)
-uniform TOTALS totals;
-uniform TOTALS earlier;     // the same an iteration before
-#else
-uniform TOTALS motionsNow;
-#endif
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
 struct Moved {

@@ -5,7 +5,6 @@
 #include "contact/shape.glsl"
 #include "contact/resting.glsl"
 
-uniform usamplerBuffer slots;    // of a sphere
 uniform usamplerBuffer motions;  // by sphere (contact/records.glsl)
 uniform samplerBuffer totals;    // by slot (contact/totals.glsl)
 #ifdef RELEASE
@@ -60,7 +59,7 @@ bool isWoken(int sphere)
 {
     bool woken = false;
     for (int k = 0; k < SPHERES; ++k) {
-        int slot = int(texelFetch(slots, sphere + k).x);
+        int slot = slotOf(sphere + k);
         uint mark = texelFetch(marks, slot).x;
         woken = woken || marksWoken(mark) || (mark != 0u && texelFetch(totals, 2 * slot + 1).w > 0.0);
     }
@@ -91,7 +90,7 @@ void keepOrWake(int sphere, int first)
 void rest(int molecule, int sphere, int first)
 {
     float time = calm[sphere].w + stepTime;
-    bool isDead = texelFetch(cells, int(texelFetch(slots, sphere).x)).w == 0u;
+    bool isDead = texelFetch(cells, slotOf(sphere)).w == 0u;
     if (wakes || isDead || (texelFetch(motions, sphere).w & FRESH) != 0u) time = 0.0;
     for (int v = 0; v < VERTICES; ++v)
         if (!(distance(stateVector(first, v), calm[sphere + v].xyz) <= restDistance)) time = 0.0;
@@ -115,7 +114,7 @@ void main()
     if (molecule * SPHERES >= partSpheres) return;
     int sphere = firstSphere + molecule * SPHERES;
     int first = firstElement(molecule, STATE_ELEMENTS);
-    bool rested = (texelFetch(cells, int(texelFetch(slots, sphere).x)).w & RESTS) != 0u;
+    bool rested = (texelFetch(cells, slotOf(sphere)).w & RESTS) != 0u;
     if (rested) keepOrWake(sphere, first);
     if (!rested) rest(molecule, sphere, first);
 }

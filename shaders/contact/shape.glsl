@@ -11,8 +11,14 @@ layout(local_size_x = 64) in;
 #endif
 
 uniform FLOATS shapes;
+uniform UINTS slots;      // of a sphere
 uniform int firstSphere;  // of the part, or in fragments of the group
 uniform int partSpheres;
+
+int slotOf(int sphere)
+{
+    return int(fetch(slots, sphere).x);
+}
 
 vec4 shapeOf(int sphere)
 {

@@ -1,33 +1,17 @@
 // A lane a sphere of one group, or with RIGID a molecule: contact/spread.glsl.
 #include "contact/shape.glsl"
-#include "contact/spread.glsl"
-
-#ifdef RESTING
 #include "contact/resting.glsl"
-#endif
+#include "contact/spread.glsl"
 
 uniform usamplerBuffer motions;
 
 layout(std430, binding = 0) writeonly buffer MotionsNow { vec4 motionsNow[]; };
 
-void store(int sphere, int slot, Total change)
+void store(int sphere, Total change)
 {
+    int slot = slotOf(sphere);
     motionsNow[2 * slot] = vec4(uintBitsToFloat(texelFetch(motions, sphere).xyz) + change.impulse, 0.0);
     motionsNow[2 * slot + 1] = vec4(change.shift, 0.0);
-}
-
-int slotOf(int sphere)
-{
-    return int(texelFetch(slots, sphere).x);
-}
-
-bool moves(int sphere)
-{
-#ifdef RESTING
-    return !rests(slotOf(sphere));
-#else
-    return true;
-#endif
 }
 
 #ifdef RIGID
@@ -37,12 +21,12 @@ void main()
     int first = firstSphere + molecule * SPHERES;
     BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
     BodyTotal body = BodyTotal(none, none, none);
-    bool movesYet = moves(first);
-    while (movesYet) {
+    bool moves = !rests(slotOf(first));
+    while (moves) {
         body = totalOfBody(molecule);
-        movesYet = false;
+        moves = false;
     }
-    for (int k = 0; k < SPHERES; ++k) store(first + k, slotOf(first + k), changeIn(body, molecule, k));
+    for (int k = 0; k < SPHERES; ++k) store(first + k, changeIn(body, molecule, k));
 }
 #else
 void main()
@@ -51,11 +35,11 @@ void main()
     int molecule = lane / SPHERES;
     int sphere = firstSphere + lane;
     Total change = noTotal();
-    bool movesYet = moves(sphere);
-    while (movesYet) {
+    bool moves = !rests(slotOf(sphere));
+    while (moves) {
         change = changeOf(molecule, lane - molecule * SPHERES);
-        movesYet = false;
+        moves = false;
     }
-    store(sphere, slotOf(sphere), change);
+    store(sphere, change);
 }
 #endif

@@ -2,7 +2,6 @@
 // lie on triangles of the same vertices or on a rigid body (RIGID). Needs contact/shape.glsl.
 #include "contact/totals.glsl"
 
-uniform UINTS slots;   // of a sphere
 uniform UINTS counts;
 uniform TOTALS totals;
 #ifdef APPLIES
@@ -46,7 +45,7 @@ uniform UINTS effectiveCounts;  // contact/shares.glsl
 // reaches none that is not known as near (contact/sphere.glsl). `changed`: how contact has changed its velocity, m/s.
 bool holds(int sphere, vec3 changed, float stepTime)
 {
-    int slot = int(fetch(slots, sphere).x);
+    int slot = slotOf(sphere);
 #ifdef TEXTURES
     uvec3 motion = fetch(motions, slot).xyz;
 #else
@@ -71,7 +70,7 @@ vec4 loadOf(int sphere, Total by, float stepTime)
 
 Total totalAt(int sphere)
 {
-    int slot = int(fetch(slots, sphere).x);
+    int slot = slotOf(sphere);
     if (fetch(counts, slot).x == 0u) return noTotal();
     Total now = Total(firstTotal(totals, slot), secondTotal(totals, slot), vec3(0.0));
 #ifdef APPLIES

@@ -160,8 +160,8 @@ void MoleculeContact::makeMemory() {
         wallPushes_ = array(texels, Texel::float4, "wall pushes");
     }
     if (rigid_) bodies_ = array(3 * padded_, Texel::float4, "bodies");
-    for (Array& motions : motionsNow_)
-        motions = array(2 * padded_, Texel::float4, "contact motions now");
+    motionsNow_[0] = array(2 * padded_, Texel::float4, "contact motions now");
+    if (!spreads_) motionsNow_[1] = array(2 * padded_, Texel::float4, "next contact motions");
     if (spreads_) contactSums_ = array(2 * padded_, Texel::float4, "contact sums");
 }
 

@@ -193,7 +193,7 @@ class MoleculeContact : public ContactPasses<const std::vector<GroupBuffers>> {
     gpu::Buffer markGroups_;                  // shaders/contact/marked.glsl
     std::array<Array, 2> pushes_;             // in turn: the last iteration's, those before
     std::array<Array, 3> totals_;             // in turn: the last stage's, those before, the next
-    std::array<Array, 2> motionsNow_;         // in turn: this iteration's, the next
+    std::array<Array, 2> motionsNow_;         // in turn: this iteration's, the next's
     Array effectiveCounts_, contactSums_, bodies_;
 };
 

@@ -10,9 +10,8 @@
 //                      order     records in the order of the keys
 //                      slots     of a sphere: its place in that order
 //   contact search     find      the spheres that each touches (or `neighbors`: some of them)
-//   contact response   prepare, constrain, relax, settle (or `nearest`), each in a draw or several, as many
-//   entries a
-//                      draw as there are targets, and then their sums
+//   contact response   prepare, constrain, relax, settle (or `nearest`), each in a draw or several, as
+//                      many entries a draw as there are targets, and then their sums
 //                      gains     what all that does to a vertex
 //                      apply     into the state
 //
