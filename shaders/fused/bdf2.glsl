@@ -22,6 +22,9 @@ float eta;  // s, of this step
 float kickDrift;  // s, for contact (physics/collide.glsl)
 vec3 unsprung[VERTICES];  // m/s, the velocity without springs
 
+// m/s^2, of the springs at the substep's end, for contact.
+#define SPRUNG(i) ((v[i] - unsprung[i]) / eta)
+
 const float third = 1.0 / 3.0;
 
 void beginHistory()

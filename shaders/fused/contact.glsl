@@ -41,14 +41,23 @@ float contactTime(int done)
 vec4 seen[VERTICES];
 #endif
 
-#ifdef HISTORY
-vec3 beyondBy[VERTICES];  // m, physics/collide.glsl
-#define DRIFT(beyond) Drift(driftOfStep.x, kickDrift, driftOfStep.z, beyond)
-#define DRIFT_OF(i) DRIFT(beyondBy[i])
+// m/s^2, what presses vertex i on beside gravity and forces. A body answers for its springs as a whole.
+#if defined(SPRINGS) && !defined(RIGID_IMPACT)
+#define PRESSED(i) (LOAD(i) + SPRUNG(i))
 #else
-#define DRIFT(beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z)
-#define DRIFT_OF(i) DRIFT(vec3(0.0))
+#define PRESSED(i) LOAD(i)
 #endif
+
+// A vertex's drift as physics/collide.glsl has it.
+#ifdef HISTORY
+vec3 beyondBy[VERTICES];  // m
+#define BEYOND(i) beyondBy[i]
+#define DRIFT(acceleration, beyond) Drift(driftOfStep.x, kickDrift, driftOfStep.z, acceleration, beyond)
+#else
+#define BEYOND(i) vec3(0.0)
+#define DRIFT(acceleration, beyond) Drift(driftOfStep.x, driftOfStep.y, driftOfStep.z, acceleration)
+#endif
+#define DRIFT_OF(i) DRIFT(fallAt(anchor, touchPosition[i]) + PRESSED(i), BEYOND(i))
 
 // The vertices as contact takes them up.
 void beginAnswers()
@@ -141,7 +150,7 @@ bool findContacts(int done)
     for (int k = 0; k < VERTICES; ++k) {
 #if defined(NEAREST) && !defined(RIGID_IMPACT)
         Contact c = Contact(touchPosition[k], touchVelocity[k]);
-        bool answered = answerNearest(anchor, c, driftedBy[k], fallAt(anchor, touchPosition[k]) + LOAD(k), DRIFT_OF(k));
+        bool answered = answerNearest(anchor, c, driftedBy[k], DRIFT_OF(k));
         bool open = counts && !isHeld(pinned[k]);
         walks[k] = open && !answered;
         bool moves = open && answered;
@@ -175,10 +184,10 @@ bool findContacts(int done)
 }
 
 #ifdef JOINT_CONTACT
-// `pressed`: m/s^2, beside gravity and forces.
-Contact follow(Contact c, vec3 drifted, vec3 pressed, Drift drift, int done)
+Contact follow(Contact c, vec3 drifted, vec3 pressed, vec3 beyond, int done)
 {
-    return collideAll(anchor, c.position, c.velocity, drifted, fallAt(anchor, c.position) + pressed, drift, contactTime(done));
+    vec3 fall = fallAt(anchor, c.position);
+    return collideAll(anchor, c.position, c.velocity, drifted, fall, DRIFT(fall + pressed, beyond), contactTime(done));
 }
 #endif
 
@@ -220,13 +229,11 @@ void resolveContacts(int done)
                 next = i;
                 c = Contact(touchPosition[i], touchVelocity[i]);
                 drifted = driftedBy[i];
-                pressed = LOAD(i);
-#ifdef HISTORY
-                beyond = beyondBy[i];
-#endif
+                pressed = PRESSED(i);
+                beyond = BEYOND(i);
             }
         }
-        if (next >= 0) c = follow(c, drifted, pressed, DRIFT(beyond), done);
+        if (next >= 0) c = follow(c, drifted, pressed, beyond, done);
         for (int i = 0; i < VERTICES; ++i) {
             if (next == i) {
                 walks[i] = false;
@@ -236,7 +243,7 @@ void resolveContacts(int done)
     }
 #else
     for (int n = 0; n < VERTICES; ++n) {
-        if (walks[n]) take(n, follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], LOAD(n), DRIFT_OF(n), done));
+        if (walks[n]) take(n, follow(Contact(touchPosition[n], touchVelocity[n]), driftedBy[n], PRESSED(n), BEYOND(n), done));
     }
 #endif
 #else
@@ -247,7 +254,7 @@ void resolveContacts(int done)
 #else
             vec4 surface = surfaceAt(anchor, touchPosition[k]);
 #endif
-            take(k, answerTo(surface, touchPosition[k], touchVelocity[k], fallAt(anchor, touchPosition[k]) + LOAD(k), DRIFT_OF(k)));
+            take(k, answerTo(surface, touchPosition[k], touchVelocity[k], DRIFT_OF(k)));
         }
     }
 #endif

@@ -7,6 +7,9 @@
 uniform vec3 gravity;  // m/s^2
 #include "step/fall.glsl"
 
+#if defined(RK4) && defined(SPRINGS)
+uniform sampler2D sumAccelerations;  // m/s^2, of the stages
+#endif
 uniform vec3 drift;  // physics/collide.glsl: step, kickDrift, lag
 uniform float contactTime;  // s, of the substep's end since the frame's start; 0 where no collider moves
 
@@ -21,19 +24,26 @@ void main()
     vec3 v = texelFetch(velocities, texel, 0).xyz;
     if (!isPadding(own.y) && !isHeld(inertia(own.x), own.y)) {
         vec3 anchor = texelFetch(records, recordTexel(own.y), 0).xyz;
-        vec3 fall = fallAt(anchor, x) + loadOn(own);
+        vec3 fall = fallAt(anchor, x);
+        vec3 acceleration = fall + loadOn(own);
         vec3 kick = vec3(0.0);
-#if defined(LEAPFROG) && defined(SPRINGS)
-        kick = texelFetch(accelerations, texel, 0).xyz * (0.5 * drift.x);
+#if defined(RK4) && defined(SPRINGS)
+        acceleration = texelFetch(sumAccelerations, texel, 0).xyz;
+#elif defined(ACCELERATION)
+        vec3 sprung = texelFetch(accelerations, texel, 0).xyz;
+#ifdef LEAPFROG
+        kick = sprung * (0.5 * drift.x);
+#endif
+        acceleration += sprung;
 #endif
         vec3 whole = v + kick;
-        Drift drifted = Drift(drift.x, drift.y, drift.z);
+        Drift drifted = Drift(drift.x, drift.y, drift.z, acceleration);
 #ifdef JOINT_CONTACT
         Contact contact = Contact(x, whole);
         if (margin(anchor, x, v, drift.x, contactTime) < 0.0)
             contact = collideAll(anchor, x, whole, v, fall, drifted, contactTime);
 #else
-        Contact contact = collideAll(anchor, x, whole, fall, drifted);
+        Contact contact = collideAll(anchor, x, whole, drifted);
 #endif
         x = contact.position;
         v = withoutKick(contact.velocity, v, kick);

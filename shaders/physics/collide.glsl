@@ -13,12 +13,14 @@ struct Contact {
 //              for leapfrog
 //   lag        how far the stored velocity lags behind the position: h/2 for euler (its positions lie on the
 //              exact parabola of the velocity half a step later), 0 for leapfrog
+//   acceleration  of this vertex, by gravity and forces, springs and contacts, m/s^2
 //   beyond     where the solver has a history of its ways: how far this vertex's way differs from that of a constant
 //              acceleration between its velocities, m
 struct Drift {
     float step;
     float kickDrift;
     float lag;
+    vec3 acceleration;
 #ifdef HISTORY
     vec3 beyond;
 #endif
@@ -47,26 +49,26 @@ const float pushSpeed = 1.0f;
 //
 // The speed at the moment of impact follows from energy, v_i^2 = v_n^2 - 2 |g_n| depth, and the time since
 // from the depth, so that a bounce keeps its height whatever the phase of the impact within the step. The
-// vertex flies back from the surface for that time; if gravity brings it down again within it, it rests.
+// vertex flies back from the surface for that time; if it is brought down again within it, it rests. What brings it down
+// is all that presses it on: beside gravity the springs, or what lies on a molecule would make its feet bounce for ever.
 // Friction changes the velocity by at most mu times the normal change, never past a stop, and takes back the
 // part of the drift that the lost velocity had made: a vertex that sticks does not creep.
 //
 // Without branches: what does not apply is chosen away at the end, because a rasteriser on a CPU runs every branch of
 // its lanes anyway, and then pays for the bookkeeping of the branches as well.
 // `inside`: whether the vertex was deep inside when its drift began, where that is known.
-Contact respond(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
-                Drift drift)
+Contact respond(bool inside, vec3 x, vec3 v, float distance, vec3 n, float restitution, float friction, Drift drift)
 {
     float depth = max(-distance, 0.0f);
     float vn = dot(v, n);
     vec3 surface = x + n * depth;
 
-    float gn = dot(gravity, n);
+    float gn = dot(drift.acceleration, n);
     float synchronised = vn + gn * drift.lag;
     float impact = sqrt(max(synchronised * synchronised + 2.0f * gn * depth, 0.0f));
     float since = min(depth / max(0.5f * (impact - synchronised), 1e-20f), drift.step);
     float rebound = restitution * impact;
-    // pressed down by more than half a step's gravity can undo: it bounces; otherwise it rests
+    // faster than half a step can bring it down again: it bounces; otherwise it rests
     bool bounces = rebound > 0.5f * abs(gn) * drift.step && rebound + 0.5f * gn * since > 0.0f;
     float newNormal = bounces ? rebound + gn * (since - drift.lag) : 0.0f;
     float height = bounces ? (rebound + 0.5f * gn * since) * since : 0.0f;
@@ -151,13 +153,12 @@ vec3 heldBy(vec3 n, float friction, vec3 acceleration)
 }
 
 // Contact as the solver takes it; `inside` as for respond.
-Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, vec3 gravity, float restitution, float friction,
-               Drift drift)
+Contact answer(bool inside, vec3 x, vec3 v, float distance, vec3 n, float restitution, float friction, Drift drift)
 {
 #ifdef VERLET
     return constrain(inside, x, v, distance, n, friction, drift.step);
 #else
-    return respond(inside, x, v, distance, n, gravity, restitution, friction, drift);
+    return respond(inside, x, v, distance, n, restitution, friction, drift);
 #endif
 }
 

@@ -7,6 +7,7 @@
 
 #ifdef SPRINGS
 vec3 acceleration[VERTICES];  // m/s^2, of the springs
+#define SPRUNG(i) acceleration[i]
 #endif
 
 void beginSolver()

@@ -7,6 +7,9 @@ vec3 startVelocity[VERTICES];
 vec3 sumVelocity[VERTICES];      // of b v
 vec3 sumAcceleration[VERTICES];  // of b a
 
+// m/s^2, of the springs and of drag over the substep, for contact.
+#define SPRUNG(i) (sumAcceleration[i] - FALL(i))
+
 #ifdef COLLIDE
 #define FOOTING
 vec4 standsOn[VERTICES];  // what a vertex at rest rests on: its normal and friction; w negative: nothing

@@ -1,6 +1,9 @@
 // xpbd: small steps, one sweep over the springs each, order 1 [Macklin 2019].
 //   v += drag and gravity at x, t;  q = h v;  one sweep moves q;  v = q / h;  x += q;  contact
 
+// m/s^2, of the springs over the substep, for contact. w: m/s, without them.
+#define SPRUNG(i) ((v[i] - w[i]) / substep)
+
 void beginSolver()
 {
 #ifdef DIRECTIONAL_DRAG
@@ -18,7 +21,8 @@ void advance(int step)
     for (int i = 0; i < VERTICES; ++i) {
         bool held = isHeld(pinned[i]);
         z[i] = vec3(0.0);
-        q[i] = held ? vec3(0.0) : dragged(v[i], fluid[i], FALL(i), normal[i]) * substep;
+        w[i] = held ? vec3(0.0) : dragged(v[i], fluid[i], FALL(i), normal[i]);
+        q[i] = w[i] * substep;
         weight[i] = held ? 0.0 : inverseMass[i] * (substep * phi.y);
     }
 #ifdef SPRINGS

@@ -151,7 +151,8 @@ bool bothPress(vec3 toA, vec3 toB, vec3 a, vec3 b)
     return dot(toB - b * dot(toB, b), a) < 0.0 && dot(toA - a * dot(toA, a), b) < 0.0;
 }
 
-// drifted: the velocity that the position has drifted by. time: of the substep's end, s since the frame's start.
+// drifted: the velocity that the position has drifted by. gravity: with the scene's forces, against which is up. time: of the
+// substep's end, s since the frame's start.
 Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3 gravity, Drift drift, float time)
 {
     Contact c = Contact(position, velocity);
@@ -195,8 +196,8 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
         }
         float off = dot(c.position, t.normal) - t.distance;
         vec2 material = materialOf(t);
-        Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, gravity, material.x,
-                           material.y, drift);
+        Contact r = answer(way.caught, c.position, c.velocity - t.velocity, t.distance, t.normal, material.x, material.y,
+                           drift);
 #ifdef RIGID_IMPACT
         struckLast = vec4(t.normal, way.caught ? -1.0 : material.y);
         struckVelocity = t.velocity;
@@ -250,7 +251,7 @@ vec4 footing(vec3 anchor, vec3 position, float time)
 #ifdef NEAREST
 // Answers a vertex, as collideAll does, where its nearest surface at the substep's end is all that matters:
 // one look for finding, response and the way out. Returns whether that is so; if not, its way has to be followed.
-bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, vec3 gravity, Drift drift)
+bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, Drift drift)
 {
     setWay(drifted, drift.step);
     Nearest s = nearest(anchor, c.position, 0.0);
@@ -262,7 +263,7 @@ bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, vec3 gravity, Dri
     float before = (t.distance + caughtDepth) * abs(t.distance + caughtDepth);
     bool caught = !s.isSolid && before < -1.5 * waySquared;
     bool came = s.isSolid || before > 1.5 * waySquared;
-    Contact r = answer(caught, c.position, c.velocity, t.distance, t.normal, gravity, material.x, material.y, drift);
+    Contact r = answer(caught, c.position, c.velocity, t.distance, t.normal, material.x, material.y, drift);
     bool answered = touches ? s.atEnd && (came || caught) : passes;
     if (!alone) {
         // whatever way was made to the answer's place, nothing else is near it

@@ -78,7 +78,7 @@ vec3 springForce(const ScalarVertex& a, const ScalarVertex& b, const ScalarSprin
 }
 
 // shaders/physics/collide.glsl with euler's drift: step h, kickDrift h, lag h/2.
-void respond(ScalarVertex& vertex, float distance, const BaselineStep& step) {
+void respond(ScalarVertex& vertex, const vec3& acceleration, float distance, const BaselineStep& step) {
     vec3& x = vertex.position;
     vec3& v = vertex.velocity;
     const vec3 n = step.planeNormal;
@@ -88,7 +88,7 @@ void respond(ScalarVertex& vertex, float distance, const BaselineStep& step) {
         x = surface;
         return;
     }
-    const float gn = glm::dot(step.gravity, n), lag = 0.5f * step.h;
+    const float gn = glm::dot(acceleration, n), lag = 0.5f * step.h;
     const float synchronised = vn + gn * lag;
     const float impact = std::sqrt(std::max(synchronised * synchronised + 2 * gn * depth, 0.0f));
     const float since = std::min(depth / std::max(0.5f * (impact - synchronised), 1e-20f), step.h);
@@ -151,7 +151,8 @@ void frameScalar(ScalarMolecules& molecules, int first, int last, const Baseline
                 v += (step.wind - v) * step.decay + step.gravity * step.phi;
                 vertices[i].position += v * step.h;
                 const float distance = glm::dot(vertices[i].position, step.planeNormal) + offset;
-                if (distance < 0) respond(vertices[i], distance, step);
+                if (distance < 0)
+                    respond(vertices[i], step.gravity + force[i] * molecules.inverseMass[i], distance, step);
             }
         }
     }

@@ -113,14 +113,26 @@ struct Ground {
     V offset;  // distance = x.n + offset
 };
 
-// shaders/physics/collide.glsl with drift = {h, h, h/2}, where `distance` is below 0. Few lanes ever bounce.
+// v with exact drag and gravity.
 template <class V>
-SHOAL_INLINE void respond(V3<V>& x, V3<V>& v, V distance, const KernelStep& step) {
+SHOAL_INLINE V3<V> relaxed(const V3<V>& v, const KernelStep& step) {
+    const V decay = V::broadcast(&step.decay);
+    const V3<V> push = broadcast3<V>(step.push);
+    return {v.x + V::fnma(decay, v.x, push.x), v.y + V::fnma(decay, v.y, push.y),
+            v.z + V::fnma(decay, v.z, push.z)};
+}
+
+// shaders/physics/collide.glsl with drift = {h, h, h/2}, where `distance` is below 0. Few lanes ever bounce.
+// before: the velocity that the substep began with.
+template <class V>
+SHOAL_INLINE void respond(V3<V>& x, V3<V>& v, const V3<V>& before, V distance, const KernelStep& step) {
     using Mask = typename V::Mask;
     const V zero = constant<V>(0), half = constant<V>(0.5f), tiny = constant<V>(1e-30f);
     const V h = V::broadcast(&step.h), friction = V::broadcast(&step.friction);
     const V3<V> n = broadcast3<V>(step.normal), gravity = broadcast3<V>(step.gravity);
-    const V depth = zero - distance, vn = dot(v, n), gn = dot(gravity, n);
+    const V kickTime = V::fnma(h, V::broadcast(&step.decay), h);  // of the springs, at the substep's end
+    const V3<V> acceleration = plus(gravity, v - relaxed(before, step), V::inverse(kickTime));
+    const V depth = zero - distance, vn = dot(v, n), gn = dot(acceleration, n);
     const Mask below = V::less(distance, zero), inwards = V::both(below, V::less(vn, zero));
 
     const V synchronised = V::fma(gn * half, h, vn);
@@ -156,15 +168,6 @@ SHOAL_INLINE void respond(V3<V>& x, V3<V>& v, V distance, const KernelStep& step
     const V3<V> velocity = select(rests, still, plus(tangential - lost, n, newNormal));
     x = select(below, select(inwards, position, surface), x);
     v = select(inwards, velocity, v);
-}
-
-// v with exact drag and gravity.
-template <class V>
-SHOAL_INLINE V3<V> relaxed(const V3<V>& v, const KernelStep& step) {
-    const V decay = V::broadcast(&step.decay);
-    const V3<V> push = broadcast3<V>(step.push);
-    return {v.x + V::fnma(decay, v.x, push.x), v.y + V::fnma(decay, v.y, push.y),
-            v.z + V::fnma(decay, v.z, push.z)};
 }
 
 template <class V>
@@ -229,17 +232,17 @@ void runInRegisters(float* blocks, int count, const KernelStep& step, float*) {
             pullAll<V, Topology, 0, Topology::springs>(x, v, next, afresh(step.constants));
             V lowest = constant<V>(1);
             unrolled<0, vertices>([&](auto i) SHOAL_BODY {
-                v[i.value] = next[i.value];
-                x[i.value] = plus(x[i.value], v[i.value], V::broadcast(&step.h));
+                x[i.value] = plus(x[i.value], next[i.value], V::broadcast(&step.h));
                 lowest = V::minimum(lowest, distanceOf(x[i.value], ground));
             });
             if (V::any(V::less(lowest, constant<V>(0)))) {
                 unrolled<0, vertices>([&](auto i) SHOAL_BODY {
                     const V distance = distanceOf(x[i.value], ground);
                     if (vertices <= 4 || V::any(V::less(distance, constant<V>(0))))
-                        respond(x[i.value], v[i.value], distance, step);
+                        respond(x[i.value], next[i.value], v[i.value], distance, step);
                 });
             }
+            unrolled<0, vertices>([&](auto i) SHOAL_BODY { v[i.value] = next[i.value]; });
         }
         unrolled<0, vertices>([&](auto i) SHOAL_BODY {
             store3(blocks + 6 * i.value * V::lanes, x[i.value]);
@@ -272,10 +275,10 @@ void runInCache(float* blocks, int count, const KernelStep& step, float*) {
             pullAll<V, Topology, Topology::repeats * Topology::period, Topology::springs>(
                 x, v, next, afresh(step.constants));
             for (int i = 0; i < vertices; ++i) {
-                v[i] = next[i];
-                x[i] = plus(x[i], v[i], V::broadcast(&step.h));
+                x[i] = plus(x[i], next[i], V::broadcast(&step.h));
                 const V distance = distanceOf(x[i], ground);
-                if (V::any(V::less(distance, constant<V>(0)))) respond(x[i], v[i], distance, step);
+                if (V::any(V::less(distance, constant<V>(0)))) respond(x[i], next[i], v[i], distance, step);
+                v[i] = next[i];
             }
         }
         for (int i = 0; i < vertices; ++i) {
@@ -312,7 +315,8 @@ void runAny(float* blocks, int count, const KernelStep& step, float* next) {
                 V3<V> v = load3<V>(next + 3 * i * V::lanes);
                 V3<V> x = plus(load3<V>(p), v, V::broadcast(&step.h));
                 const V distance = distanceOf(x, ground);
-                if (V::any(V::less(distance, constant<V>(0)))) respond(x, v, distance, step);
+                if (V::any(V::less(distance, constant<V>(0))))
+                    respond(x, v, load3<V>(p + 3 * V::lanes), distance, step);
                 store3(p, x);
                 store3(p + 3 * V::lanes, v);
             }

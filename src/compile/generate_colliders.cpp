@@ -105,14 +105,13 @@ std::string sourceOfOne(const Text& text) {
         "    vec4 surface;\n", text.comment, "    surface = ", text.surface,
         ";\n    return vec4(surface.xyz, surface.w - ", text.material,
         ".z);\n}\n\n// surface: surfaceAt the position.\nContact answerTo(vec4 surface, vec3 position, vec3 ",
-        "velocity, vec3 gravity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
+        "velocity, Drift drift)\n{\n#ifdef RIGID_IMPACT\n    struckLast = vec4(surface.xyz, ",
         "surface.w < 0.0 ? ", text.material,
         ".y : -1.0);\n    struckVelocity = vec3(0.0);\n#endif\n    return ",
-        "answer(false, position, velocity, surface.w, surface.xyz, gravity, ", text.material, ".x, ",
-        text.material,
-        ".y, drift);\n}\n\nContact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 gravity, "
+        "answer(false, position, velocity, surface.w, surface.xyz, ", text.material, ".x, ", text.material,
+        ".y, drift);\n}\n\nContact collideAll(vec3 anchor, vec3 position, vec3 velocity, "
         "Drift ",
-        "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, gravity, "
+        "drift)\n{\n    return answerTo(surfaceAt(anchor, position), position, velocity, "
         "drift);\n}\n\n",
         "float clearance(vec3 anchor, vec3 position, float time)\n{\n    return surfaceAt(anchor, "
         "position).w;\n}\n\nvec4 footing(vec3 anchor, vec3 position, float time)\n{\n    vec4 surface = "

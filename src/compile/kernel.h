@@ -36,7 +36,7 @@ struct Needs {
     bool liveSprings = false;   // their numbers may change while it runs (CompileOptions)
     bool steers = false;        // they school
     bool avoids = false;        // and turn from colliders
-    bool acceleration = false;  // the solver keeps the springs' acceleration
+    bool acceleration = false;  // of the springs is kept
 };
 
 struct KernelText {

@@ -183,7 +183,7 @@ void listPasses(const GroupPlan& group, size_t index, Plan& plan) {
         add(PassKind::records, When::frameStart,
             needs.release ? "pins may be released, and anchors follow what flies"
                           : "anchors follow what moves");
-    if (needs.acceleration)
+    if (needs.springs && group.solver == SolverKind::leapfrog)
         add(PassKind::restore, When::frameStart, "leapfrog starts a frame from the springs' force");
     const bool stages = group.solver == SolverKind::rk4;
     // symmetrically where the solver is: half before and half after the rest of a substep
@@ -355,7 +355,9 @@ Plan compile(const Scene& scene, const CompileOptions& options) {
                         "tangent rate in all directions")});
         chooseSolver(scene, scene.groups[i], plan, group);
         warnOfStillAir(scene, scene.groups[i], group, plan.warnings);
-        group.needs.acceleration = group.needs.springs && group.solver == SolverKind::leapfrog;
+        group.needs.acceleration =
+            group.needs.springs && (group.solver == SolverKind::leapfrog ||
+                                    (group.solver == SolverKind::euler && group.needs.collide));
         group.topologyBase = packTopology(scene.groups[i].molecule, group, plan.topology);
         packStart(scene, group);
         group.kernel = kernelText(scene.groups[i].molecule, group.needs, solver(group.solver),

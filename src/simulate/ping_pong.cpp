@@ -17,10 +17,12 @@ std::vector<std::string> defines(const GroupPlan& group) {
     };
     define(group.solver == SolverKind::leapfrog, "LEAPFROG");
     define(group.solver == SolverKind::verlet, "VERLET");
+    define(group.solver == SolverKind::rk4, "RK4");
     define(needs.fields, "FIELDS");
     define(needs.forces, "FORCES");
     define(needs.directionalDrag, "DIRECTIONAL_DRAG");
     define(needs.springs, "SPRINGS");
+    define(needs.acceleration, "ACCELERATION");
     define(needs.springDamping, "SPRING_DAMPING");
     if (needs.actuation) out.push_back(concat("MUSCLES ", muscleAngles(group.muscles, 0).size()));
     define(needs.collide, "COLLIDE");
@@ -336,11 +338,8 @@ void PingPong::restore(const GroupPlan& group, size_t index, const Step& step, b
     const bool leapfrog = group.solver == SolverKind::leapfrog, atEnd = leapfrog && !frameStart;
     setSprings(program, group, step, atEnd ? step.h / 2 : 0);
     program.set("springTime", float(step.time - step.frame.time + (atEnd ? step.h : 0)));
-    if (!leapfrog) {
-        program.set("kickTime", float(step.h));
-        return drawVelocity(group, index);
-    }
-    program.set("kickTime", float(frameStart ? 0 : step.h / 2));
+    program.set("kickTime", float(frameStart ? 0 : leapfrog ? step.h / 2 : step.h));
+    if (!group.needs.acceleration) return drawVelocity(group, index);
     Targets targets = {&state.acceleration.write(index)};
     if (!frameStart) targets.push_back(&state.velocity.write(index));
     drawState(group, targets);
@@ -407,6 +406,8 @@ void PingPong::collide(const GroupPlan& group, size_t index, const Step& step) {
     program.set("gravity", glm::vec3(step.frame.parameters.gravity));
     const DragCoefficients drag = dragCoefficients(group, step.frame.parameters, step.h);
     program.set("drift", driftOf(group.solver, step.h, drag.slips));
+    if (group.solver == SolverKind::rk4)  // that the last stage has written
+        program.texture("sumAccelerations", 11, state.sumAcceleration[1]);
     if (!plan_->movingColliders.empty())
         program.set("contactTime", float(step.time + step.h - step.frame.time));
     setColliders(program, PassKind::collide, group, step);

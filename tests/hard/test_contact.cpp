@@ -123,10 +123,10 @@ TEST_CASE("hard: an incline", "[hard][contact]") {
 // is faster than 1e-5 m/s, on which its springs' rounding is most.
 TEST_CASE("hard: resting contact", "[hard][contact]") {
     const auto rest = [](const Solver& solver, Judge& judge, const Molecule& molecule, double lift,
-                         const ColliderShape& ground) {
+                         const ColliderShape& ground, const glm::dquat& turn = {1, 0, 0, 0}) {
         std::vector<test::Item> items;
         for (int i = 0; i < 8; ++i)
-            items.push_back(at({2.0 * i, lift + thickness + 0.01 + 0.001 * i, 0}));
+            items.push_back(at({2.0 * i, lift + thickness + 0.01 + 0.001 * i, 0}, turn));
         Scene scene = test::sceneOf(molecule, solver.kind, items);
         scene.gravity = {0, -g, 0};
         scene.colliders = {collider(ground, 0.2, 0.5)};
@@ -158,6 +158,13 @@ TEST_CASE("hard: resting contact", "[hard][contact]") {
                 [&](const Solver& s, Judge& judge) { rest(s, judge, test::point(1), 0, flat); });
     test::holds("resting tetrahedron",
                 [&](const Solver& s, Judge& judge) { rest(s, judge, test::tetrahedron(2000, 40), 0, flat); });
+    // with the end of a spring that hangs above it and pushes with ten times its weight
+    Molecule foot = test::pair(1, 1, 2000, 40);
+    foot.vertices[1].pinned = true;
+    foot.springs[0].restLength = 1.05;
+    test::holds("resting point under a load", [&](const Solver& s, Judge& judge) {
+        rest(s, judge, foot, 0, flat, glm::angleAxis(std::numbers::pi / 2, glm::dvec3(0, 0, 1)));
+    });
     test::holds("resting tetrahedron on a box",
                 [&](const Solver& s, Judge& judge) { rest(s, judge, test::tetrahedron(2000, 40), 0, box); });
 }

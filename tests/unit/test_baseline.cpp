@@ -118,13 +118,14 @@ void shaderStep(const Molecule& molecule, vec3* x, vec3* v, const BaselineStep& 
         force[size_t(b)] -= f;
     }
     for (size_t i = 0; i < force.size(); ++i) {
+        const vec3 acceleration = step.gravity + force[i] * float(1 / molecule.vertices[i].mass);
         v[i] += force[i] * float(1 / molecule.vertices[i].mass) * step.h;
         v[i] = shader::dragAndGravity(v[i], step.wind, step.gravity, step.decay, step.phi);
         x[i] += v[i] * step.h;
         const float above = glm::dot(x[i] - step.planePoint, step.planeNormal) - step.thickness;
         const shader::Contact contact =
-            shader::respond(false, x[i], v[i], above, step.planeNormal, step.gravity, step.restitution,
-                            step.friction, {step.h, step.h, step.h / 2});
+            shader::respond(false, x[i], v[i], above, step.planeNormal, step.restitution, step.friction,
+                            {step.h, step.h, step.h / 2, acceleration});
         x[i] = contact.position;
         v[i] = contact.velocity;
     }

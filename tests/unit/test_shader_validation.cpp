@@ -278,7 +278,14 @@ TEST_CASE("the passes are sound in desktop and in embedded GLSL", "[shaders]") {
     }
     for (const Defines& pins : {Defines{}, Defines{"PINS"}, Defines{"PINS", "RELEASE", "RECORDS"}}) {
         validator.addBoth("passes/collide.frag", pins);
-        for (Defines set : combinations({"LEAPFROG", "MUSCLES 2"})) {
+        for (const Defines& set :
+             std::vector<Defines>{{"ACCELERATION"}, {"LEAPFROG", "ACCELERATION"}, {"RK4"}}) {
+            Defines sprung = pins;
+            sprung.insert(sprung.end(), set.begin(), set.end());
+            sprung.emplace_back("SPRINGS");
+            validator.addBoth("passes/collide.frag", sprung);
+        }
+        for (Defines set : combinations({"LEAPFROG", "ACCELERATION", "MUSCLES 2"})) {
             set.insert(set.end(), pins.begin(), pins.end());
             set.emplace_back("SPRINGS");
             validator.addBoth("passes/restore.frag", set);
