@@ -11,8 +11,8 @@ Constraint constrain(int slot, int other, vec4 anchor)
     PairContact contact = with.contact;
     vec2 shares = vec2(shareOf(slot, own), shareOf(other, with.sphere));
     vec2 weights = stepWeights(weightsBetween(with, contact.normal, shares), max(shares.x, shares.y));
-    float target = contact.impact ? -with.material.x * contact.speed
-                                  : partingSpeed(contact.depth, own.radius + with.sphere.radius);
-    float lacks = contact.impact ? -1e30 : min(contact.depth, pushSpeed * stepTime);
+    float reach = own.radius + with.sphere.radius;
+    float target = contact.impact ? -with.material.x * contact.speed : partingSpeed(contact.depth, reach);
+    float lacks = contact.impact ? -1e30 : lacking(contact.depth, reach);
     return Constraint(contact.normal, target, weights, lacks, with.meets ? with.material.y : -1.0);
 }

@@ -22,11 +22,20 @@ Constraint constraintOf(vec4 along, vec4 amounts)
 // alone has its impulse at once.
 const float overRelaxed = 1.3;
 const float pushSpeed = 1.0;  // m/s: what overlaps is pushed apart no faster
+// What rests may overlap by so much of the sum of the radii. If it were pushed apart to the last, it would lose touch with what else
+// it lies on, and fall back onto that at the speed at which a contact may close, in every step.
+const float restingOverlap = 0.005;
 
-// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps by more than half a percent.
+// m/s, at which a contact that rests is to part: what it may still close, or a little of what overlaps too much.
 float partingSpeed(float depth, float reach)
 {
-    return (min(depth, 0.0) + clamp(0.1 * (depth - 0.005 * reach), 0.0, 0.1 * stepTime)) / stepTime;
+    return (min(depth, 0.0) + clamp(0.1 * (depth - restingOverlap * reach), 0.0, 0.1 * stepTime)) / stepTime;
+}
+
+// m, by which it is to be moved apart.
+float lacking(float depth, float reach)
+{
+    return min(depth - restingOverlap * reach, pushSpeed * stepTime);
 }
 
 // 1/kg, by what the step is divided, along the normal and across it. `count`: of the contacts that are answered at once.

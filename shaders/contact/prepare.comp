@@ -22,12 +22,14 @@ void main()
     loadOld(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);
+    vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         int other = entryOf(slot, e);
         Meeting with;
         Entry known = prepare(slot, other, with);
         if (with.meets) countIn(with.contact.normal);
         impulse += known.push.xyz;
+        shift += with.contact.normal * known.push.w;
         pushes[OWN_ENTRY(e)] = known.push;
         anchors[OWN_ENTRY(e)] = known.anchor;
     }
@@ -36,18 +38,20 @@ void main()
     int first = 2 * MOST_WALLS * sphereOf(slot);
     OldWall old[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k)
-        old[k] = OldWall(wallPushes[first + 2 * k].xyz, wallPushes[first + 2 * k + 1].xyz);
+        old[k] = OldWall(wallPushes[first + 2 * k], wallPushes[first + 2 * k + 1].xyz);
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(slot, wallOf(slot, k), old);
-        wallPushes[first + 2 * k] = vec4(push, 0.0);
-        impulse += push;
-        start += length(push);
+        Wall wall = wallOf(slot, k);
+        vec4 push = prepareWall(slot, wall, old);
+        wallPushes[first + 2 * k] = push;
+        impulse += push.xyz;
+        shift += wall.normal * push.w;
+        start += length(push.xyz);
     }
 #endif
     if (!remembers) known[memory] = vec4(0.0);
     newTotals[2 * slot] = vec4(impulse - known[memory].xyz, 0.0);
     known[memory].w = start;
-    newTotals[2 * slot + 1] = vec4(0.0);
+    newTotals[2 * slot + 1] = vec4(shift, 0.0);
 #ifdef SPREAD
     newContacts[2 * slot] = vec4(contacts.diagonal, contacts.number);
     newContacts[2 * slot + 1] = vec4(contacts.beside, 0.0);

@@ -29,28 +29,33 @@ void main()
     loadOld(slot);
     int listed = listedOf(slot);
     vec3 impulse = vec3(0.0);
+    vec3 shift = vec3(0.0);
     for (int e = 0; e < listed; ++e) {
         Meeting with = meetingAs(slot, entryOf(slot, e), entry(anchors, slot, e));
         if (with.meets) countIn(with.contact.normal);
-        impulse += entry(pushes, slot, e).xyz;
+        vec4 push = entry(pushes, slot, e);
+        impulse += push.xyz;
+        shift += with.contact.normal * push.w;
     }
     vec4 acted = remembers ? fetch(oldKnown, memory) : vec4(0.0);
     float start = 0.0;  // of all that colliders push
 #ifdef WALLS
     OldWall old[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k)
-        old[k] = OldWall(wallTexel(oldWallPushes, memory, k).xyz * acted.w, wallTexel(oldWalls, sphereOf(slot), 2 * k).xyz);
+        old[k] = OldWall(wallTexel(oldWallPushes, memory, k) * vec4(vec3(acted.w), 1.0), wallTexel(oldWalls, sphereOf(slot), 2 * k).xyz);
     vec4 ofWalls[MOST_WALLS];
     for (int k = 0; k < MOST_WALLS; ++k) {
-        vec3 push = prepareWall(slot, wallOf(slot, k), old);
-        ofWalls[k] = vec4(push, 0.0);
-        impulse += push;
-        start += length(push);
+        Wall wall = wallOf(slot, k);
+        vec4 push = prepareWall(slot, wall, old);
+        ofWalls[k] = push;
+        impulse += push.xyz;
+        shift += wall.normal * push.w;
+        start += length(push.xyz);
     }
     newWallPushes = ofWalls;
 #endif
     newImpulse = vec4(impulse - acted.xyz, 0.0);
-    newShift = vec4(0.0);
+    newShift = vec4(shift, 0.0);
     newKnown = vec4(acted.xyz, start);
 #ifdef SPREAD
     newContacts[0] = vec4(contacts.diagonal, contacts.number);

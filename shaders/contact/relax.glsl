@@ -79,7 +79,7 @@ vec4 relaxWall(Wall wall, vec4 push, vec4 before)
     vec3 u = ownMoved.velocity - wall.velocity;
     vec2 weights = stepWeights(ownWeights(n) * ownCount, ownCount);
     vec3 wanted = pairImpulse(u, n, partingSpeed(-wall.gap, own.radius), ahead(push.xyz, before.xyz), weights);
-    float lacks = min(-wall.gap, pushSpeed * stepTime) - dot(ownMoved.by, n);
+    float lacks = lacking(-wall.gap, own.radius) - dot(ownMoved.by, n);
     float apart = pushedApart(push.w, before.w, lacks, weights.x);
     return vec4(withinFriction(wanted, n, wall.friction), apart);
 }

@@ -43,9 +43,9 @@ void main()
     float part = rememberedOfWalls(known[sphere].w, now);
     for (int k = 0; k < MOST_WALLS; ++k) {
         int at = 2 * (MOST_WALLS * sphere + k);
-        wallPushes[at] *= part;
+        wallPushes[at].xyz *= part;
         keeps += wallPushes[at].xyz;
-        isHeld = isHeld || wallPushes[at].xyz != vec3(0.0);
+        isHeld = isHeld || wallPushes[at] != vec4(0.0);
         wallPushes[at + 1] = vec4(wallOf(slot, k).normal, 0.0);
     }
 #endif

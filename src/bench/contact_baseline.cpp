@@ -45,6 +45,7 @@ struct Kept {
     bool sticks;  // the rest as of Contact
     vec3 impulse;
     vec3 anchor;
+    float apart;
 };
 
 // A sphere's contacts leave this for the next step.
@@ -185,10 +186,12 @@ struct ContactBaseline::Data {
             out.lacks = reach - glm::dot(d, out.normal);
         }
         if (known) out.impulse = withinFriction(known->impulse, out.normal, step.friction, out.sticks);
+        if (known && out.lacks > 0) out.apart = out.earlierApart = 0.7f * known->apart;
         out.earlier = out.impulse;
         out.held = glm::length(out.impulse);
-        const float letGo = std::clamp(0.1f * (out.lacks - 0.005f * reach), 0.0f, 0.1f * step.stepTime);
-        out.target = (std::min(out.lacks, 0.0f) + letGo) / step.stepTime;
+        const float open = std::min(out.lacks, 0.0f);
+        out.lacks -= 0.005f * reach;  // so much may rest as it is
+        out.target = (open + std::clamp(0.1f * out.lacks, 0.0f, 0.1f * step.stepTime)) / step.stepTime;
         out.lacks = std::min(out.lacks, step.stepTime);  // at 1 m/s
         return out;
     }
@@ -213,13 +216,15 @@ struct ContactBaseline::Data {
                 Contact& contact = piece.contacts[size_t(c)];
                 contact = contactOf(active.slot, piece.found[size_t(c)], known, step);
                 active.total += contact.impulse;
+                active.shift += contact.normal * contact.apart;
                 if (!contact.takesPart) continue;
                 const glm::mat3 along = glm::outerProduct(contact.normal, contact.normal);
                 if (motions[slot].weight > 0) sum += along + frictionStep * (glm::mat3(1) - along);
                 ++acting;
             }
             counts[slot] = acting < 2 ? 1 : countOf(sum);
-            going[slot] = {motions[slot].velocity + active.total * motions[slot].weight, vec3(0)};
+            going[slot] = {motions[slot].velocity + active.total * motions[slot].weight,
+                           active.shift * motions[slot].weight};
         }
     }
 
@@ -313,13 +318,13 @@ struct ContactBaseline::Data {
 
     Kept keptOf(int slot, const Contact& contact, float restSpeed) const {
         const int other = grid.sphereOf(contact.other);
-        if (contact.since > 0) return {other, false, vec3(0), contact.anchor};
+        if (contact.since > 0) return {other, false, vec3(0), contact.anchor, 0};
         // memory takes in a tenth of what an impulse has grown by, and not much more than a weight
         const float weight = motions[size_t(slot)].weight + motions[size_t(contact.other)].weight;
         const float now = glm::length(contact.impulse), grown = std::max(now - contact.held, 0.0f);
         const float most = std::min(contact.held + 0.1f * grown, 1.5f * contact.held + restSpeed / weight);
         return {other, contact.sticks, contact.impulse * std::min(1.0f, most / std::max(now, 1e-30f)),
-                contact.anchor};
+                contact.anchor, contact.apart};
     }
 };
 

@@ -8,7 +8,7 @@ namespace shoal {
 bool isHeld(const ContactSlots& memory, size_t sphere) {
     const size_t walls = memory.wallPushes.size() / std::max(memory.counts.size(), size_t(1));
     for (size_t i = walls * sphere; i < walls * (sphere + 1); ++i)
-        if (glm::vec3(memory.wallPushes[i]) != glm::vec3(0)) return true;
+        if (memory.wallPushes[i] != glm::vec4(0)) return true;
     return false;
 }
 

@@ -21,7 +21,8 @@ struct ContactMemory {
     // Each sphere has what that is on its vertex, m/s^2, and in w as shaders/contact/apply.comp has it; and
     // where its vertex was and for how long (shaders/contact/rest.comp).
     std::vector<glm::vec4> loads, calm;
-    // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s.
+    // Each sphere that may lie on colliders has 6 of shaders/contact/walls.glsl, and 3 impulses, N s, with in
+    // w how far they push it off, kg m.
     std::vector<glm::vec4> walls, wallPushes;
 
     bool operator==(const ContactMemory&) const = default;

@@ -415,7 +415,8 @@ ContactMemory TextureContact::memory() const {
     for (const uint32_t slot : out.slots)
         for (size_t k = 0; k < size_t(ContactPlan::mostWalls); ++k)
             out.wallPushes.push_back(counts[slot].x == 0 ? glm::vec4(0)
-                                                         : pushes[k * out.stride + slot] * out.known[slot].w);
+                                                         : pushes[k * out.stride + slot] *
+                                                               glm::vec4(glm::vec3(out.known[slot].w), 1));
     return bySphere(out);
 }
 

@@ -140,6 +140,7 @@ class Response {
             m.depth = m.reach - glm::dot(m.between, m.normal);
         }
         if (isKnown) m.now.impulse = withinCone(known->second.impulse, m.normal, settings_.friction);
+        if (isKnown && m.depth > 0) m.now.apart = 0.7 * known->second.apart;
         m.held = glm::length(m.now.impulse);
     }
 
@@ -161,11 +162,14 @@ class Response {
         }
     }
 
+    // m, of what overlaps beyond what may rest so: half a percent.
+    static double tooDeep(const Meeting& m) { return m.depth - 0.005 * m.reach; }
+
     // m/s, that a contact is to have along its normal.
     double target(const Meeting& m) const {
         if (m.impact) return -settings_.restitution * m.speed;
-        // it may close what is open, and lets go a tenth of what overlaps by more than 1 %
-        const double much = 0.1 * (m.depth - 0.005 * m.reach);
+        // it may close what is open, and lets go a tenth of what overlaps too much
+        const double much = 0.1 * tooDeep(m);
         return std::min(m.depth, 0.0) / settings_.stepTime + std::clamp(much / settings_.stepTime, 0.0, 0.1);
     }
 
@@ -196,7 +200,7 @@ class Response {
         m.now.impulse = withinCone(wanted, m.normal, settings_.friction);
         m.sticks = m.now.impulse == wanted;
         if (m.impact) return;
-        const double lacks = std::min(m.depth, fastest * settings_.stepTime) - glm::dot(moved, m.normal);
+        const double lacks = std::min(tooDeep(m), fastest * settings_.stepTime) - glm::dot(moved, m.normal);
         m.now.apart = std::max(m.now.apart + lacks * normalStep / m.weight, 0.0);
     }
 
@@ -215,8 +219,8 @@ class Response {
         memory_->contacts.clear();
         for (const Meeting& m : meetings_) {
             if (!m.takesPart) continue;
-            ContactMemory::Entry& entry =
-                memory_->contacts[{int(m.a), int(m.b)}] = {dvec3(0), m.anchor, m.sticks && !m.impact};
+            ContactMemory::Entry& entry = memory_->contacts[{int(m.a), int(m.b)}] = {
+                dvec3(0), m.anchor, m.sticks && !m.impact, m.now.apart};
             const double length = glm::length(m.now.impulse);
             if (m.impact || length == 0) continue;
             // of what it has grown by, a tenth; and not much more than a weight
