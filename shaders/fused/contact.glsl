@@ -1,5 +1,5 @@
-// Contact of the molecule's vertices with the colliders, after a substep's drift. Needs fused/step.glsl and
-// generated/colliders.glsl.
+// Contact of the molecule's vertices with the colliders, after a substep's drift. Needs fused/step.glsl,
+// generated/colliders.glsl, and of the solver SPRUNG(i), what its springs accelerate vertex i by, m/s^2.
 
 // m/s, of the springs' kicks: what leapfrog still owes to the velocity of vertex i, and what contact answers without it.
 #if defined(LEAPFROG) && defined(SPRINGS)

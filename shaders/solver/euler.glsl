@@ -2,7 +2,7 @@
 //   v by the thrust over h;  v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
 // VERLET: the same, then v = (x' - x) / h (solver/verlet.glsl).
 
-// m/s^2, of the springs, for contact.
+// m/s^2, for fused/contact.glsl.
 #define SPRUNG(i) (force[i] * inverseMass[i])
 
 void beginSolver()
