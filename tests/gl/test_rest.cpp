@@ -225,6 +225,16 @@ TEST_CASE("what rests wakes when a slider or a field changes what acts on it", "
     }
 }
 
+TEST_CASE("where nothing rests a warning says so", "[rest]") {
+    const Scene scene = marbles({{0, 0.05, 0}});
+    const Simulation simulation(testContext(), SHOAL_SOURCE_DIR "/shaders", compile(scene),
+                                {.drawn = false, .path = Path::pingPong});
+    REQUIRE(simulation.warnings().size() == 1);
+    CHECK_THAT(simulation.warnings()[0].message, Catch::Contains("`rest` changes nothing here"));
+    if (!canFuse()) return;
+    CHECK(fusedOf(scene).warnings().empty());
+}
+
 TEST_CASE("rest that cannot be is refused", "[rest]") {
     Scene scene = marbles({{0, 0.05, 0}});
     scene.contact.rest = 0.1;
