@@ -111,7 +111,7 @@ TEST_CASE("Each steers as all pairs say, among two schools, hunters and walls", 
     if (!canRun()) return;
     const Scene scene = pond(300);
     Run run(scene);
-    for (const int frames : {0, 40}) {
+    for (const int frames : {0, 30}) {
         run.frames(frames);
         const SavedState before = run.simulation.save();
         run.frames(1);
