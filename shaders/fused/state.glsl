@@ -94,6 +94,14 @@ void loadUniforms()
     releaseChance = inRegister(givenNumbers[6].y);
 }
 
+#if defined(SOFTWARE) && !defined(GROUP_VOTE)
+// Returns `now`. Where lanes leave the loop over the substeps each for itself, Mesa's rasteriser keeps for what follows only what a
+// turn makes of the turn before: anything else is that of the turn in which the last lane left.
+vec3 carried(vec3 before, vec3 now) { return substeps > 0 ? now : before; }
+#else
+vec3 carried(vec3 before, vec3 now) { return now; }
+#endif
+
 vec3 x[VERTICES];       // m, relative to the anchor
 vec3 v[VERTICES];       // m/s
 vec3 w[VERTICES];       // m/s, as the springs' damping sees it

@@ -2,11 +2,14 @@
 //   v by the thrust over h;  v += h F(x, v, t) / m;  v += drag and gravity at x, t;  x += h v;  contact
 // VERLET: the same, then v = (x' - x) / h (solver/verlet.glsl).
 
-// m/s^2, for fused/contact.glsl.
-#define SPRUNG(i) (force[i] * inverseMass[i])
+vec3 sprungBy[VERTICES];  // m/s^2, of the springs, for contact
+#define SPRUNG(i) sprungBy[i]
 
 void beginSolver()
 {
+    for (int i = 0; i < VERTICES; ++i) {
+        sprungBy[i] = vec3(0.0);
+    }
 }
 
 // A substep up to contact.
@@ -15,6 +18,9 @@ void advance(int step)
     float time = float(step) * substep;
     thrust(true);
     kickWhole(step, time);
+    for (int i = 0; i < VERTICES; ++i) {
+        sprungBy[i] = carried(sprungBy[i], force[i] * inverseMass[i]);
+    }
     sampleHere(time);
     driftAll();
 }

@@ -1,11 +1,14 @@
 // xpbd: small steps, one sweep over the springs each, order 1 [Macklin 2019].
 //   v += drag and gravity at x, t;  q = h v;  one sweep moves q;  v = q / h;  x += q;  contact
 
-// m/s^2, of the springs over the substep, for contact. w: m/s, without them.
-#define SPRUNG(i) ((v[i] - w[i]) / substep)
+vec3 sprungBy[VERTICES];  // m/s^2, of the springs over the substep, for contact
+#define SPRUNG(i) sprungBy[i]
 
 void beginSolver()
 {
+    for (int i = 0; i < VERTICES; ++i) {
+        sprungBy[i] = vec3(0.0);
+    }
 #ifdef DIRECTIONAL_DRAG
     acrossLess = 1.0 - phi.x / phi.y;
 #endif
@@ -30,6 +33,7 @@ void advance(int step)
 #endif
     for (int i = 0; i < VERTICES; ++i) {
         v[i] = q[i] / substep;
+        sprungBy[i] = carried(sprungBy[i], (v[i] - w[i]) / substep);
         x[i] += q[i];
     }
 }

@@ -57,7 +57,7 @@ TEST_CASE("the fused path and passes agree on every scene", "[fused][agreement][
             const test::Comparison c = agreement.at(frame);
             UNSCOPED_INFO(one.name << ", frame " << frame << ": " << text(c));
             CHECK(c.wrong == 0);
-            CHECK(c.excepted < 0.06 * c.molecules);
+            CHECK(c.excepted < 0.05 * c.molecules);
             CHECK(c.normal < test::Agreement::normalTolerance);
             contacts += c.contacts;
             releases += c.releases;
