@@ -2,8 +2,9 @@
 #include "contact/body.glsl"
 #include "physics/pair.glsl"
 
+// By sphere; zeros where its molecule is not a rigid body.
 #ifdef TEXTURES
-uniform sampler2DArray bodies;  // by sphere, three layers
+uniform sampler2DArray bodies;  // three layers
 #define bodyTexel(sphere, k) texelFetch(bodies, ivec3(texelOf(sphere), k), 0)
 #else
 uniform samplerBuffer bodies;   // three texels a sphere

@@ -2,7 +2,6 @@
 // loadSphere(slot).
 #include "contact/respond.glsl"
 #include "contact/constraint.glsl"
-#include "contact/shares.glsl"
 
 // `anchor`: of the entry, from prepare().
 Constraint constrain(int slot, int other, vec4 anchor)

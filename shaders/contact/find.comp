@@ -9,8 +9,9 @@
 void recall(int slot)
 {
     ownSlot = slot;
-    found = oldCount(slot);
-    for (int e = 0; e < found; ++e) lists[e * listStride + slot] = uint(oldPartner(slot, e));
+    int sphere = sphereOf(slot);
+    found = oldCount(sphere);
+    for (int e = 0; e < found; ++e) lists[e * listStride + slot] = uint(oldPartner(sphere, e));
 }
 
 void main()

@@ -8,21 +8,13 @@ const uint RESPONDS = 0x80000000u;
 const uint FRESH = 0x80000000u;
 // With a sphere's radius, as bits: its molecule rests (contact/rest.comp).
 const uint RESTS = 0x80000000u;
-// What a step marks a slot whose molecule rests with: one that is awake touches it; one that an impact has woken as far away as
-// it reaches does, which says nothing where the molecule wakes as well, since the two happen at once; the impact that has woken its
-// molecule, so many contacts away, a bit each; that has woken a sphere of its molecule.
-const uint TOUCHED = 1u;
-const uint BESIDE = 2u;
-const uint STRUCK = 4u;
-const uint WOKEN = 0x80000000u;
+// A step marks slots whose molecule rests.
+const uint TOUCHED = 1u;         // something awake touches it
+const uint BESIDE = 2u;          // it touches the last that an impact wakes; says nothing where its molecule wakes as well
+const uint STRUCK = 4u;          // an impact has woken its molecule, as many contacts away as this is shifted
+const uint WOKEN = 0x80000000u;  // a sphere of its molecule was woken
 
 bool marksWoken(uint mark)
 {
     return mark > (TOUCHED | BESIDE);
-}
-
-// Whether the molecule of a slot's sphere rests, and nothing has woken it in this step. `radius`: as the records have it.
-bool isResting(uint radius, uint mark)
-{
-    return (radius & RESTS) != 0u && !marksWoken(mark);
 }

@@ -1,4 +1,4 @@
-// The colliders near a slot's sphere. Needs contact/response.glsl and `own`.
+// The colliders near a slot's sphere. Needs contact/slot_sphere.glsl and `own`.
 #include "contact/walls.glsl"
 
 uniform WALL_RECORDS walls;  // by sphere

@@ -1,7 +1,7 @@
 // UberFlow's response (section 4.5). Of all that touch only the nearest counts; both are backed up in time to
 // their first contact, exchange the impulse there, and move on. The nearest of one need not have it for its
 // nearest: where three touch, momentum is lost or gained.
-#include "contact/response.glsl"
+#include "contact/slot_sphere.glsl"
 
 struct Nearest {
     vec3 impulse;  // kg m/s

@@ -12,7 +12,8 @@ layout(std430, binding = 2) writeonly buffer Anchors { vec4 anchors[]; };
 #ifdef SPREAD
 layout(std430, binding = 4) writeonly buffer ContactSums { vec4 newContacts[]; };  // two a slot: contact/effective_sum.glsl
 #else
-layout(std430, binding = 4) writeonly buffer EffectiveCounts { uint effectiveCounts[]; };
+layout(std430, binding = 4) writeonly buffer EffectiveCounts { uint newEffectiveCounts[]; };
+layout(std430, binding = 6) writeonly buffer MotionsNow { vec4 motionsNow[]; };  // contact/relax.glsl
 #endif
 
 void main()
@@ -49,13 +50,16 @@ void main()
     }
 #endif
     if (!remembers) known[memory] = vec4(0.0);
-    newTotals[2 * slot] = vec4(impulse - known[memory].xyz, 0.0);
+    impulse -= known[memory].xyz;
     known[memory].w = start;
+    newTotals[2 * slot] = vec4(impulse, 0.0);
     newTotals[2 * slot + 1] = vec4(shift, 0.0);
 #ifdef SPREAD
     newContacts[2 * slot] = vec4(contacts.diagonal, contacts.number);
     newContacts[2 * slot + 1] = vec4(contacts.beside, 0.0);
 #else
-    effectiveCounts[slot] = floatBitsToUint(listed > 0 ? effectiveCount(contacts) : 0.0);
+    newEffectiveCounts[slot] = floatBitsToUint(listed > 0 ? effectiveCount(contacts) : 0.0);
+    motionsNow[2 * slot] = vec4(own.velocity + impulse * own.weight, 0.0);
+    motionsNow[2 * slot + 1] = vec4(shift * own.weight, 0.0);
 #endif
 }

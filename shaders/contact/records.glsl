@@ -2,7 +2,7 @@
 //
 //   places   by slot: xyz local position as bits (physics/cells.glsl), w label: group * 2^26 + molecule
 //   sorted   by slot: y its sphere
-//   cells    by slot: xyz cell, w radius as bits
+//   cells    by slot: xyz cell, w radius as bits, and RESTS
 //   motions  by sphere, or with TEXTURES by slot: xyz velocity as bits, m/s; w 1/mass as bits, 0 where held, and FRESH
 #include "state/numbered.glsl"
 #include "physics/cells.glsl"
@@ -45,3 +45,9 @@ int motionOf(int slot)
     return sphereOf(slot);
 }
 #endif
+
+// Whether the molecule of a slot's sphere rested when the step began.
+bool rested(int slot)
+{
+    return (fetch(cells, slot).w & RESTS) != 0u;
+}

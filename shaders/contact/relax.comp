@@ -65,7 +65,7 @@ void main()
         if (!pressesOn(wall)) break;
         int at = 2 * (MOST_WALLS * sphereOf(slot) + k);
         vec4 now = wallPushes[at];
-        vec4 push = ownCount > 0.0 ? relaxWall(wall, now, wallPushes[at + 1]) : vec4(0.0);
+        vec4 push = relaxWall(wall, now, wallPushes[at + 1]);
         wallPushes[at + 1] = now;
         wallPushes[at] = push;
         impulse += push.xyz;

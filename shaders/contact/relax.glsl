@@ -2,7 +2,6 @@
 #include "contact/respond.glsl"
 #include "contact/constraint.glsl"
 #include "contact/totals.glsl"
-#include "contact/shares.glsl"
 
 #ifdef FIRST
 const float momentum = 0.0;
@@ -11,7 +10,7 @@ uniform float momentum;     // Nesterov's: by how much of its last change an ite
 #endif
 uniform TOTALS totals;      // of the last iteration
 uniform TOTALS earlier;     // of the one before
-uniform TOTALS motionsNow;  // m/s and m, by slot, as the last iteration leaves them and the momentum of this one takes them on
+uniform TOTALS motionsNow;  // by slot: Moved; nobody writes those of what rests
 
 // How impulses and shifts so far, and the iteration's momentum, move a sphere.
 struct Moved {
@@ -29,16 +28,12 @@ vec3 ahead(vec3 now, vec3 before)
 
 Moved movedAt(int slot)
 {
-#ifdef SPREAD
-    return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));
-#elif defined(TEXTURES) || defined(FIRST)
+#if defined(TEXTURES) && !defined(SPREAD)
     Sphere sphere = sphereAt(slot);
     return Moved(sphere.velocity + ahead(firstTotal(totals, slot), firstTotal(earlier, slot)) * sphere.weight,
                  ahead(secondTotal(totals, slot), secondTotal(earlier, slot)) * sphere.weight);
 #else
-#ifdef RESTING
-    if (isResting(fetch(cells, slot).w, fetch(marks, slot).x)) return Moved(vec3(0.0), vec3(0.0));
-#endif
+    if (rests(slot)) return Moved(vec3(0.0), vec3(0.0));
     return Moved(firstTotal(motionsNow, slot), secondTotal(motionsNow, slot));
 #endif
 }
@@ -50,23 +45,29 @@ void loadOwn(int slot)
     ownMoved = movedAt(slot);
 }
 
-// kg m, how far a contact pushes apart what still lacks so much, m.
-float pushedApart(float now, float before, float lacks, float weight)
+struct Push {
+    vec3 impulse;  // N s
+    float apart;   // kg m, how far it pushes apart
+    bool sticks;
+};
+
+// Returns a contact's push after the iteration, from the last two.
+Push relaxed(Constraint asked, Moved other, vec4 push, vec4 before)
 {
-    return max(ahead(vec3(now), vec3(before)).x + lacks / weight, 0.0);
+    vec3 n = asked.normal;
+    vec3 wanted = pairImpulse(ownMoved.velocity - other.velocity, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
+    vec3 taken = withinFriction(wanted, n, asked.friction);
+    float lacks = asked.lacks - dot(ownMoved.by - other.by, n);
+    float apart = ahead(vec3(abs(push.w)), vec3(abs(before.w))).x + lacks / asked.weights.x;
+    return Push(taken, max(apart, 0.0), taken == wanted);
 }
 
-// Returns an entry's push after the iteration, from the last two.
+// Returns an entry's push after the iteration, as Entry::push.
 vec4 relax(int other, Constraint asked, vec4 push, vec4 before)
 {
     if (asked.friction < 0.0) return vec4(0.0);
-    vec3 n = asked.normal;
-    Moved moved = movedAt(other);
-    vec3 u = ownMoved.velocity - moved.velocity;
-    vec3 wanted = pairImpulse(u, n, asked.target, ahead(push.xyz, before.xyz), asked.weights);
-    vec3 taken = withinFriction(wanted, n, asked.friction);
-    float apart = pushedApart(abs(push.w), abs(before.w), asked.lacks - dot(ownMoved.by - moved.by, n), asked.weights.x);
-    return vec4(taken, taken == wanted ? apart : -max(apart, 1e-30));
+    Push next = relaxed(asked, movedAt(other), push, before);
+    return vec4(next.impulse, next.sticks ? next.apart : -max(next.apart, 1e-30));
 }
 
 #ifdef WALLS
@@ -75,12 +76,11 @@ vec4 relax(int other, Constraint asked, vec4 push, vec4 before)
 // Returns a collider's push after the iteration: a body of infinite mass, which does not ask whether it slides.
 vec4 relaxWall(Wall wall, vec4 push, vec4 before)
 {
-    vec3 n = wall.normal;
-    vec3 u = ownMoved.velocity - wall.velocity;
-    vec2 weights = stepWeights(ownWeights(n) * ownCount, ownCount);
-    vec3 wanted = pairImpulse(u, n, partingSpeed(-wall.gap, own.radius), ahead(push.xyz, before.xyz), weights);
-    float lacks = lacking(-wall.gap, own.radius) - dot(ownMoved.by, n);
-    float apart = pushedApart(push.w, before.w, lacks, weights.x);
-    return vec4(withinFriction(wanted, n, wall.friction), apart);
+    if (ownCount <= 0.0) return vec4(0.0);
+    vec2 weights = stepWeights(ownWeights(wall.normal) * ownCount, ownCount);
+    Constraint asked = Constraint(wall.normal, partingSpeed(-wall.gap, own.radius), weights, lacking(-wall.gap, own.radius),
+                                  wall.friction);
+    Push next = relaxed(asked, Moved(wall.velocity, vec3(0.0)), push, before);
+    return vec4(next.impulse, next.apart);
 }
 #endif

@@ -3,7 +3,7 @@
 
 uniform ENTRIES pushes;
 uniform ENTRIES normals;  // contact/constraint.glsl
-uniform FLOATS known;  // N s, by slot: xyz what has acted as a force since the last step; w contact/memory.glsl
+uniform FLOATS known;  // N s, by slot: xyz what has acted as a force since the last step; w what colliders pushed at first
 #ifdef WALLS
 uniform sampler2DArray wallPushes;  // by slot
 uniform sampler2DArray earlierWallPushes;
@@ -34,7 +34,7 @@ void main()
     for (int k = 0; k < MOST_WALLS; ++k) {
         Wall wall = wallOf(slot, k);
         vec4 push = vec4(0.0);
-        if (pressesOn(wall) && ownCount > 0.0)
+        if (pressesOn(wall))
             push = relaxWall(wall, wallTexel(wallPushes, slot, k), wallTexel(earlierWallPushes, slot, k));
         ofWalls[k] = push;
         impulse += push.xyz;

@@ -7,7 +7,7 @@
 // What contacts remember acts as a force over the step that follows (contact/apply.comp), so that what rests is at rest for any
 // solver; the response finds only what is missing. A contact is an entry of both spheres' lists. Both work out the same for it,
 // to the bit, from the same numbers: only gathers.
-#include "contact/response.glsl"
+#include "contact/slot_sphere.glsl"
 
 struct Entry {
     vec4 push;    // xyz impulse on this slot's sphere, N s; w how far it pushes the two apart, kg m, negative where it slides
@@ -18,11 +18,10 @@ struct Entry {
 #ifdef BODIES
 #include "contact/body_sums.glsl"
 
-uniform int rigidGroups;  // a bit each
-
+// Returns zeros for a sphere that gives way alone or not at all.
 BodySphere bodyOf(int slot, Sphere sphere)
 {
-    if (sphere.rests || (rigidGroups >> int(sphere.label >> 26u) & 1) == 0) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
+    if (sphere.rests) return BodySphere(vec3(0.0), 0.0, mat3(0.0), 0.0);
     return bodySphereAt(sphereOf(slot));
 }
 #endif
@@ -68,6 +67,14 @@ vec2 ownWeights(vec3 n)
 #else
     return vec2(own.weight);
 #endif
+}
+
+uniform UINTS effectiveCounts;  // by slot, as bits (contact/prepare.glsl)
+
+// Among how many contacts what a sphere gives way is shared; one that rests gives none. 0: neither it nor its body touches another.
+float shareOf(int slot, Sphere sphere)
+{
+    return sphere.rests ? 1.0 : uintBitsToFloat(fetch(effectiveCounts, slot).x);
 }
 
 // Returns what it changes of the two spheres' relative velocity. `shares`: among how many contacts each of the two is shared.

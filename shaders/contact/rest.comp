@@ -18,7 +18,7 @@ uniform bool probes;            // what rests has been stepped
 uniform bool wakes;             // all molecules of the group
 
 layout(std430, binding = 0) buffer State { float state[]; };
-layout(std430, binding = 1) buffer Loads { vec4 loads[]; };  // contact/apply.comp; in w one of the numbers below
+layout(std430, binding = 1) buffer Loads { vec4 loads[]; };  // contact/apply.comp; w of what rests: RESTED or JUST_RESTED
 // By sphere. Of what is awake: xyz where its vertex was, m from the anchor; in w of the first sphere for how long all have stayed
 // there, s. Of what rests: xyz the velocity that its vertex gains in the first step, m/s; w how much its contacts pushed then
 // (contact/weigh.comp), N s, or -1: nobody has asked yet.

@@ -1,13 +1,13 @@
-// Whether the molecule of a slot's sphere rests, which without RESTING none does.
-#ifdef RESTING
+// Whether the molecule of a slot's sphere rests and nothing has woken it in this step; without RESTING none does. Needs `cells`
+// (contact/records.glsl).
 #include "contact/flags.glsl"
 
-uniform usamplerBuffer cells;  // by slot (contact/records.glsl)
-uniform usamplerBuffer marks;  // by slot
+#ifdef RESTING
+uniform UINTS marks;  // by slot
 
 bool rests(int slot)
 {
-    return isResting(texelFetch(cells, slot).w, texelFetch(marks, slot).x);
+    return (fetch(cells, slot).w & RESTS) != 0u && !marksWoken(fetch(marks, slot).x);
 }
 #else
 bool rests(int slot)

@@ -1,6 +1,5 @@
 // The last stage of contact/respond.glsl.
 #include "contact/respond.glsl"
-#include "contact/shares.glsl"
 
 // Returns how far a contact moves the sphere beside what pushes it apart, kg m: an impact by the change of its velocity in the
 // time since, what sticks back towards where it began to. `kept`: the entry as the next step begins with it.

@@ -12,6 +12,7 @@ layout(local_size_x = 64) in;
 
 uniform FLOATS shapes;
 uniform UINTS slots;      // of a sphere
+uniform UINTS cells;      // contact/records.glsl
 uniform int firstSphere;  // of the part, or in fragments of the group
 uniform int partSpheres;
 

@@ -9,26 +9,19 @@ uniform int listStride;
 layout(std430, binding = 0) writeonly buffer AwakeSlots { uint awakeSlots[]; };
 layout(std430, binding = 1) writeonly buffer Counts { uint counts[]; };
 
-bool rests(int slot)
-{
-    return (fetch(cells, slot).w & RESTS) != 0u;
-}
-
 void main()
 {
     int slot = int(gl_GlobalInvocationID.x);
     if (slot >= count) return;
-    bool resting = rests(slot);
-    if (!resting) {
+    if (!rested(slot)) {
         uint at = atomicAdd(awake, 1u);
         atomicMax(awakeX, at / 64u + 1u);
         awakeSlots[at] = uint(slot);
+        return;
     }
-    while (resting) {
-        counts[slot] = 0u;
-        bool touched = false;
-        for (int e = oldCount(slot) - 1; e >= 0; --e) touched = touched || !rests(oldPartner(slot, e));
-        if (touched) mark(slot, TOUCHED);
-        resting = false;
-    }
+    counts[slot] = 0u;
+    int sphere = sphereOf(slot);
+    bool touched = false;
+    for (int e = oldCount(sphere) - 1; e >= 0; --e) touched = touched || !rested(oldPartner(sphere, e));
+    if (touched) mark(slot, TOUCHED);
 }

@@ -1,7 +1,7 @@
 // A lane a sphere of one group: from the state to records in the spheres' own order, and the key of its cell, with
 // the sphere's number or, with COUNTED, with how many spheres of the cell have come before it.
 #include "contact/shape.glsl"
-#include "contact/sphere.glsl"
+#include "contact/state_sphere.glsl"
 
 uniform int label;       // of the group's first molecule
 uniform vec3 cellShift;  // m, of a staggered grid

@@ -5,7 +5,7 @@
 #include "physics/cells.glsl"
 #ifdef LAYERED
 #include "contact/shape.glsl"
-#include "contact/sphere.glsl"
+#include "contact/state_sphere.glsl"
 #else
 #include "state/topology.glsl"
 #include "state/textures.glsl"

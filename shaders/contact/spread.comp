@@ -19,14 +19,12 @@ void main()
 {
     int molecule = min(int(gl_GlobalInvocationID.x), partSpheres / SPHERES - 1);
     int first = firstSphere + molecule * SPHERES;
-    BodyMotion none = BodyMotion(vec3(0.0), vec3(0.0));
-    BodyTotal body = BodyTotal(none, none, none);
     bool moves = !rests(slotOf(first));
     while (moves) {
-        body = totalOfBody(molecule);
+        BodyTotal body = totalOfBody(molecule);
+        for (int k = 0; k < SPHERES; ++k) store(first + k, changeIn(body, molecule, k));
         moves = false;
     }
-    for (int k = 0; k < SPHERES; ++k) store(first + k, changeIn(body, molecule, k));
 }
 #else
 void main()
@@ -34,12 +32,10 @@ void main()
     int lane = min(int(gl_GlobalInvocationID.x), partSpheres - 1);
     int molecule = lane / SPHERES;
     int sphere = firstSphere + lane;
-    Total change = noTotal();
     bool moves = !rests(slotOf(sphere));
     while (moves) {
-        change = changeOf(molecule, lane - molecule * SPHERES);
+        store(sphere, changeOf(molecule, lane - molecule * SPHERES));
         moves = false;
     }
-    store(sphere, change);
 }
 #endif

@@ -12,10 +12,11 @@ uniform float momentum;   // contact/relax.glsl
 #endif
 uniform VALUES oldRecords;
 
+// What contacts do to a sphere, or the changes that this makes: m/s, m and m/s.
 struct Total {
-    vec3 impulse;  // N s, or what it changes, m/s
-    vec3 shift;    // kg m, or what it changes, m
-    vec3 load;     // N s, or what it will change, m/s
+    vec3 impulse;  // N s
+    vec3 shift;    // kg m
+    vec3 load;     // N s, over the next step
 };
 
 Total noTotal()
@@ -35,14 +36,11 @@ void add(inout Total a, Total b, float part)
 #ifdef RIGID
 #include "contact/flags.glsl"
 
-#ifndef RESTING
-uniform UINTS cells;            // contact/records.glsl
-#endif
 uniform UINTS motions;
-uniform UINTS effectiveCounts;  // contact/shares.glsl
+uniform UINTS effectiveCounts;  // contact/respond.glsl
 
 // Whether contact alone holds a sphere off the colliders in the next step: its body touches others, and it is so slow that it
-// reaches none that is not known as near (contact/sphere.glsl). `changed`: how contact has changed its velocity, m/s.
+// reaches none that is not known as near (contact/state_sphere.glsl). `changed`: how contact has changed its velocity, m/s.
 bool holds(int sphere, vec3 changed, float stepTime)
 {
     int slot = slotOf(sphere);

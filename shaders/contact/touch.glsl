@@ -106,15 +106,10 @@ bool haveMet(vec3 d, float reach, int slot)
 #endif
 
 #ifdef RESTING
-bool rests(int slot)
-{
-    return (fetch(cells, slot).w & RESTS) != 0u;
-}
-
 // What is awake marks what rests when it touches it.
 void markResting(int slot, vec3 d, float reach)
 {
-    if (rests(ownSlot) || !rests(slot)) return;
+    if (rested(ownSlot) || !rested(slot)) return;
     bool struck = haveMet(d, reach, slot);
     mark(slot, struck ? TOUCHED | STRUCK : TOUCHED);
     if (struck) struckX = uint(count + 63) / 64u;
@@ -144,10 +139,10 @@ void meet(int slot)
 }
 
 #if defined(BODIES) && defined(WALLS)
+#include "contact/body_sums.glsl"
 #include "contact/walls.glsl"
 
 uniform WALL_RECORDS walls;  // by sphere
-uniform int rigidGroups;     // contact/respond.glsl
 #endif
 
 // Returns the slot's count.
@@ -155,7 +150,7 @@ uint countFound(int slot)
 {
     uint counted = uint(found);
 #if defined(BODIES) && defined(WALLS)
-    bool isBody = (rigidGroups >> int(ownLabel >> 26u) & 1) != 0;
+    bool isBody = bodySphereAt(sphereOf(slot)).perMass > 0.0;
     if (isBody && wallTexel(walls, sphereOf(slot), 0).w < 1e20) counted |= HELD;
 #endif
     bool responds = counted != 0u;

@@ -1,4 +1,4 @@
-// The slots that touch something, in no particular order: what is done for each depends on nothing but itself.
+// The slots that take part in the response (RESPONDS in contact/flags.glsl), in no particular order: no lane depends on another.
 layout(std430, binding = 5) buffer Touching {
     uint touching;
     uint touchingSlots[];

@@ -1,8 +1,8 @@
-// How the slots that touch something are put together.
+// Collects the slots that take part in the response.
 #include "contact/touching.glsl"
 
-// The words that glDispatchComputeIndirect takes: workgroups of 64 lanes, a lane a slot that touches. In a buffer of its own, so that a
-// driver that looks after such a buffer looks after no more.
+// The words that glDispatchComputeIndirect takes: workgroups of 64 lanes, a lane a slot that takes part. They have a buffer of their
+// own, because a driver may watch over the whole buffer that it takes them from.
 layout(std430, binding = 6) buffer Groups {
     uint groupsX;
     uint groupsY;

@@ -4,20 +4,19 @@
 #include "contact/marks.glsl"
 #include "contact/records.glsl"
 
-uniform usamplerBuffer partners;  // oldLists of contact/memory.glsl
-uniform samplerBuffer known;
-uniform usamplerBuffer slots;     // of a sphere
-uniform usamplerBuffer groupsOf;  // contact/touch.glsl
+uniform samplerBuffer known;      // contact/memory.glsl
 uniform int listStride;
+#include "contact/recalled.glsl"
+
+uniform usamplerBuffer groupsOf;  // contact/touch.glsl
 uniform int contactsAway;         // of what wakes others in this dispatch
 uniform bool last;
 
 void wakePartners(int sphere)
 {
-    int listed = int(texelFetch(known, sphere).w);
-    for (int e = 0; e < listed; ++e) {
-        int slot = int(texelFetch(slots, int(texelFetch(partners, e * listStride + sphere).x)).x);
-        if ((texelFetch(cells, slot).w & RESTS) != 0u && !marksWoken(marks[slot]))
+    for (int e = 0; e < oldCount(sphere); ++e) {
+        int slot = oldPartner(sphere, e);
+        if (rested(slot) && !marksWoken(marks[slot]))
             mark(slot, last ? BESIDE : STRUCK << (contactsAway + 1));
     }
 }

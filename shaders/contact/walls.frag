@@ -1,7 +1,7 @@
 // walls: a texel a sphere, of one group that collides: the colliders near it (contact/walls.glsl).
 #include "state/numbered.glsl"
 #include "contact/shape.glsl"
-#include "contact/sphere.glsl"
+#include "contact/state_sphere.glsl"
 
 layout(location = 0) out vec4 newWalls[2 * MOST_WALLS];
 

@@ -22,11 +22,6 @@ layout(std430, binding = 6) readonly buffer WallPushes { vec4 wallPushes[]; };  
 uniform usamplerBuffer slots;  // of a sphere
 uniform usamplerBuffer markedSlots;
 
-bool restsAt(int slot)
-{
-    return isResting(fetch(cells, slot).w, fetch(marks, slot).x);
-}
-
 bool isListed(int slot, int other)
 {
     bool is = false;
@@ -84,13 +79,13 @@ bool renew(int slot, int sphere)
     for (int e = 0; e < int(known[sphere].w); ++e) {
         int at = e * listStride + sphere;
         int other = int(texelFetch(slots, int(partners[at])).x);
-        bool rests = restsAt(other);
-        hasLost = hasLost || !(rests || isListed(slot, other));
-        if (rests) remember(sphere, kept++, partners[at], Entry(oldPushes[at], oldAnchors[at]));
+        bool stays = rests(other);
+        hasLost = hasLost || !(stays || isListed(slot, other));
+        if (stays) remember(sphere, kept++, partners[at], Entry(oldPushes[at], oldAnchors[at]));
     }
     for (int e = 0; e < listedOf(slot); ++e) {
         int other = entryOf(slot, e);
-        if (!restsAt(other) && kept < LIST)
+        if (!rests(other) && kept < LIST)
             remember(sphere, kept++, uint(sphereOf(other)), mirrored(sphere, sphereOf(other)));
     }
     known[sphere].w = float(kept) + fract(known[sphere].w);
@@ -101,7 +96,7 @@ void main()
 {
     if (gl_GlobalInvocationID.x >= marked) return;
     int slot = int(texelFetch(markedSlots, int(gl_GlobalInvocationID.x)).x);
-    if (!restsAt(slot)) return;
+    if (!rests(slot)) return;
     loadSphere(slot);
     int sphere = sphereOf(slot);
     if (calm[sphere].w < 0.0) calm[sphere].w = rememberedBy(sphere).lengths;

@@ -72,8 +72,8 @@ struct ContactPlan {
     bool remembers() const { return settings.response == ContactResponse::simultaneous; }
     // Whether molecules of a group may rest: its springs do not move by themselves.
     bool mayRest(const GroupPlan& group) const;
-    // The ping-pong path's textures have rows of 2^rowBits texels, so that the table of cells is a square or
-    // two.
+    // Textures of fragments and of the ping-pong path have rows of 2^rowBits texels: the table of cells is a
+    // square or two.
     int rowBits() const { return (tableBits + 1) / 2; }
     // All that the ping-pong path has: no spheres on triangles, no contact within a molecule.
     bool onlyOfVertices() const;

@@ -1,4 +1,4 @@
-// Both paths do this in a step of contact between molecules, each with its own passes: the grid, the search,
+// All paths do this in a step of contact between molecules, each with its own passes: the grid, the search,
 // and the impulses of all contacts in Jacobi iterations (docs/contact.md).
 #pragma once
 
@@ -96,13 +96,6 @@ class ContactPasses : public ContactResult {
 
     // `group`: among those with contact.
     bool isRigid(size_t group) const { return rigid_ && plan_->groups[contact_->groups[group].group].rigid; }
-
-    void setRigidGroups(const gpu::Program& program) const {
-        int rigid = 0;
-        for (size_t g = 0; g < contact_->groups.size(); ++g)
-            if (isRigid(g)) rigid |= 1 << g;
-        program.set("rigidGroups", rigid);
-    }
 
     static void setTimes(const gpu::Program& program, const Times& times) {
         program.set("stepTime", float(times.step));

@@ -32,9 +32,7 @@ MoleculeContact::Textures MoleculeContact::bindResponse(const Program& program, 
     if (rests()) textures.add("marks", marks_.texture);
     program.set("listStride", int(padded_));
     setResponse(program, times);
-    if (!rigid_ || !program.uses("bodies")) return textures;
-    setRigidGroups(program);
-    textures.add("bodies", bodies_.texture);
+    if (rigid_ && program.uses("bodies")) textures.add("bodies", bodies_.texture);
     return textures;
 }
 
@@ -61,10 +59,12 @@ void MoleculeContact::prepare(Buffers& state, const Times& times) {
     prepare_.storage("Pushes", 1, pushes_[0].buffer);
     prepare_.storage("Anchors", 2, anchors_.buffer);
     prepare_.storage("Known", 3, known_.buffer);
-    if (spreads_)
+    if (spreads_) {
         prepare_.storage("ContactSums", 4, contactSums_.buffer);
-    else
+    } else {
         prepare_.storage("EffectiveCounts", 4, effectiveCounts_.buffer);
+        prepare_.storage("MotionsNow", 6, motionsNow_[0].buffer);
+    }
     dispatchTouching(prepare_);
     settled();
     if (spreads_) countEffective(state);
@@ -103,7 +103,7 @@ void MoleculeContact::relax(Buffers& state, const Times& times, int iteration) {
         textures.add("normals", normals_.texture).add("amounts", amounts_.texture);
         program.set("momentum", now);
     }
-    if (spreads_ || !first) textures.add("motionsNow", motionsNow_[0].texture);
+    textures.add("motionsNow", motionsNow_[0].texture);
     if (!spreads_) {
         textures.add("totals", totals_[0].texture);
         program.set("nextMomentum", momentum(iteration + 1));
@@ -160,9 +160,9 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
                         const SphereRange& range) {
         const Program& program = groups_[g].apply;
         const bool rigid = isRigid(g);
-        const bool ofVertices = contact_->groups[g].triangles || rigid;
+        const bool many = contact_->groups[g].triangles || rigid;  // spheres act on a vertex
         Textures textures(program);
-        textures.add(ofVertices ? "slots" : "sorted", ofVertices ? slots_.texture : pairs_.texture)
+        textures.add(many ? "slots" : "sorted", many ? slots_.texture : pairs_.texture)
             .add("counts", counts_.texture)
             .add("totals", totals_[0].texture)
             .add("known", known_.texture)
@@ -174,13 +174,13 @@ void MoleculeContact::apply(Buffers& state, const Times& times) {
                 .add("effectiveCounts", effectiveCounts_.texture);
             if (!rests()) textures.add("cells", cells_.texture);
         }
-        if (rests() && ofVertices) textures.add("cells", cells_.texture).add("marks", marks_.texture);
+        if (rests() && many) textures.add("cells", cells_.texture).add("marks", marks_.texture);
         setTimes(program, times);
         program.set("substepTime", float(times.substep));
         if (contact_->remembers()) program.storage("Loads", 1, loads_.buffer);
         setSpheres(program, range);
         store(program, "State", 0, buffers.currentState(part));
-        if (ofVertices)
+        if (many)
             dispatch(program,
                      size_t(part.count) * size_t(plan_->groups[contact_->groups[g].group].vertexCount));
         else

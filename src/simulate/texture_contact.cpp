@@ -176,7 +176,6 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
         return Program(context, shaderRoot, options);
     };
     OfGroup out;
-    out.many = rigid || group.triangles;
     out.spheres = make("spheres");
     if (state.fused())
         out.shapes =
@@ -186,7 +185,7 @@ TextureContact::OfGroup TextureContact::makeGroup(gpu::Context& context, const C
     if (walls_ && plan.needs.collide) out.walls = make("walls");
     common = ofGroup;
     common.emplace_back("APPLIES");
-    define(out.many, "MANY");
+    define(rigid || group.triangles, "MANY");
     out.gains = make("gains");
     common = ofGroup;
     if (!spreads_) return out;
@@ -204,6 +203,13 @@ void TextureContact::draw(const Into& into, int firstRow, int rows) {
 
 void TextureContact::drawAll(const Into& into) {
     draw(into, 0, rowsOf(contact_->spheres));
+}
+
+void TextureContact::drawGroup(const Into& into, size_t group) {
+    const ContactGroup& contact = contact_->groups[group];
+    const int first = contact.firstSphere >> rowBits_;
+    const int end = rowsOf(contact.firstSphere + plan_->groups[contact.group].count * contact.spheresOf);
+    draw(into, first, end - first);
 }
 
 const Program& TextureContact::useGroup(const Program& program, size_t group) const {
@@ -230,8 +236,7 @@ void TextureContact::makeWalls(const Frame& frame, ContactState& state) {
         program.set("contactStep", float(frame.parameters.frameTime));
         program.set("givenRadius", float(group.radius));
         if (tables_->samples && program.uses("samples")) program.texture("samples", 3, tables_->samples);
-        const int first = group.firstSphere >> rowBits_;
-        draw(into, first, rowsOf(group.firstSphere + plan.count * group.spheresOf) - first);
+        drawGroup(into, g);
     }
 }
 
@@ -242,7 +247,6 @@ void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
     for (size_t g = 0; g < groups_.size(); ++g) {
         const ContactGroup& group = contact_->groups[g];
         const GroupPlan& plan = plan_->groups[group.group];
-        const int spheres = plan.count * group.spheresOf;
         const Program& program = useGroup(groups_[g].spheres, g);
         state.bind(program, group.group);
         if (state.fused()) {
@@ -256,8 +260,7 @@ void TextureContact::makeSpheres(const Frame& frame, ContactState& state) {
         program.set("label", int(uint32_t(g) << 26));
         program.set("cell", float(contact_->cell));
         program.set("givenRadius", float(group.radius));
-        const int first = group.firstSphere >> rowBits_;
-        draw(into, first, rowsOf(group.firstSphere + spheres) - first);
+        drawGroup(into, g);
     }
 }
 
@@ -321,8 +324,8 @@ void TextureContact::search(ContactState&, const Times& times) {
         setTimes(find_, times);
     }
     if (walls_ && rigid_) {
-        setRigidGroups(find_);
         find_.texture("walls", 11, nearWalls_[now_]);
+        find_.texture("bodies", 12, bodies_);
     }
     if (self_) {
         find_.texture("apart", 7, apart_);

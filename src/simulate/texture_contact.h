@@ -79,7 +79,6 @@ class TextureContact : public ContactPasses<ContactState> {
     struct OfGroup {
         gpu::Program spheres, walls, effectiveSum, spread, gains;
         gpu::Texture shapes;
-        bool many = false;  // the contacts of several spheres act on a vertex
     };
     OfGroup makeGroup(gpu::Context& context, const ContactGroup& group, const ContactState& state,
                       const std::string& shaderRoot, gpu::ProgramCache* cache) const;
@@ -105,7 +104,8 @@ class TextureContact : public ContactPasses<ContactState> {
     void apply(ContactState& state, const Times& times) override;
 
     void draw(const Into& into, int firstRow, int rows);
-    void drawAll(const Into& into);  // the rows of all spheres
+    void drawAll(const Into& into);                  // the rows of all spheres
+    void drawGroup(const Into& into, size_t group);  // those of a group's spheres, by number
     int rowsOf(int numbers) const;
 
     int rowBits_;

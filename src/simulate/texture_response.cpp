@@ -38,9 +38,7 @@ int TextureContact::bindResponse(const Program& program, const Times& times) con
     if (program.uses("materials")) program.texture("materials", unit++, materials_);
     if (program.uses("sorted")) program.texture("sorted", unit++, sort_.pairs());
     if (walls_ && program.uses("walls")) program.texture("walls", unit++, nearWalls_[now_]);
-    if (!rigid_ || !program.uses("bodies")) return unit;
-    setRigidGroups(program);
-    program.texture("bodies", unit++, bodies_);
+    if (rigid_ && program.uses("bodies")) program.texture("bodies", unit++, bodies_);
     return unit;
 }
 
@@ -219,9 +217,7 @@ void TextureContact::apply(ContactState& state, const Times& times) {
         if (program.uses("cells")) program.texture("cells", 12, cells_);
         program.texture("known", 10, known_[now_]);
         program.set("stepTime", float(times.step));
-        const int spheres = plan_->groups[group.group].count * group.spheresOf;
-        const int first = group.firstSphere >> rowBits_;
-        draw(into, first, rowsOf(group.firstSphere + spheres) - first);
+        drawGroup(into, g);
         state.apply(group.group, [&](const Program& applies, int firstUnit) {
             applies.set("firstSphere", group.firstSphere);
             applies.texture("gains", firstUnit, gains_);

@@ -1,15 +1,13 @@
 // The spheres in contact, as a response reads them.
 #include "contact/records.glsl"
 #include "contact/lists.glsl"
+#include "contact/resting.glsl"
 #include "physics/pair.glsl"
 
 uniform FLOATS materials;  // x restitution, y friction, by group * groupCount + group
 uniform int groupCount;
 uniform float stepTime;    // s, of a contact step
 uniform float restSpeed;   // m/s
-#ifdef RESTING
-uniform UINTS marks;       // by slot (contact/flags.glsl)
-#endif
 
 struct Sphere {
     vec3 place;     // m, local (physics/cells.glsl)
@@ -26,13 +24,10 @@ Sphere sphereAt(int slot)
     uvec4 place = fetch(places, slot);
     uvec4 motion = fetch(motions, motionOf(slot));
     uint radius = fetch(cells, slot).w;
-    bool rests = false;
-#ifdef RESTING
-    rests = isResting(radius, fetch(marks, slot).x);
-#endif
+    bool stays = rests(slot);
     return Sphere(uintBitsToFloat(place.xyz), place.w, uintBitsToFloat(motion.xyz),
-                  rests ? 0.0 : uintBitsToFloat(motion.w & ~FRESH), uintBitsToFloat(radius & ~RESTS),
-                  (motion.w & FRESH) != 0u, rests);
+                  stays ? 0.0 : uintBitsToFloat(motion.w & ~FRESH), uintBitsToFloat(radius & ~RESTS),
+                  (motion.w & FRESH) != 0u, stays);
 }
 
 vec2 materialOf(Sphere a, Sphere b)
