@@ -47,8 +47,8 @@ vec3 wayBeyond(vec3 moved, vec3 gained, vec3 ended)
     return moved - (ended - 0.5 * gained) * substep;
 }
 
-// Takes into a vertex's history how contact has changed its place (m) and velocity v (m/s). Returns whether that was an
-// impact: what goes on as it began, at rest mostly, within the roundings below, has none.
+// Adds to a vertex's history how contact has changed its place (m) and velocity (m/s). Returns whether that was an
+// impact. A vertex that still moves as it did before, within the roundings below, had none; mostly it is at rest.
 bool changeHistory(vec3 shift, vec3 change, inout vec3 displacement, inout vec3 gained, vec3 ended)
 {
     gained += change;
@@ -63,9 +63,9 @@ void endHistory()
     if (restart) dx[0].x = NO_HISTORY;
 }
 
-// A thrust before the stage, whose forces have to be those at its end: over h, from the velocity with half of what the
-// last substep's forces changed, which is of order 2. dv is without it. A step without history has it over h/2 here and
-// when the stage is accepted.
+// Applies a thrust over h before the stage, which takes forces at its end. The thrust is that of v + dv / 2, which is
+// of order 2; dv itself is without the thrust. In a step without history it acts over h/2 here, and over h/2 again when
+// the stage is accepted.
 void thrustAhead()
 {
 #ifdef THRUST
@@ -81,7 +81,7 @@ void predict(int step)
 {
     bool held = !released;
     releasePins(step);
-    restart = restart || (held && released);  // what was at rest on its pins has no changes to go on from
+    restart = restart || (held && released);  // a molecule that its pins held until now has no history
     thrustAhead();
     eta = restart ? substep : stageEta;
     kickDrift = restart ? 0.5 * substep : stageEta;
@@ -111,7 +111,8 @@ void predict(int step)
 void accept()
 {
     for (int i = 0; i < VERTICES; ++i) {
-        // from what the springs have moved: (q - z) / eta would round every velocity, the same way in every step
+        // The velocity follows from what the springs have moved: (q - z) / eta would round it in the same direction in
+        // every step.
         bool held = isHeld(pinned[i]);
         vec3 velocity = held ? vec3(0.0) : unsprung[i] + (q[i] - (z[i] + unsprung[i] * eta)) / eta;
         dv[i] = velocity - v[i];

@@ -133,8 +133,9 @@ bool mayTouch()
 }
 #endif
 
-// Whether a vertex that is not held lies inside a collider, or may have crossed one, after so many substeps. With
-// NEAREST those are answered here which the nearest surface alone concerns, and the others count.
+// Returns whether a vertex that is not held lies inside a collider, or may have crossed one, after `done` substeps.
+// With NEAREST, the vertices that only their nearest surface concerns are answered here, and only the others are
+// reported.
 bool findContacts(int done)
 {
     bool found = false;

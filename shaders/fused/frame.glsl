@@ -19,8 +19,8 @@ bool followAnchor()
 }
 
 #ifdef MAY_BE_CUT
-// Where loops end early, because there were more turns than Mesa's CPU rasterisers take (mostSoftwareTurns in
-// src/gpu/context.h), a vertex gets this, m, for the watchdog (src/simulate/watchdog.cpp).
+// Returns the place, m, that tells the watchdog (src/simulate/watchdog.cpp) that the loops ended early: they took more
+// turns than Mesa's CPU rasterisers allow (mostSoftwareTurns in src/gpu/context.h).
 vec3 cutShort()
 {
     return vec3(uintBitsToFloat(0x7f800000u));
@@ -41,7 +41,7 @@ bool loopsEndEarly()
 #endif
 
 #ifdef RESTING
-uniform bool probes;     // whether what acts beside contact is not what it was in the last step
+uniform bool probes;     // whether anything other than contact acts differently than in the last step
 vec3 gained[VERTICES];  // m/s, in a step from rest
 #endif
 
@@ -96,7 +96,8 @@ void main()
     isCutShort = isCutShort || loopsEndEarly();
 #endif
 #ifdef RESTING
-    // What rests stays; that it would move otherwise than when it came to rest wakes it (contact/rest.comp).
+    // A molecule at rest is stored as it was, but with the velocities that it would gain: when these change,
+    // contact/rest.comp wakes it.
     if (resting > 0.0) {
         for (int i = 0; i < VERTICES; ++i) {
             gained[i] = probed ? v[i] : vec3(0.0);

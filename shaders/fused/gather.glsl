@@ -38,7 +38,8 @@ int row()
     return int(gl_LocalInvocationID.y);
 }
 
-// Where the vertices are no multiple of the rows, the last place of some rows does what another row does as well.
+// Returns the vertex in place i of the lane's row. Where the rows do not divide the vertices evenly, the last place of
+// some rows repeats the last vertex.
 int vertexOf(int i)
 {
     return min(row() + i * ROWS, MOLECULE_VERTICES - 1);

@@ -58,9 +58,9 @@ void run()
 #ifdef COLLIDE
     beginContact();
 #if defined(GROUP_VOTE) || defined(SOFTWARE)
-    // All neighbours that run in step look for contacts together: where nothing touches, little is paid for it, also on
-    // devices that run both sides of every branch, and once what follows a loop. Where such a device lets nobody vote, a
-    // lane waits at the end of its loop until all of them are there.
+    // Lanes that run in step advance until one of them finds a contact, and resolve their contacts together. So a
+    // substep without contact costs little, even on devices that run both sides of every branch: these run what follows
+    // a loop only once. Where lanes cannot vote, each waits at the end of its loop for the others.
     do {
         bool found;
         do {

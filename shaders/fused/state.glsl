@@ -54,7 +54,7 @@ vec2 stageDecay;  // gamma eta / (1 + gamma eta) across and along the surface
 vec2 stagePhi;  // eta / (1 + gamma eta)
 vec2 flightBend;  // (h - phi) / gamma, s^2, across and along the surface
 int slips;  // not 0: drag is so heavy that positions drift by the new velocity alone
-int restarts;  // not 0: what is known of the last substep does not count
+int restarts;  // not 0: a solver with history forgets the last substep
 
 #ifdef SOFTWARE
 int inRegister(int value) { return min(value, 2147483647); }
@@ -95,8 +95,9 @@ void loadUniforms()
 }
 
 #if defined(SOFTWARE) && !defined(GROUP_VOTE)
-// Returns `now`. Where lanes leave the loop over the substeps each for itself, Mesa's rasteriser keeps for what follows only what a
-// turn makes of the turn before: anything else is that of the turn in which the last lane left.
+// Returns `now`. Where each lane leaves the loop over the substeps by itself, Mesa's rasteriser keeps a lane's value
+// after the loop only if a turn computes it from the turn before. Any other value becomes that of the turn in which the
+// last lane left.
 vec3 carried(vec3 before, vec3 now) { return substeps > 0 ? now : before; }
 #else
 vec3 carried(vec3 before, vec3 now) { return now; }

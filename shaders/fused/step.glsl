@@ -61,8 +61,8 @@ void sampleFrame()
 #endif
 }
 
-// The others at every probe, now; and the forces, which are always taken there: once a frame would be too seldom for
-// what circles a point.
+// Reads, at every probe, the fields that are read in every substep, and the forces: once a frame would be too seldom
+// for forces that make molecules circle a point.
 void sampleSubstep(float time)
 {
 #ifdef FORCES

@@ -20,7 +20,7 @@ void main()
         v[i] += velocity;
 #ifdef HISTORY
         if (texelFetch(gains, ivec3(texelOf(sphere + i), 0), 0).w > 0.0) {
-            // what is slow goes on as if it had moved so before, all else begins anew (fused/bdf2.glsl)
+            // A slow vertex goes on as if it had always moved so, any other starts anew (fused/bdf2.glsl).
             dx[i] = length(v[i]) < restSpeed ? v[i] * substepTime : vec3(NO_HISTORY);
             dv[i] = vec3(0.0);
         }

@@ -1,5 +1,6 @@
-// bits: a texel a word of 32 places, in rows of 32 words: x the free ones and, with DEATHS, y those in which one died in
-// this step. The first place of them is `firstPlace`, and they go on around the capacity.
+// bits: each texel is a word of 32 places, in rows of 32 words: x has the bits of the free places and, with DEATHS, y
+// those of the places in which a molecule died in this step. The places begin with `firstPlace` and wrap around at the
+// capacity.
 #include "state/packed.glsl"
 
 uniform sampler2DArray states;

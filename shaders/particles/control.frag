@@ -1,6 +1,6 @@
-// words: those of control, four a texel, of which those of a group follow from the sums over its places: how many died
-// (DEATHS); how many of the newborn took a place that was not free (CUTS); else how many of the births that are asked for
-// find a place.
+// words: the words of control, four a texel. The words of one group are computed from the sums over its places: with
+// DEATHS how many molecules died, with CUTS how many newborns took a place that was not free, else how many of the
+// requested births find a place.
 #include "particles/ranks.glsl"
 #include "particles/words.glsl"
 

@@ -77,7 +77,7 @@ void main()
     shown.a *= insideOf(max(abs(at.x), abs(at.y)));
 #endif
 #else
-    // A dot: a bell without a kink at its rim, or where it hides what is behind a disc.
+    // A dot is a bell-shaped blot without a kink at its rim or, where it is not blended, a disc.
     float r2 = dot(at, at);
     float bell = max(1.0 - r2, 0.0);
     shown.a = BLEND == noneBlend ? insideOf(sqrt(r2)) : bell * bell;
@@ -108,7 +108,8 @@ void main()
     light = shade(surfaceOf(place, n, shown.rgb, 0.9));
 #endif
 
-    // Haze covers what is behind it; it adds nothing to light that is added, and leaves filters less to filter.
+    // Haze veils a particle that hides what is behind it, dims the light of an additive one, and weakens one that
+    // filters.
     const bool filters = BLEND == multiplicativeBlend;
     if (isHazy()) {
         if (filters) shown.a *= hazeThrough(place).g;

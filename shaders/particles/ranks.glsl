@@ -31,7 +31,7 @@ uint bitsInAll()
     return ranked(last.xy) + ranked(last.zw);
 }
 
-// The child that holds the rank, which is below its parent's count; from then on the rank in it.
+// Returns the child that holds a rank below its parent's count; `rank` becomes the rank within that child.
 int childOf(usampler2D sums, int parent, inout uint rank)
 {
     int child = 0;

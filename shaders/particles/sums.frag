@@ -1,5 +1,6 @@
-// sums: a level of a tree over the bits of places, in rows of 32 siblings, each of which stands for 32 of the level below:
-// xy how many are set before it among its siblings, zw in it; of the free ones and of those that died.
+// sums: a level of a tree over the bits of places, in rows of 32 siblings, each of which stands for 32 nodes of the
+// level below. xy: how many bits are set in the siblings before this one; zw: in this one. The first of each pair
+// counts free places, the second those in which one died.
 uniform usampler2D below;  // with WORDS the bits, a word for each; else sums
 uniform int belowRows;
 

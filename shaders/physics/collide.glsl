@@ -100,7 +100,7 @@ Contact respond(bool inside, vec3 x, vec3 v, float distance, vec3 n, float resti
     position = leaves ? surface : position;
     velocity = leaves ? v : velocity;
 
-    // Deeper than it can have come within the step: out the short way, but not at once, and without a kick.
+    // A vertex deeper than it can have come within the step leaves the short way, but slowly and without a kick.
     bool caught = inside || depth > caughtDepth + 2.0f * abs(vn) * drift.step;
     float way = min(depth, (pushSpeed - min(vn, 0.0f)) * drift.step);
     position = caught ? x + n * way : position;
@@ -123,19 +123,20 @@ Contact constrain(bool inside, vec3 x, vec3 v, float distance, vec3 n, float fri
     float lost = min(friction * moved / step, speed);
     vec3 change = n * (moved / step) - tangential * (lost / max(speed, 1e-30f));
 
-    // what began the substep at rest on the surface goes back exactly, as in respond
+    // A vertex that began the substep at rest on the surface goes back exactly, as in respond.
     float started = distance - vn * step;
     bool rests = lost >= speed && abs(started) < min(restingSlack, -0.02f * vn * step);
     bool outside = distance >= 0.0f;
-    // of what is caught a speed outwards is kept, and none inwards
+    // A caught vertex keeps a speed outwards, and none inwards.
     vec3 left = inside ? v + n * (clamp(vn, 0.0f, pushSpeed) - vn) : v + change;
     vec3 place = inside ? x + n * moved : x + change * step;
     rests = rests && !inside;
     return Contact(outside ? x : (rests ? x - v * step : place), outside ? v : (rests ? vec3(0.0f) : left));
 }
 
-// Returns what contact has made of a velocity v to which the solver still owes a kick, without it, all in m/s. Contact acts on
-// v + kick, or friction would cancel only half of what the springs do in a step and what it holds would creep.
+// Returns the velocity that contact has made of v, without the kick that the solver still owes it, all in m/s. Contact
+// acts on v + kick: otherwise friction would cancel only half of what the springs do in a step, and a vertex that it
+// holds would creep.
 vec3 withoutKick(vec3 answered, vec3 v, vec3 kick)
 {
     return answered != v + kick ? answered - kick : v;

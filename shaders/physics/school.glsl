@@ -1,5 +1,5 @@
-// How those of a school steer [Reynolds 1987], as accelerations in m/s^2. None
-// is singular: those in the same place do not part by separation. Read as C++ through GLM by the tests.
+// How the members of a school steer [Reynolds 1987], as accelerations in m/s^2. None is singular: separation does not
+// part two members in the same place. Read as C++ through GLM by the tests.
 
 // Away from another at -d (m), within a radius: 1 at the distance 0, none at the radius.
 vec3 awayFrom(vec3 d, float radius)
@@ -23,7 +23,7 @@ vec3 atMost(vec3 v, float most)
     return v * min(1.0f, most / sqrt(max(squared, 1e-20f)));
 }
 
-// The two in turn: `first` up to the most, and what that leaves for `then`.
+// Returns `first`, cut to the length `most`, plus as much of `then` as that leaves room for.
 vec3 inTurn(vec3 first, vec3 then, float most)
 {
     vec3 a = atMost(first, most);
@@ -44,7 +44,8 @@ vec3 backIntoBall(vec3 p, vec3 center, float radius)
     return d * (max(r - radius, 0.0f) / max(r, 1e-20f));
 }
 
-// Towards a direction: the velocity that is wanted, no steeper than the tangent allows; where it says nothing, ahead.
+// Returns the unit direction of the wanted velocity, or `forward` where that is zero, made no steeper than the tangent
+// `steepest` allows.
 vec3 courseOf(vec3 wanted, vec3 forward, float steepest)
 {
     float size = sqrt(dot(wanted, wanted));
@@ -66,8 +67,8 @@ vec3 turnBetween(vec3 from, vec3 to, vec3 otherwise)
     return opposite ? otherwise * angle : axis * (sine > 1e-6f ? angle / sine : 1.0f);
 }
 
-// A sine of a multiple of 1/256 rad/s, so that after 512 pi s (wanderPeriod of src/simulate/school.cpp) all are where they
-// were. random in [0, 1).
+// A sine whose frequency is a multiple of 1/256 rad/s, so that all such sines repeat after 512 pi s (wanderPeriod of
+// src/simulate/school_passes.cpp). random in [0, 1).
 float wanderSine(float time, float least, float random, float phase)
 {
     return sin(time * ((least + floor(256.0f * random)) / 256.0f) + 40.0f * phase);

@@ -44,7 +44,8 @@ vec4 throughGlass(Surface s, vec3 tint)
     float mirror = head * head + (1.0 - head * head) * pow(1.0 - facing, 5.0);
     vec3 passed = pow(tint, vec3(1.0 / steep)) * (1.0 - mirror);
     vec3 mirrored = mirror * mirroredFrom(s.place, reflect(along, s.normal), 0.1);
-    // Where nothing is moved, what is there shows through; elsewhere the plate covers it with what it has moved.
+    // Where the plate displaces nothing, the picture behind shows through. Elsewhere the plate covers it with the
+    // displaced picture.
     float moved = smoothstep(0.3, 2.5, length((bent - straight) * vec2(textureSize(lightBehind, 0))));
     float covered = mix(1.0 - passed.g, 1.0, moved);
     vec3 light = mirrored + moved * passed * unsqueeze(texture(lightBehind, bent).rgb);

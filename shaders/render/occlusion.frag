@@ -40,7 +40,7 @@ vec3 placeAt(ivec2 texel)
     return depth * vec3((2.0 * (vec2(inside) + 0.5) / vec2(size) - 1.0) * tangents, -1.0);
 }
 
-// Returns that of two ways to a neighbour which stays on the surface.
+// Returns the one of two steps to a neighbour that changes depth less, and so stays on the surface.
 vec3 flatter(vec3 a, vec3 b)
 {
     return abs(a.z) < abs(b.z) ? a : b;

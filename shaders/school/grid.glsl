@@ -1,6 +1,6 @@
-// The grid in which those of a school find one another: cells as wide as what they see. Rows of cells along x are
-// scattered over a table, a row's cells follow one another in it, and past its end at its beginning: the 27 cells around
-// one are nine runs. What other rows left in a run is told from its place.
+// The grid in which the members of a school find one another: its cells are as wide as the members see. Rows of cells
+// along x are scattered over a table. The cells of a row follow one another in it and wrap around at its end, so the 27
+// cells around a member are nine runs. A run may also hold members of other rows, which their places tell apart.
 
 // Returns the cell of a place. inverseCell: 1 over a cell's width, 1/m.
 ivec3 cellOf(vec3 place, float inverseCell)

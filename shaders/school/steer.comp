@@ -10,7 +10,7 @@ layout(std430, binding = 0) buffer Steering { vec4 steering[]; };
 
 void main()
 {
-    // what it writes it has read before: no two lanes may be of the same one
+    // A lane overwrites what it has read, so no two lanes may steer the same member.
     if (int(gl_GlobalInvocationID.x) >= grids[0].y) return;
     int slot = grids[0].x + int(gl_GlobalInvocationID.x);
     int body = int(texelFetch(sorted, slot).y);

@@ -1,5 +1,5 @@
-// One of a school: what the others, enemies, walls and its own habits make of it, as one acceleration; and what that asks
-// of its body.
+// Steers one member of a school: the others, enemies, walls and its own habits give one acceleration, from which the
+// motion of its body follows.
 #include "school/bodies.glsl"
 #include "school/grid.glsl"
 #include "physics/school.glsl"
@@ -39,7 +39,8 @@ float wallDistance(vec3 place)
     return clearance(wallAnchor, place, 0.5 * duration);
 }
 
-// Away from the nearest surface, the more the nearer to it what is ahead is.
+// Returns an acceleration away from the nearest surface, the stronger the nearer that is to the member or to the place
+// ahead of it.
 vec3 fromWalls(vec3 place, vec3 velocity)
 {
     vec3 ahead = place + velocity * walls.y;
@@ -110,7 +111,7 @@ Others lookAround(vec3 place, vec3 forward, int slot)
     return sum;
 }
 
-// At most so many members of a row are looked at, evenly spread over it: each for as many as it stands for.
+// The most members of a run that are looked at, spread evenly over it. Each counts for those that it stands for.
 const int mostOfRun = 48;
 
 // Towards those that are hunted, away from those that are fled from.
@@ -136,7 +137,8 @@ vec3 meetTargets(vec3 place)
                 weight += share * max(1.0 - length(met ? d : vec3(radius)) / radius, 0.0);
             }
         }
-        // who flees does so from each of them; who hunts goes for their middle, and the nearer the more
+        // A fleeing member turns away from each enemy. A hunting one goes for the middle of its prey, weighted towards
+        // the near ones.
         float strength = gridRules[t].z;
         a += sum * (strength < 0.0 ? strength : strength / max(weight, 1e-6));
     }
@@ -167,7 +169,8 @@ void steer(int body, int slot, vec4 earlier, out vec4 steering[STEERING_ELEMENTS
     float perOther = 1.0 / max(seen.count, 1.0);
     vec3 liked = seen.apart * others.y;
     if (seen.count > 0.0) {
-        // their mean velocity turns it, and their mean speed is its own: those that swim to all sides do not stop it
+        // Their mean velocity turns a member, but its own speed follows their mean speed: others that swim in all
+        // directions do not stop it.
         vec4 theirs = seen.velocity * perOther;
         vec3 aligned = theirs.xyz - forward * (dot(theirs.xyz, forward) + speed - theirs.w);
         liked += aligned * others.z + seen.place * (perOther * others.w);
@@ -185,7 +188,7 @@ void steer(int body, int slot, vec4 earlier, out vec4 steering[STEERING_ELEMENTS
     vec3 steered = inTurn(urgent, liked, speeds.w);
     steered = mix(earlier.xyz, steered, 1.0 - exp(-duration / reaction));
 
-    // what points along the body is speed, what points aside is a turn
+    // Steering along the body changes its speed, steering across it turns it.
     vec3 wanted = forward * max(speed, speeds.x) + steered * reaction;
     vec3 course = courseOf(wanted, forward, habits.x);
     vec3 turning = atMost(turnBetween(forward, course, upper) / reaction, habits.y);

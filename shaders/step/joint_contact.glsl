@@ -10,7 +10,7 @@
 // vertex keeps to both (the crease), where three do, it stays; so no order of the file matters.
 
 const float touching = 1e-5;  // m: what is nearer touches
-const float retouching = 1e-6;  // m: rounding brings back so much to a surface that was answered
+const float retouching = 1e-6;  // m: rounding may put a vertex this far back into a surface that has been answered
 #ifdef VERLET
 const float stillSquared = 1e-8;  // m^2/s^2: at rest, but for the rounding of positions over a substep
 #else
@@ -34,8 +34,8 @@ void setWay(vec3 drifted, float step)
     waySquared = (dot(drifted, drifted) + fastestSurface() * fastestSurface()) * (2.0 * step * step);
 }
 
-// The direction in which a vertex that is in several colliders comes out: the short way of all together; where they push
-// against one another, across, and up.
+// Returns the direction in which a vertex leaves the colliders that it is in: the mean of their normals or, where these
+// cancel, a direction across the normal of the deepest, upwards.
 vec3 wayOut(Survey s, vec3 gravity)
 {
     Touch t = s.deepest;
@@ -66,9 +66,9 @@ struct Way {
     bool caught;  // deep inside a collider where it began
 };
 
-// The next surface that the vertex touches on its way to c.position, where it is at `end`; none: its distance is not
-// negative. Of one that is looked for along the way the distance is that of c.position from its plane, and `way` goes on
-// to where it touches.
+// Returns the next surface that the vertex touches on its way to c.position, where it arrives at the time `end`. Where
+// it touches none, the distance is not negative. For a surface that is looked for along the way, the distance is that
+// of c.position from its plane at the touch, and `way` moves on to that touch.
 //
 // One survey stands here for the way and for its end, because a rasteriser on a CPU runs this text at least once a frame.
 // `at`: the survey of the end.
@@ -77,7 +77,8 @@ Touch nextTouch(vec3 anchor, Contact c, inout Way way, float end, bool first, ou
     Touch found = noTouch();
     float ago = -1.0;  // s
 #ifdef TABLED
-    // Within the ball that was looked at nothing touches but what is listed; a moving collider may throw out of it.
+    // Within the ball that was searched, a vertex can touch only the listed colliders. A moving one may throw it out of
+    // the ball.
     if (max(distance(way.from, nearPlace), distance(c.position, nearPlace)) >= nearReach) nearKnown = false;
 #endif
 #ifdef SWEPT
@@ -186,7 +187,7 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
             continue;
         }
         if (!alone && (crease || n == mostTouches - 1)) {
-            // the third that presses, or the last of many
+            // the third surface that presses, or the last that is answered
             vec3 back = position - wayGained(velocity - t.velocity, drift);
             vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back - c.position, t.normal) + t.distance);
             bool fits = crease && min(backs.x, backs.y) > -touching;
@@ -217,7 +218,8 @@ Contact collideAll(vec3 anchor, vec3 position, vec3 velocity, vec3 drifted, vec3
             if (crease) {
                 keepToBoth(r, before.normal, t.normal, offs, speeds);
                 followPosition(r, position, velocity, drift.step);
-                // at rest in it: back to where the substep began, exactly, or roundings would add up
+                // At rest in the crease, the vertex goes back exactly to where the substep began, or roundings would
+                // add up.
                 vec3 back = position - wayGained(velocity - t.velocity, drift);
                 vec2 backs = vec2(dot(back, before.normal) - beforeOff, dot(back, t.normal) - off);
                 vec3 left = r.velocity - t.velocity;
@@ -266,7 +268,7 @@ bool answerNearest(vec3 anchor, inout Contact c, vec3 drifted, Drift drift)
     Contact r = answer(caught, c.position, c.velocity, t.distance, t.normal, material.x, material.y, drift);
     bool answered = touches ? s.atEnd && (came || caught) : passes;
     if (!alone) {
-        // whatever way was made to the answer's place, nothing else is near it
+        // The answer holds only if no other surface is near the way to its place.
         vec3 moved = r.position - c.position;
         float reach = max(touches ? dot(moved, moved) : 0.0, 0.5 * waySquared);
         float free = max(s.others - 2.0 * touching, 0.0);

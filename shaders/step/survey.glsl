@@ -86,7 +86,7 @@ void meetShort(inout Survey s, Touch t, vec3 velocity, ivec3 skip)
 // The surface nearest to a vertex.
 struct Nearest {
     Touch touch;
-    bool atEnd;    // whether the end of the way alone tells of it: a solid one, or a field that a short way does not cross
+    bool atEnd;    // whether the end of the way suffices: a solid, or a field that a short way does not cross
     bool isSolid;
     float others;  // m, at least to all others
 };

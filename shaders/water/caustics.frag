@@ -1,5 +1,5 @@
-// How much brighter than under a calm surface: what a triangle's area was, by what it is now. Triangles that have
-// folded over one another add up. Set by C++: TEXELS, of the tile's side.
+// How many times brighter the light is than under a calm surface: a triangle's area before refraction over its area
+// now. Triangles that have folded over one another add up. Set by C++: TEXELS, of the tile's side.
 
 in vec2 before;
 

@@ -173,7 +173,7 @@ void findColliderOutOfReach(const Scene& scene, std::vector<Warning>& out) {
     }
 }
 
-// Drawing is what costs then, and nobody sees what it draws.
+// Warns of more skin triangles than a picture can show: they cost most of the time and nobody sees them.
 void findTooManyTriangles(const Scene& scene, std::vector<Warning>& out) {
     constexpr double pixels = 1280.0 * 720, most = 2 * pixels;
     for (const Group& group : scene.groups) {

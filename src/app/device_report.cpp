@@ -85,7 +85,7 @@ class DrawnScene {
           scene_(readScene(file.second)),
           simulation_(*device.context, device.shaderRoot, compile(scene_), {.cache = device.cache}) {}
 
-    // A frame that makes all that is needed, then until there are enough, or time is up.
+    // Draws one frame to make all that is needed, then measures frames until there are enough, or time is up.
     void measure(DrawnTimes& out, bool quick) {
         renderer_.emplace(*device_.context, device_.shaderRoot, scene_, simulation_.plan(),
                           RenderOptions{.width = out.width, .height = out.height});

@@ -30,7 +30,7 @@ class RigidFit {
             x -= middle;
     }
 
-    // What takes it nearest to where molecule m is drawn.
+    // Returns the rigid motion that brings the rest shape nearest to the drawn molecule m.
     exchange::RigidMotion motion(size_t m, const std::vector<glm::dvec3>& places) {
         std::vector<glm::dvec3> scaled;
         for (const glm::dvec3& x : rest_)

@@ -307,7 +307,7 @@ int scenesCommand(const Options& options) {
     return 0;
 }
 
-// There is no window to choose in. Who asks for work has forgotten to say of what.
+// Lists the scenes, as there is no window to choose one in. Options that ask for work need a scene.
 static int listInstead(const Options& options) {
     const bool asks = !asksForNothing(options) || options.headless || options.frames ||
                       options.context != gpu::ContextKind::automatic;
@@ -322,7 +322,8 @@ static window::WindowOptions windowOptions(const Options& options) {
     return {options.scale, options.frames, options.screenshot};
 }
 
-// Such molecules take long to plan, and contexts differ in what they hold of them.
+// Whether a molecule is too large for one lane. Such molecules take long to plan, and contexts differ in the
+// sizes that they hold.
 static bool hasLarge(const Scene& scene) {
     return std::any_of(scene.groups.begin(), scene.groups.end(), [](const Group& group) {
         return int(group.molecule.vertices.size()) > FusedLimits::laneVertices;
@@ -331,7 +332,8 @@ static bool hasLarge(const Scene& scene) {
 
 int runCommand(const Options& options) {
     const bool window = wantsWindow(options);
-    // mistakes in the files are told before any context is made; what the context can hold, once it is there
+    // Mistakes in the files are reported before a context is made; what the context cannot hold, once it is
+    // made.
     const bool chooses = options.files.empty() || fs::is_directory(options.files.front());
     if (chooses && !window) return listInstead(options);
     std::optional<Loaded> loaded;

@@ -17,8 +17,8 @@ struct Trial {
     std::string untried;                // why it could not run here; empty: it ran
 };
 
-// One of it falls by half its size onto a floor; pins hold. As many substeps as it needs, where those of a
-// scene that says nothing do not do. Error: it does not run, and why.
+// Lets one molecule fall by half its size onto a floor; its pins hold. It takes the default substeps of a
+// scene, or more where it needs more. Error: it does not run, and why.
 Trial tryOut(const Molecule& molecule, const Options& options);
 
 }  // namespace shoal::app

@@ -20,10 +20,11 @@ struct CoarseMesh {
     std::vector<int> source;  // coarse vertex -> welded vertex nearest to it
 };
 
-// At most `vertices` of them, 3 or more; fewer when the mesh has fewer. Edges collapse by the quadric error
-// metric ([Garland 1997], by meshoptimizer). Vertices are gathered about seeds far from one another where its
-// topology stops that too early, for flat meshes, of which every collapse costs nothing, and where a straight
-// piece would keep no vertex: none of the mesh is left further than a quarter of its size from the nearest.
+// Simplifies a mesh to at most `vertices` vertices, 3 or more. Edges collapse by the quadric error metric
+// ([Garland 1997], by meshoptimizer). In three cases vertices are gathered about seeds far from one another
+// instead: where the topology stops the collapse too early, in flat meshes, where every collapse costs
+// nothing, and where a straight piece would keep no vertex. No vertex of the mesh is left further than a
+// quarter of its size from the nearest coarse vertex.
 CoarseMesh simplify(const Mesh& mesh, int vertices);
 
 // So many rings of four vertices (right, top, left, bottom) around the longest axis of the box, from its

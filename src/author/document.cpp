@@ -154,8 +154,8 @@ void Document::save() {
     }
     if (edited != text_) writeFile(file_, edited);
     isNew_ = false;
-    // one state of the draft is the file's now; those before and after it keep their origins where the
-    // elements are the same ones
+    // The draft is now as the file is. The drafts of undo and redo keep their origins where they have the
+    // same elements.
     text_ = edited;
     const Draft before = now_;
     restart(parseMolecule(text_, file_));

@@ -331,9 +331,10 @@ class Maker {
             options_.mass.value_or(density * (inside_ ? made_.volume : made_.area * material_->thickness));
         density_ = inside_ ? mass / made_.volume : mass / (made_.area * material_->thickness);
         length_ = extentAlong(spread.axis);
-        // of a plate: E / (1 - nu^2), and a section as thick as the sheet; what is bent bends as a whole
+        // A plate has the modulus E / (1 - nu^2) and a section as thick as the sheet. A bent shape bends as a
+        // whole.
         const double plate = material_->thickness / std::sqrt(12 * (1 - 0.09));
-        // the plate's is the least: a bulky shape, too, may have its mass in one plane
+        // The plate's radius is the least: a bulky shape, too, may have its mass in one plane.
         gyration_ = inside_ || bulky() ? std::max(spread.gyration, plate) : plate;
         const std::vector<bool> pinned = choosePins(mesh_, coarse_, options_.pins);
         const double size = std::max({made_.extent.x, made_.extent.y, made_.extent.z});
@@ -544,8 +545,9 @@ MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options) {
     const Mesh all = placed(mesh, options), shape = withoutDoubledWalls(all);
     if (options.springs != FromMesh::Springs::automatic || options.rings || !options.skin)
         return Maker(all, shape, options).run();
-    // Beyond, what hangs over the ends of the simulated surface swings about, or hangs on another part's; and
-    // what is far from all simulated vertices does not bend. The reach is a share of the size.
+    // Beyond these limits, parts of the skin that hang over the ends of the simulated surface swing about or
+    // hang on another part's vertices, and parts far from all simulated vertices do not bend. The reach is a
+    // share of the size.
     constexpr double mostLever = 2, mostReach = 0.25;
     std::string why;
     std::optional<MadeMolecule> plain;

@@ -110,15 +110,16 @@ MadeMolecule makeMolecule(const Mesh& mesh, const FromMesh& options);
 // colour that is not painted: Error.
 std::vector<bool> choosePins(const Mesh& mesh, const CoarseMesh& coarse, const PinChoice& choice);
 
-// The mesh that becomes a skin: a vertex for each that differs by place, by uv or, at an edge of more than 40
-// degrees, by normal; without triangles that have no extent. With `triangles`: simplified to about so many
-// (quadric edge collapse, meshoptimizer), or as far as its seams let it. Error: more than a molecule file
-// holds.
+// Returns the mesh that becomes a skin. Corners share a vertex where place and uv agree and the normals
+// differ by at most 40 degrees; triangles with two corners in one vertex are left out. With `triangles`, the
+// mesh is simplified to about so many (quadric edge collapse, by meshoptimizer), or as far as its seams
+// allow. Error: more than a molecule file holds.
 SkinMesh skinMeshOf(const Mesh& mesh, std::optional<int> triangles);
 
-// The colours of a mesh's parts in one image, sRGB, its holes where those of the parts' images are. The
-// mesh's texture coordinates become those of that image, and its triangles share no corners any more.
-// Nothing, and the mesh stays as it is: all of it has one colour. `notes` get what the image does not show.
+// Gathers the colours of a mesh's parts in one sRGB image, with holes where the parts' images have them. The
+// mesh's texture coordinates become those of that image, and its triangles no longer share corners. Where all
+// of the mesh has one colour, it stays as it is and nothing is returned. `notes` says what the image does not
+// show.
 std::optional<Image> gatherColors(Mesh& mesh, std::vector<std::string>& notes);
 
 // The skin that hangs on the corners of the cell, of these of the molecule, that holds each of its vertices,

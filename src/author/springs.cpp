@@ -97,7 +97,7 @@ SpringPairs springsOfRings(int rings) {
 //
 // With K the mass-scaled stiffness of molecule/linearised.h, soft motions are its eigenvectors of eigenvalues
 // near zero, less the rigid motions. A spring between a and b with direction n adds k (n . (u_a - u_b))^2 to
-// the energy of a motion u: the pair is taken of which that is largest for its length.
+// the energy of a motion u. The pair is chosen that adds most for its length.
 
 namespace {
 

@@ -10,8 +10,8 @@ namespace {
 using measure::Clock, measure::secondsSince;
 
 // The frames that a visit times, after a restart and one frame that is not timed, so that caches are as in a
-// run of one case. Slow frames do without that one and are timed one by one, the first in the warm-up: five
-// frames of a fall differ by little, and any two samples of a visit by nothing.
+// run of one case. Slow frames go without the untimed frame and are timed one by one. The first is timed in
+// the warm-up; it is another frame than the later samples, but five frames of a fall differ little.
 constexpr int framesTimed = 4;
 constexpr double slowFrameSeconds = 0.1;
 

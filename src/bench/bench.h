@@ -62,8 +62,9 @@ std::vector<std::vector<Case>> byGroup(const std::vector<Case>& cases) {
 }
 
 // Measures in turn what is not left out. make(result) gives a pointer to what measures it: it has warmUp(),
-// the seconds of a visit after that, visit(), and finish(), which writes the times into the result. What the
-// device has no memory for is left out; what fails ends all, but where the result may fail alone.
+// the seconds of a visit after that, visit(), and finish(), which writes the times into the result. A case
+// that the device has no memory for is left out. An error ends the measurement, unless the result may record
+// it.
 template <typename Result, typename Make>
 void measureInTurn(std::vector<Result>& results, const measure::Schedule& schedule,
                    const BenchProgress& progress, const Make& make) {

@@ -136,7 +136,7 @@ struct ContactBaseline::Data {
         piece.contacts.resize(piece.found.size());
     }
 
-    // Sets the place, or the impact that has been since the last step: of one that is not known.
+    // Sets the geometry of a contact and, unless it is `known` from the last step, an impact since then.
     void meet(Contact& contact, const vec3& d, const vec3& u, bool known, bool isFirst,
               const ContactBaselineStep& step) const {
         const float squared = glm::dot(d, d), apart = std::sqrt(squared);
@@ -253,8 +253,8 @@ struct ContactBaseline::Data {
         }
     }
 
-    // An iteration from what the last two make of the spheres, extrapolated by `momentum`, and that for the
-    // next.
+    // Does an iteration, from the impulses of the last two, extrapolated by `momentum`. The spheres' motion
+    // is extrapolated by `nextMomentum`, for the next iteration.
     void relax(Piece& piece, float friction, float momentum, float nextMomentum) {
         for (Active& active : piece.active) {
             const Going own = going[size_t(active.slot)];

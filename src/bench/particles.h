@@ -64,8 +64,8 @@ struct ParticleTimes {
     double perParticle() const { return frame.min / one.count(); }  // s
 };
 
-// RMS over 4,096 particles, after 1 s, from the closed form of constant force and drag. Of steps and loops
-// that nothing else acts in; else nothing.
+// Returns the error after 1 s against the closed form of constant force and drag, RMS over 4,096 particles;
+// nothing for a case in which anything else acts.
 std::optional<double> positionError(const ParticleCase& one, const Molecule& point,
                                     const BenchDevice& device);
 

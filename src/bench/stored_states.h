@@ -2,9 +2,10 @@
 // (models/golden/states.json and pictures.png; docs/testing.md says how they are made).
 //
 // Each group has a handful of statistics, and some vertices where these can be foretold. A tolerance is eight
-// times what shifting every vertex by a rounding or two (3e-7 of its place) every tenth frame makes of the
-// figure, at least 2e-4 of its scale. Where that moves vertices by more than a quarter of a molecule, as
-// contact and births do after a while, their places are chance: then only the statistics are stored.
+// times the change of a figure when every vertex is shifted by a rounding or two (3e-7 of its place) every
+// tenth frame, and at least 2e-4 of the figure's scale. Where these shifts move vertices by more than a
+// quarter of a molecule, as they do after a while with contact and births, the vertices' places are chance,
+// and only the statistics are stored.
 #pragma once
 
 #include <optional>

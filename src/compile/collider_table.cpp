@@ -107,7 +107,8 @@ ColliderTable::Loops ColliderTable::write(std::vector<glm::vec4>& samples) const
     if (empty()) return out;
     std::string middle, full, listed, gather;
     if (isFar()) {
-        // Not a constant of the text, which NVIDIA's compiler would add to what is near, where it loses that.
+        // This is not a constant in the text: NVIDIA's compiler would add it to small distances, which would
+        // lose their digits.
         middle = concat("    vec3 middle = sampleAt(", samples.size(), ").xyz;\n");
         samples.emplace_back(glm::vec3(middle_), 0);
     }

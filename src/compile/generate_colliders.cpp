@@ -58,7 +58,7 @@ class ColliderWriter {
         const bool turns = collider.path->turns();
         ColliderPath path = *collider.path;
         if (!turns) {
-            // what is far off in its own frame is in one whose origin lies there
+            // A shape far from the origin of its own frame gets a frame with an origin near it.
             const glm::dvec3 size = glm::abs(own);
             constexpr double near = 32;  // m
             if (std::max({size.x, size.y, size.z}) > near)

@@ -259,7 +259,8 @@ void warnOfStillAir(const Scene& scene, const Group& group, const GroupPlan& pla
                                                wind ? "wind" : "fields", " would move it: it feels none")});
 }
 
-// Each sphere is compared with all that share its cells: that of many in one place is the square of them.
+// Warns of crowds: each sphere is compared with all that share its cells, so many in one place cost the
+// square of their number.
 void warnOfCrowds(const Scene& scene, Plan& plan) {
     constexpr double many = 64;
     for (const ContactGroup& contact : plan.contact.groups) {

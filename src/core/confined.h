@@ -68,8 +68,8 @@ class Confined {
     Confined(const Confined&) = delete;
     Confined& operator=(const Confined&) = delete;
 
-    // The arrays in the order in which the child puts them. Error, located at the file: the child's own, it
-    // crashed, or it needed more time or memory than its files are worth.
+    // Returns the next array, in the order in which the child puts them. Error, located at the file: the
+    // child threw one, it crashed, or it needed more time or memory than its files allow.
     template <typename T>
     std::vector<T> get() {
         static_assert(std::is_trivially_copyable_v<T>);

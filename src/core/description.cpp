@@ -232,7 +232,7 @@ JsonValue Description::writeSomeAny(std::initializer_list<const char*> names, co
     return out;
 }
 
-// Whether a number is as where the key is left out, which need not be one that a file can say: for ever.
+// Whether a number has its default value, which a file need not be able to state, such as infinity.
 bool Description::isUsual(const Key& key, const void* object) const {
     if (key.needed || key.member.optional) return false;
     if (key.kind == Kind::number) return held<double>(key.value(object)) == held<double>(key.value(usual_));

@@ -151,8 +151,8 @@ class Description {
         EXPECTS(isOf(typeid(S)));
         readFileAny(root, file, &out, context);
     }
-    // Error: what a file could not say of the struct, by the same words; no number is further from 0 than
-    // `largest`.
+    // Error, in the reader's words: the struct holds what a file could not say, or a number further from 0
+    // than `largest`.
     template <typename S>
     void check(const S& object, const Where& where, double largest) const {
         EXPECTS(isOf(typeid(S)));
@@ -206,8 +206,8 @@ class Description {
     std::function<void(const void*, const Where&)> rule_;
 };
 
-// How far the slider of a number goes, which an object has now: its own numbers are always within, and
-// nothing that the key may not say.
+// Returns the range of the slider for a number that an object has now. It always includes the object's own
+// numbers, but no value that the key does not allow.
 Slider sliderOf(const Key& key, const void* object);
 
 }  // namespace shoal

@@ -57,8 +57,9 @@ struct CloseFile {
 };
 using FilePointer = std::unique_ptr<std::FILE, CloseFile>;
 
-// For what is too long for memory: open for writing and reading, beside `target`, where there is room for it
-// if there is for that. It has no name, and so never stays. Error: cannot be made.
+// Opens a file for data too long for memory, for writing and reading. It lies beside `target`, where there is
+// room for it if there is for `target`, and has no name, so that it vanishes when it is closed. Error: cannot
+// be made.
 FilePointer unnamedFile(const std::filesystem::path& target);
 
 // Reads a file piece by piece, where it need not lie in memory as a whole.
@@ -111,8 +112,9 @@ class SoleWriter {
 // Removes all part files of this process; safe in a signal's handler.
 void removePartFiles() noexcept;
 
-// Without finish() nothing stays, and the old file is kept. What is no file but takes bytes (/dev/null, a
-// FIFO that somebody reads) is never replaced: they go there as they come.
+// Writes a file piece by piece. Without finish() nothing of it stays, and the old file is kept. A device or
+// FIFO that takes bytes (/dev/null, a FIFO that somebody reads) is never replaced: the bytes go there as they
+// come.
 class FileWriter {
   public:
     // Error: PartFile's, or nobody reads the FIFO.

@@ -15,10 +15,10 @@ struct TextChange {
     std::string with;
 };
 
-// Carries what differs between `before` and `after` over to `original`, which was read from `text` and says
-// what `before` says, perhaps in other words: defaults that are spelt out, another order, comments. All three
-// of one kind. Elements of arrays go by their index, but for those that are left out or put in between equal
-// ones; an array of numbers is one value.
+// Adds the changes of `text` that turn what `before` says into what `after` says. `original` was read from
+// `text` and says the same as `before`, perhaps in other words: with defaults spelt out, in another order,
+// with comments. All three are of one kind. Elements of arrays are matched by their index, except where some
+// are left out or put in between equal ones; an array of numbers is one value.
 void addChanges(const std::string& text, const JsonValue& original, const JsonValue& before,
                 const JsonValue& after, std::vector<TextChange>& changes);
 

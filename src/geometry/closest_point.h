@@ -30,9 +30,10 @@ class ClosestPoints {
     ClosestPoint at(const glm::dvec3& x, double within = std::numeric_limits<double>::infinity(),
                     int guess = -1) const;
 
-    // m: from a point of the surface along the unit `direction`, which leads inside, to where it comes out of
-    // all shells again, through a triangle that faces away by less than 45 degrees; infinite where that is
-    // not so, or where the point lies inside another shell. Of closed meshes.
+    // Returns the thickness of a closed mesh, m: the distance from a point of the surface along the unit
+    // `direction`, which leads inside, to where it leaves all shells again, through a triangle that faces
+    // away by less than 45 degrees. Infinite where there is no such place, or where the point lies inside
+    // another shell.
     double across(const glm::dvec3& from, const glm::dvec3& direction) const;
 
   private:

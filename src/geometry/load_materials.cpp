@@ -176,7 +176,8 @@ class MaterialReader {
             out.alpha = SurfaceMaterial::Alpha::cut;
     }
 
-    // A colour image whose alpha is another's: its alpha, or its brightness where it has none. Its number.
+    // Returns the number of an image with the colours of one image and the alpha of `mask`, or the brightness
+    // of `mask` where that has no alpha.
     int masked(int colorImage, int mask) {
         if (colorImage == mask) return colorImage;
         Image out = mesh_.images[size_t(mask)];

@@ -21,9 +21,8 @@ struct MeshLevel {
 };
 
 // All of the mesh, then levels of 0.4 times as many triangles as the last, down to 8 or as far as seams let.
-// A flat part is taken to bend: no level is coarser than it may be on a bowl as wide as the mesh. Normals
-// count as places do: the error is at least what they are off (root of the mean square, of unit vectors) over
-// an edge of the level.
+// Flat parts may bend in motion, so levels are made of the mesh bent like a bowl as wide as itself. Normals
+// count as well: a level's error is at least the RMS deviation of its unit normals times its mean edge.
 std::vector<MeshLevel> levelsOf(const std::vector<glm::dvec3>& positions,
                                 const std::vector<glm::dvec3>& normals, const std::vector<uint32_t>& corners);
 

@@ -28,8 +28,8 @@ std::string programKey(const ContextInfo& info, std::span<const std::string_view
 
 class ProgramCache {
   public:
-    // Beyond that the oldest are removed; but not what this run uses, which would leave the next one nothing,
-    // up to mostPrograms.
+    // Beyond keptPrograms the oldest are removed, except those that this run uses, up to mostPrograms:
+    // otherwise the next run would find none of them.
     static constexpr size_t keptPrograms = 256, mostPrograms = 4096;
 
     // The folder is made when something is written. Does nothing without a folder, below OpenGL 4.1, and

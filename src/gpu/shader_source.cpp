@@ -76,7 +76,7 @@ class Resolver {
         source.files.push_back(name);
         return static_cast<int>(source.files.size()) - 1;
     }
-    // Leaves it out where a condition does, and what that leaves of gaps.
+    // Adds a line, unless a condition leaves it out or it is blank after a blank one.
     void addLine(std::string_view line, int file, int number, bool inComment = false) {
         const bool stays = inComment ? conditions_.taken()
                                      : conditions_.stays(line, {source.files[size_t(file)], number, 0, {}});

@@ -102,8 +102,9 @@ ExactEnds::ExactEnds(const Scene& scene, const Plan& plan, const std::vector<Sna
     }
 }
 
-// As many molecules are: halved six times, or, where contact breaks the order, as often as is allowed, with
-// the last halving left out because it would not end in time.
+// Estimates the seconds of one molecule as most need them: its step is halved six times or, where contact
+// breaks the order, as often as is allowed. Then the last halving is left out, because it would not end in
+// time.
 double ExactEnds::secondsOf(const One& one, double most) const {
     const bool smooth = one.problem.colliders.empty();
     const double first = double(reference::firstSteps(one.problem, duration_)) * secondsPerStep_;
@@ -121,7 +122,8 @@ std::string ExactEnds::nameOf(const One& one) const {
     return concat("molecule ", one.index, " of \"", names_[one.group], "\"");
 }
 
-// Told beforehand, with a margin for what the estimate is worth; what it lets pass, the clock ends.
+// Decides beforehand, with a margin for the uncertainty of the estimate. A molecule that passes by mistake is
+// ended by the clock.
 bool ExactEnds::tooStiff(const One& one, double seconds) {
     const double steps = double(reference::firstSteps(one.problem, duration_));
     if (3 * steps * secondsPerStep_ < 2 * seconds) return false;

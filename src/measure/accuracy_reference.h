@@ -55,9 +55,9 @@ class ExactEnds {
 
     // Estimated, with all cores, each molecule in at most so many seconds.
     double secondsToSolve(double secondsAMolecule = usualSeconds) const;
-    // Solves all molecules to a tolerance, each in at most so many seconds, unless that has been done. Of
-    // molecules that differ, the worst counts, and why() says which. Chaotic or too stiff: what was there
-    // before stays; roughly: the nearer of both.
+    // Solves all molecules to a tolerance, each in at most so many seconds, unless that has been done. The
+    // worst molecule decides the result, and why() names it. Where that is chaotic or too stiff, the earlier
+    // solution stays; where it is solved roughly, the more accurate of the two.
     Settled solve(double tolerance, double secondsAMolecule = usualSeconds);
     const std::string& why() const { return why_; }
     double error() const { return error_; }  // of what is there: a bound

@@ -1,8 +1,8 @@
-// The cheapest method, step and field sampling whose error on a scene is below a given one, found by
-// measuring: a few molecules against the reference, candidates in the order of what their substeps cost,
-// each bisected to the fewest substeps that do, and given up where it cannot beat the best any more, timed
-// again in turn. What gets there has to hold over a sample of some hundred molecules, else it takes more
-// substeps: what is claimed is claimed of that sample.
+// Finds, by measuring, the cheapest method, step and field sampling whose error on a scene is below a given
+// one. The error is that of a few molecules against the reference. Candidates are tried in the order of what
+// their substeps cost. Each is bisected to the fewest substeps that suffice, and given up when it can no
+// longer beat the best. Those that get there are timed again, in turn. The result must hold over a sample of
+// some hundred molecules, or it takes more substeps: the claimed error is that of the sample.
 //
 // The result is kept as a file, <folder>/calibrations/<key>.json, under a hash of everything that it depends
 // on: the scene as compiled (with its molecules), the error, what the search was narrowed to, the shaders,

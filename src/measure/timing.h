@@ -35,8 +35,8 @@ bool losesAgain(double& challenger, double& best, const std::function<double()>&
 struct Schedule {
     double seconds = 15;  // of frames and restarts, a group
     int leastSamples = 3, mostSamples = 100;
-    // s, that the least samples of a case may take: fewer are taken of what takes longer, none beyond the
-    // warm-up where a visit alone does.
+    // s, that the least samples of a case may take together. A slower case gets fewer samples, and none
+    // beyond the warm-up where a single visit takes longer.
     double patience = std::numeric_limits<double>::infinity();
 };
 

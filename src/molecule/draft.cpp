@@ -176,8 +176,8 @@ JsonValue* find(JsonValue& object, const std::string& key) {
     return nullptr;
 }
 
-// One value for all kept elements that take theirs from the defaults: then the defaults change, not each of
-// them. Both sides are brought to say so.
+// Where all kept elements that take a value from the defaults have the same new one, changes the default
+// instead of each of them. `before` and `after` are both rewritten to say so.
 void liftDefault(const char* array, const char* key, const JsonValue& root, const std::vector<int>& origins,
                  JsonValue& before, JsonValue& after) {
     const JsonValue *defaults = root.find("defaults"), *original = root.find(array);

@@ -44,7 +44,7 @@ Ranking ranked(const Molecule& molecule, const glm::dvec3& point) {
 
 Neighbours nearest(const Ranking& all) {
     const size_t count = std::min(all.size(), size_t(Skin::mostWeights));
-    // with nothing left out there is no one to make place for
+    // If no vertex is left out, there is none at which the kernel has to fall to 0.
     const double reach = all.size() > count ? all[count].first : 2 * all[count - 1].first;
     Neighbours out;
     for (size_t i = 0; i < count; ++i) {
@@ -54,8 +54,8 @@ Neighbours nearest(const Ranking& all) {
     return out;
 }
 
-// Where the nearest lie in a plane, on a line, or close together: the nearest, those that are needed to span
-// space as far as the point lies from them, and then again the nearest.
+// Chooses neighbours where the nearest vertices lie in a plane, on a line, or close together: the nearest
+// one, then those needed to span space as far as the point is away, then the nearest of the rest.
 Neighbours spanning(const Molecule& molecule, Ranking all) {
     const auto place = [&](size_t i) { return molecule.vertices[size_t(all[i].second)].position; };
     const glm::dvec3 first = place(0);

@@ -26,7 +26,8 @@ Buffer makeBuffer(gpu::Context& context, const GroupPlan& group, size_t elements
     }
 }
 
-// A CPU rasteriser takes its memory from the machine's, which grants more than there is and ends who uses it.
+// A CPU rasteriser takes its memory from the machine, which grants more than it has and kills the process
+// that uses it.
 void checkMemory(const gpu::Context& context, const GroupPlan& group, size_t elements) {
     if (!context.info().software) return;
     const auto each = int64_t(elements * sizeof(glm::vec4));

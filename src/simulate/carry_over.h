@@ -8,9 +8,10 @@
 
 namespace shoal {
 
-// The state of a run of `from` as `to` can load it. Each group of `to` goes on where `from` has it (by name,
-// else by number) with as many vertices a molecule, and both or neither with life. As many molecules as both
-// have go on; further places are free in a group with life, else as at the start, as other groups are.
+// Returns the state of a run of `from` in a form that `to` can load. A group of `to` continues the same group
+// of `from` (by its name, else by its number) if both have as many vertices a molecule and both or neither
+// have life; other groups begin anew. As many molecules continue as both groups have. Further places are free
+// in a group with life, and else as at the start.
 struct GoneOn {
     SavedState state;
     std::vector<std::string> restarted;  // names of the groups that begin anew

@@ -298,7 +298,7 @@ Checkpoint readCheckpoint(const std::filesystem::path& path, const Plan& plan) {
     out.parameters = parametersNow(head, plan);
     out.state.time = head.time;
     out.state.frames = head.frames;
-    // those that this scene has instead of the saved one's begin with a jump
+    // Forces that differ from those of the saved scene begin with a jump.
     const bool goesOn =
         head.forces == checkpoint::forcesAt(plan, head.time) && !changed(head, out.parameters);
     out.state.step = goesOn ? head.step : 0;

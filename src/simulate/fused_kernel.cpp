@@ -131,7 +131,8 @@ std::string rootText(const GroupPlan& group, const KernelOptions& options) {
     include(group.needs.steers, "fused/steering.glsl");
     include(!perLane, "generated/waves.glsl");
     include(true, perLane ? "generated/forces.glsl" : "fused/gather.glsl");
-    // never under a condition: what it includes would be left out with it, and not come again
+    // This include is never under a condition: a file that it includes would be left out with it, and a later
+    // include of that file does nothing.
     include(group.needs.fields, "generated/fields.glsl");
     include(true, "fused/step.glsl");
     if (options.work == Work::births)
@@ -217,10 +218,10 @@ std::string factorsText(const GroupPlan& group, const KernelOptions& options) {
     return corotatedBlock(corotatedPattern(group.shape, group.needs.pins));
 }
 
-// Writing out what is long costs time to compile, most of it in the driver; keeping a loop costs a GPU its
-// registers. Noise is too long for more than a few vertices. A CPU rasteriser has no registers that are
-// looked up by index: keeping a loop of more than 32 turns, fewer of which it writes out itself, costs it
-// several times as long to compile as writing it out.
+// Writing out a long loop takes long to compile, mostly in the driver; keeping it costs a GPU its registers.
+// Noise is too long to be written out for more than a few vertices. A CPU rasteriser has no registers that
+// are looked up by index. It writes out loops of up to 32 turns by itself; a longer loop that is kept takes
+// it several times as long to compile as one that is written out.
 VertexLoops loopsOf(const Plan& plan, const GroupPlan& group, const KernelOptions& options) {
     using Form = VertexLoops::Form;
     const auto form = [](bool keep) { return keep ? Form::keep : Form::writeOut; };

@@ -89,7 +89,7 @@ void Simulation::goOn(double time, int frames, double step) {
     path_->computeNormals(timers_);
 }
 
-// Whether a force that comes back to the start of its path, which ends elsewhere, does so between two times.
+// Whether a force jumps between two times, because its repeating path ends elsewhere than it starts.
 static bool comesBack(const Force& force, double from, double to) {
     if (!force.path || !force.path->repeats) return false;
     const auto& frames = force.path->keyframes;
@@ -101,7 +101,7 @@ static bool comesBack(const Force& force, double from, double to) {
     return round(from) != round(to);
 }
 
-// Whether what acts on molecules is not what went on in the last frame.
+// Whether anything that acts on molecules has jumped since the last frame.
 bool Simulation::forcesJump() const {
     if (!last_) return false;
     // forces hold what they are in the middle of a frame (forceParameters)
@@ -131,7 +131,7 @@ void Simulation::frame() {
 
 void Simulation::check() const {
     if (!last_ || !path_->alarmed()) return;
-    // what was wrong before the last frame is where it began: springs spread it over the molecule
+    // The state before the last frame shows where the trouble began: springs spread it over the molecule.
     const std::optional<SavedState> before = saveBefore();
     const Alarm first = before ? findAlarm(*before) : Alarm{};
     throw Runaway(plan_, runsAway(first) ? first : findAlarm(save()));

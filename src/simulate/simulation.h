@@ -92,9 +92,9 @@ class Simulation {
     // molecules crosses the bus.
     GroupState readMolecule(size_t group, size_t molecule) const { return path_->readOne(group, molecule); }
     SavedState save() const;
-    // Before the last frame, to look closer at what went wrong in it; nothing where it is gone: on the
-    // ping-pong path, in place, where some are born or die or school, and without a frame since the last load
-    // or restart.
+    // Returns the state before the last frame, to look closer at what went wrong in it. Nothing where that
+    // state is gone: on the ping-pong path, in place, with births, deaths or schools, and without a frame
+    // since the last load or restart.
     std::optional<SavedState> saveBefore() const;
     void load(const SavedState& saved);
     uint64_t hash() const;  // of the whole state's bits (FNV-1a): same scene, path and driver, same bits

@@ -30,7 +30,8 @@ struct Parameters {
 
 // As the scene has them: no slider moved.
 Parameters parametersOf(const Plan& plan);
-// Whether forces jump from one to the other. What a hand moves goes on, if with corners.
+// Whether forces jump from one to the other. A force that is moved by hand moves on without a jump, if with
+// corners.
 bool jumps(const Parameters& from, const Parameters& to);
 
 struct Frame {
@@ -86,8 +87,9 @@ std::vector<glm::vec4> colliderParameters(const Plan& plan, const GroupPlan& gro
 // hand are taken in the middle of the frame, and hold over it: an error of second order in the frame.
 // (Solvers with history ask for forces at the ends of their substeps, and get the middle of those.)
 //
-// One has its call's (compile/call_writer.h) from its slot on, a thrust exp(rate h), exp(rate h / 2), limit
-// and rate; the sum of the winds is last. The strengths of what is switched off are 0.
+// From its slot on, a force has the numbers of its call (compile/call_writer.h), and a thrust has exp(rate
+// h), exp(rate h / 2), limit and rate. The sum of the winds comes last. The strength of a force that is
+// switched off is 0.
 std::vector<glm::vec4> forceParameters(const Plan& plan, const GroupPlan& group, const Frame& frame);
 
 // Step, kickDrift and lag of shaders/physics/collide.glsl.

@@ -73,10 +73,10 @@ class RunawayQuery {
     bool asked_ = false;
 };
 
-// The fused path has two sides of positions and velocities but one of anchors and released pins, which a lane
-// changes in place. This takes those of `state`, the side before the last frame, back to what they were then:
-// an anchor moved by a shift that follows from vertex 0, and pins that had not been released were where they
-// started, at rest.
+// Takes the anchors and released pins of `state`, the side before the last frame, back to what they were
+// then. The fused path has two sides of positions and velocities, but only one of anchors and pins, which a
+// lane changes in place. An anchor moved by a shift that follows from vertex 0, and pins that had not been
+// released were where they started, at rest.
 void undoRecords(const GroupPlan& group, GroupState& state);
 
 }  // namespace shoal

@@ -111,8 +111,8 @@ class ScenePanel {
     Action draw(RunningScene& running, bool unsaved, const View& view);
     // The scene's groups are others than those that were edited: after a rebuild or one that failed.
     void follow(const Scene& scene);
-    // Action::change asks for this; null: nothing. It goes when it was accepted; refused, it stays in the
-    // panel, to be completed or dropped.
+    // The scene that Action::change asks for; null: none. accept() removes it from the panel. After refuse()
+    // it stays there, to be completed or dropped.
     const JsonValue* draft() const { return draft_ && draft_->changed ? &draft_->json : nullptr; }
     bool drafted() const { return draft_ && (draft_->changed || draft_->refused); }
     bool refused() const { return draft_ && draft_->refused; }

@@ -74,8 +74,8 @@ std::unique_ptr<Simulation> RunningScene::simulate(Plan plan, Path path) {
     return std::make_unique<Simulation>(*context_, shaderRoot(), std::move(plan), wanted);
 }
 
-// Where the path is free, the one that runs, unless the new plan is not for it: a shader that the driver
-// refuses is a mistake to be told, no reason to take the other path.
+// Where the path is free, keeps the one that runs, unless it cannot run the new plan. A shader that the
+// driver refuses is a mistake to report, no reason to take another path.
 std::unique_ptr<Simulation> RunningScene::simulateAsBefore(const Plan& plan, Path path) {
     if (path != Path::automatic || !simulation_) return simulate(plan, path);
     try {

@@ -64,16 +64,17 @@ class RunningScene {
     bool mayRedo() const { return !redo_.empty(); }
     void undo();
     void redo();
-    // The path as it is: one that takes another when a program is refused would hide the mistake.
+    // Makes the programs again on the same path: taking another one when a program is refused would hide the
+    // mistake.
     void remakePrograms() { build(scene, simulation_->plan(), simulation_->path().path); }
 
     bool unsaved() const;  // differs from the file
     // Accepts the groups as they are now: a later edit that fails goes back to them.
     void accept() { accepted_ = scene.groups; }
 
-    // The file, or one that it names, has changed. Edits that are not saved, and choices, are kept where the
-    // file did not change the same value; else nothing happens but that the conflicts are returned, unless
-    // `prefer` says who wins.
+    // Takes over a change of the file, or of one that it names. Unsaved edits and choices are kept where the
+    // file did not change the same value. Where it did, the conflicts are returned and nothing else happens,
+    // unless `prefer` says who wins.
     struct Reloaded {
         std::vector<std::string> conflicts;  // what both changed, each its own way
         std::vector<std::string> restarted;  // groups that begin anew: they have another shape

@@ -215,8 +215,8 @@ ScenePanel::Action ScenePanel::drawWhole(RunningScene& running, const View& view
     return action;
 }
 
-// Rings in the picture around the places of what is open in the panel, which the pointer moves across the
-// view. They may only where nothing else was changed in this frame, by which objects move in memory.
+// Draws rings in the picture around the places of what is open in the panel. The pointer moves them across
+// the view, if they `may` move: another change in this frame moves objects in memory.
 bool ScenePanel::moveHandles(const std::vector<JsonRows::Place>& places, const View& view, bool may) {
     const ImGuiIO& io = ImGui::GetIO();
     const Projector projector(view, io.DisplaySize);

@@ -13,8 +13,8 @@ class TimeLine {
   public:
     bool open = false;
 
-    // After a frame: keeps its state if its turn has come, and forgets what was kept of later ones, which may
-    // come otherwise now. In a loop, goes back to its begin after its end.
+    // To be called after a frame. Keeps the frame's state if its turn has come, and forgets the states of
+    // later frames, which may now turn out differently. In a loop, goes from its end back to its beginning.
     void note(Simulation& simulation);
     void forget();  // all: the scene is another one
 

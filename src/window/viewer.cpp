@@ -278,7 +278,8 @@ class Viewer : public WindowLoop {
         }
     }
 
-    // A scene is opened; a molecule becomes a group, and what else it may be a model of the scene.
+    // Takes a file dropped on the window: opens a scene, adds a molecule as a group, and takes any other file
+    // for a model of the scene.
     void takeDropped(const std::string& file) {
         namespace fs = std::filesystem;
         if (file.ends_with(".scene.json")) return askToOpen(file);

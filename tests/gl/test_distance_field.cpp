@@ -49,9 +49,9 @@ Mesh torus() {
 
 }  // namespace
 
-// Contact puts what is inside onto the surface, along the normal, in one step without gravity, at no more
-// than pushSpeed (physics/collide.glsl), which is why the step is long: from many points the shader's surface
-// is known.
+// In one step without gravity, contact moves points from inside onto the surface, along the normal, and so
+// shows where the shader has its surface. The step is long, because contact moves a point no faster than
+// pushSpeed (physics/collide.glsl).
 TEST_CASE("distance field: the shader's surface is the reference's", "[numerics][contact][distanceField]") {
     Scene scene = test::sceneOf(test::point(1), SolverKind::euler);
     scene.colliders = {fieldOf(torus(), 24, 0, 0)};
@@ -163,8 +163,8 @@ TEST_CASE("distance field: a slab stops what is fast", "[numerics][contact][dist
         CHECK(glm::distance(v, {0, 100, 0}) < 0.1);
 }
 
-// Where a field is level nothing but its middle says which way is out, and in the middle of it nothing but
-// up.
+// Where a field is level, the way out is the direction away from its middle, and upwards in the middle
+// itself.
 TEST_CASE("distance field: what starts where it is level comes out", "[numerics][contact][distanceField]") {
     Scene scene = test::sceneOf(test::point(1), SolverKind::leapfrog,
                                 {at({0.1, 0, 0}), at({0, 0, -0.1}), at({0, 0, 0})});
@@ -182,7 +182,8 @@ TEST_CASE("distance field: what starts where it is level comes out", "[numerics]
     CHECK(now.positions[2].y == Approx(0.26).margin(0.01));
 }
 
-// Few colliders are answered by the nearest alone where that is enough; nine have the whole way followed.
+// With few colliders, the nearest surface alone answers where that is enough. With ten, the whole way is
+// followed.
 TEST_CASE("distance field: the nearest surface answers as following the way does",
           "[numerics][contact][distanceField]") {
     std::vector<test::Item> items;

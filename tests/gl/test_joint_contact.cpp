@@ -49,8 +49,8 @@ Simulation amongMany(int far, int near = 1) {
 
 }  // namespace
 
-// Each moves 0.4 m in a substep, so that at some phases a point ends it more than either way alone behind the
-// wall.
+// The wall and a point each move 0.4 m in a substep. So at some phases the point ends a substep further
+// behind the wall than either moves alone.
 TEST_CASE("a thin wall stops what flies towards it while it moves", "[numerics][contact]") {
     const double speed = 100, e = 0.5;
     std::vector<test::Item> items;
@@ -159,8 +159,8 @@ TEST_CASE("a floor that moves carries what lies on it, body or point", "[numeric
     }
 }
 
-// It touches the floor and then the ramp, mostly in one substep; only the ramp is left to press. All of it
-// may move.
+// A point touches the floor and then the ramp, mostly in one substep; in the end only the ramp presses. In
+// the second run all of them move down together.
 TEST_CASE("what slides from a floor onto a ramp goes on along it", "[numerics][contact]") {
     const double junction = 0.01 - 0.01 * std::sqrt(2.0);
     for (const glm::dvec3& all : {glm::dvec3(0), glm::dvec3(0, -5, 0)}) {

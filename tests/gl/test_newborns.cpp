@@ -36,8 +36,8 @@ std::vector<Living> afterAFrame(const Scene& scene) {
 
 }  // namespace
 
-// Of second order: where the wind is taken decides over w age / 2, a quarter; (w age)^2 / 24, one in a
-// hundred, is left.
+// A newborn meets the wind to second order: the moment at which the wind is read matters by w age / 2, a
+// quarter, and (w age)^2 / 24, one in a hundred, is left.
 TEST_CASE("a newborn meets the wind of its time", "[births]") {
     if (!canSpawn()) return;
     const double wave = 8 * std::numbers::pi, rate = 2, peak = 3;

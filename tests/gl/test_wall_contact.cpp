@@ -48,8 +48,9 @@ Scene sceneOfGroups(std::vector<Group> groups, double restitution) {
 
 }  // namespace
 
-// One comes down at 1 m/s on another that slides d above the floor: both go on at d a step, and no deeper.
-// The floor has pushed with what is missing, 1 m/s - 2 d / step, and rubs with mu of it.
+// One marble comes down at 1 m/s on another that slides d above the floor. Both go on down at d a step, which
+// just reaches the floor. The floor has taken the rest of the momentum, 1 m/s - 2 d / step, and rubs with mu
+// of it.
 TEST_CASE("a marble is pressed down to the floor and no further, and the floor rubs", "[molecule contact]") {
     const Path path = GENERATE(Catch::Generators::from_range(fusedPaths()));
     for (const double d : {1e-3, 1e-5}) {

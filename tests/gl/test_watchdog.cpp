@@ -170,7 +170,8 @@ TEST_CASE("healthy runs raise nothing, whatever their number", "[watchdog]") {
             INFO(way.name << ", " << count);
             Scene scene = swarm(shippedMolecule("leaf"), count, SolverKind::euler, {0, 1.5, 0});
             scene.colliders = {everyCollider()[0], everyCollider()[1]};
-            // what lanes past the last molecule would find at the origin, where none of them is
+            // Lanes past the last molecule would meet this wind if they worked at the origin, where no
+            // molecule is.
             Field trap = test::field(UniformField{{1e7, 0, 0}});
             trap.box = Box{glm::dvec3(-0.5), glm::dvec3(0.5)};
             scene.fields = {trap};

@@ -68,8 +68,9 @@ void scaleMolecules(GroupState& state, const glm::dvec3& factors);  // each abou
 // Half a metre wide, on one of its faces, all six pairs sprung: no soft mode, and it stands.
 Molecule tetrahedron(double stiffness, double damping);
 
-// How much of a velocity so many steps may change, relative to it, by dividing a way by the step, as verlet
-// and xpbd do: a device's division may err by a rounding, 6e-8, always in the same direction.
+// Returns the largest relative error of a velocity after so many steps of a method that divides a
+// displacement by the step, as verlet and xpbd do: a device's division may err by a rounding, 6e-8, always in
+// the same direction.
 double divided(const Solver& solver, int steps);
 
 // RMS over the springs of one molecule of l / L - 1.

@@ -65,8 +65,8 @@ Slope slopeOf(const Solver& solver, const Motion& motion) {
 
 }  // namespace
 
-// No force in the first moment. The error of euler's first order is a shift of the phase by h/2, of which a
-// sine has nothing in its length: so at least the table's order.
+// The spring has no force in the first moment. The first-order error of euler shifts the phase by h/2, which
+// does not show in the length, a sine. So the order is at least that of the table.
 TEST_CASE("hard: a spring kicked at rest length", "[hard][springs]") {
     test::holds("harmonic spring, kicked", [&](const Solver& solver, Judge& judge) {
         const Slope slope = slopeOf(solver, {.speed = 1.5});

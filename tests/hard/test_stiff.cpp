@@ -162,9 +162,9 @@ TEST_CASE("hard: a frame hitch", "[hard][stiff]") {
     test::holds("frame hitch, substepsNeeded", [&](const Solver& s, Judge& judge) { hitch(s, judge, true); });
 }
 
-// It is its own image at the start, and stays so. What the springs' order adds is the asymmetry, in m at a
-// size of about 1: 1e-6 is 80 roundings of 6e-8 m at random, 1e-12 the same in double with room for what the
-// springs make of them.
+// The molecule is its own image at the start, and stays so. Only the order of the springs adds an asymmetry,
+// measured in m at a size of about 1: 1e-6 is 80 random roundings of 6e-8 m, and 1e-12 is the same in double,
+// with room for how the springs amplify it.
 TEST_CASE("hard: a symmetric stretch", "[hard][stiff]") {
     const auto stretch = [](const Solver& solver, Judge& judge, const Symmetric& shape) {
         const auto asymmetry = [&](const reference::State& state) {

@@ -165,8 +165,8 @@ Eigen::MatrixXd restMatrix(const Problem& problem, double eta) {
     return out;
 }
 
-// Whether two quasi-Newton steps from where the stage is have solved it; else it is as it was. `eta`: of the
-// matrix; `start`: the solution without springs.
+// Tries to solve the stage by two quasi-Newton steps from where it is. False: they have not solved it, and it
+// is as it was. `eta`: of the matrix; `start`: the solution without springs.
 bool improve(const Problem& problem, const State& state, double eta, const Vectors& start, Stage& stage) {
     const Eigen::LDLT<Eigen::MatrixXd> matrix(restMatrix(problem, eta));
     const Vectors before = stage.moved;

@@ -108,7 +108,8 @@ class Response {
   private:
     const Sphere& sphere(size_t i) const { return (*spheres_)[i]; }
 
-    // What `of` says of each contact acts on its first sphere, and the opposite on its second: the sums.
+    // Returns the sums over each sphere's contacts: `of` acts on the first sphere of a contact, and its
+    // opposite on the second.
     template <typename Of>
     std::vector<dvec3> gather(Of of) const {
         std::vector<dvec3> out(spheres_->size(), dvec3(0));
@@ -223,7 +224,7 @@ class Response {
                 dvec3(0), m.anchor, m.sticks && !m.impact, m.now.apart};
             const double length = glm::length(m.now.impulse);
             if (m.impact || length == 0) continue;
-            // of what it has grown by, a tenth; and not much more than a weight
+            // Memory takes in a tenth of what an impulse has grown by, and not much more than a weight.
             const double weight = sphere(m.a).weight + sphere(m.b).weight;
             const double most = std::min(m.held + 0.1 * std::max(length - m.held, 0.0),
                                          1.5 * m.held + settings_.restSpeed / weight);

@@ -78,7 +78,7 @@ TEST_CASE("what a CPU rasteriser would compile for long is refused where a lane 
     CHECK_THAT(messageOf([&] { chosen(stiff, true); }),
                Catch::Contains("with bdf2-xpbd in one lane") && Catch::Contains("use an explicit solver"));
     CHECK(chosen(planOf(row(32, true), 1, SolverKind::bdf2Xpbd), true) == Lanes::molecule);
-    // nor do fragments take it instead, which would compile it for longer
+    // Fragments do not take it either: they would take even longer to compile it.
     PathLimits rasteriser;
     rasteriser.software = true;
     CHECK_THAT(messageOf([&] { choosePath(stiff, Path::automatic, rasteriser); }),
